@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/mesh/connectivity.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace vitrine {
+namespace {
+
+// Directed edges sorted by (from, to), to find the twin of each.
+struct DirectedEdge {
+  std::uint64_t key;
+  Corner corner;  // opposite to the edge
+};
+
+constexpr std::uint64_t edge_key(VertexId from, VertexId to) {
+  return std::uint64_t{from} << 32 | to;
+}
+
+std::string at_face(Corner c) { return " at face " + std::to_string(c / 3); }
+
+Unexpected bad(std::string what) { return fail(ErrorCode::kBadInput, std::move(what)); }
+
+Expected<void> check_faces(std::uint32_t vertex_count, std::span<const Triangle> faces) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto [a, b, c] = faces[f];
+    if (std::max({a, b, c}) >= vertex_count) {
+      return bad("vertex index out of range at face " + std::to_string(f));
+    }
+    if (a == b || b == c || c == a) return bad("repeated vertex at face " + std::to_string(f));
+  }
+  return {};
+}
+
+std::vector<DirectedEdge> sorted_edges(std::span<const Triangle> faces) {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(faces.size() * 3);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Corner c = static_cast<Corner>(3 * f + k);
+      edges.push_back({edge_key(faces[f][(k + 1) % 3], faces[f][(k + 2) % 3]), c});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+    return a.key != b.key ? a.key < b.key : a.corner < b.corner;
+  });
+  return edges;
+}
+
+}  // namespace
+
+Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
+                                           std::span<const Triangle> faces) {
+  if (auto ok = check_faces(vertex_count, faces); !ok) return tl::unexpected(ok.error());
+  Connectivity mesh;
+  mesh.corner_at_.assign(vertex_count, kNoCorner);
+  mesh.vertex_.reserve(faces.size() * 3);
+  for (const Triangle& f : faces) mesh.vertex_.insert(mesh.vertex_.end(), f.begin(), f.end());
+  mesh.opposite_.assign(mesh.vertex_.size(), kNoCorner);
+
+  const auto edges = sorted_edges(faces);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i + 1 < edges.size() && edges[i].key == edges[i + 1].key) {
+      return bad("non-manifold or inconsistently oriented edge" + at_face(edges[i + 1].corner));
+    }
+  }
+  // border[v]: the corner opposite the border edge that leaves v (the real face's direction).
+  std::vector<Corner> border(vertex_count, kNoCorner);
+  for (const DirectedEdge& e : edges) {
+    const std::uint64_t twin = e.key >> 32 | e.key << 32;
+    const auto it = std::lower_bound(
+        edges.begin(), edges.end(), twin,
+        [](const DirectedEdge& a, std::uint64_t key) { return a.key < key; });
+    if (it != edges.end() && it->key == twin) {
+      mesh.opposite_[e.corner] = it->corner;
+      continue;
+    }
+    const VertexId from = static_cast<VertexId>(e.key >> 32);
+    if (border[from] != kNoCorner) {
+      return bad("vertex " + std::to_string(from) + " has more than one fan" + at_face(e.corner));
+    }
+    border[from] = e.corner;
+  }
+  // Close each loop, numbered by its smallest vertex: the loop's real edges run a -> b, so the
+  // closing faces are (b, a, virtual).
+  std::vector<bool> closed(vertex_count, false);
+  for (VertexId start = 0; start < vertex_count; ++start) {
+    if (border[start] == kNoCorner || closed[start]) continue;
+    const VertexId loop = kVirtualBit + static_cast<VertexId>(mesh.loop_length_.size());
+    std::uint32_t length = 0;
+    const Corner first = static_cast<Corner>(mesh.vertex_.size());
+    for (VertexId a = start; !closed[a]; ++length) {
+      closed[a] = true;
+      const Corner c = border[a];
+      const VertexId b = mesh.vertex_[prev(c)];
+      if (border[b] == kNoCorner) return bad("boundary is not a closed loop" + at_face(c));
+      const Corner base = static_cast<Corner>(mesh.vertex_.size());
+      mesh.vertex_.insert(mesh.vertex_.end(), {b, a, loop});
+      mesh.opposite_.insert(mesh.opposite_.end(), {kNoCorner, kNoCorner, kNoCorner});
+      mesh.glue(base + 2, c);
+      // Edge (virtual, b) of this face is shared with the next one, which leaves from b; the
+      // corner opposite to it here is a's, there it is its own b corner.
+      if (length > 0) mesh.glue(base - 3 + 1, base);
+      a = b;
+    }
+    mesh.glue(static_cast<Corner>(mesh.vertex_.size()) - 3 + 1, first);
+    mesh.loop_length_.push_back(length);
+  }
+  std::vector<std::uint32_t> corners(vertex_count, 0);
+  for (Corner c = 0; c < mesh.vertex_.size(); ++c) {
+    if (is_virtual(mesh.vertex_[c])) continue;
+    ++corners[mesh.vertex_[c]];
+    if (mesh.corner_at_[mesh.vertex_[c]] == kNoCorner) mesh.corner_at_[mesh.vertex_[c]] = c;
+  }
+  for (VertexId v = 0; v < vertex_count; ++v) {
+    const Corner first = mesh.corner_at_[v];
+    if (first == kNoCorner) return bad("vertex " + std::to_string(v) + " belongs to no face");
+    std::uint32_t fan = 0;
+    Corner c = first;
+    do {
+      ++fan;
+      c = mesh.swing(c);
+    } while (c != first && fan <= corners[v]);
+    if (fan != corners[v]) {
+      return bad("vertex " + std::to_string(v) + " has more than one fan" + at_face(first));
+    }
+  }
+  return mesh;
+}
+
+std::uint32_t Connectivity::ring(VertexId v, std::span<Corner> corners) const {
+  const Corner first = corner_at_[v];
+  std::uint32_t valence = 0;
+  Corner c = first;
+  do {
+    if (valence == corners.size()) return 0;
+    corners[valence++] = c;
+    c = swing(c);
+  } while (c != first);
+  return valence;
+}
+
+void Connectivity::add_valence(VertexId v, int delta) {
+  if (is_virtual(v)) loop_length_[v & ~kVirtualBit] += static_cast<std::uint32_t>(delta);
+}
+
+void Connectivity::anchor(VertexId v, Corner c) {
+  if (!is_virtual(v)) corner_at_[v] = c;
+}
+
+VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::uint32_t i,
+                             std::uint32_t j) {
+  const std::uint32_t n = static_cast<std::uint32_t>(corners.size());
+  const Corner before_i = corners[(i + n - 1) % n], at_i = corners[i];
+  const Corner before_j = corners[(j + n - 1) % n], at_j = corners[j];
+  const VertexId qi = vertex_[next(at_i)], qj = vertex_[next(at_j)];
+  const VertexId w = vertex_count();
+
+  corner_at_.push_back(at_i);
+  for (std::uint32_t k = i; k != j; k = (k + 1) % n) vertex_[corners[k]] = w;
+  const Corner a = static_cast<Corner>(vertex_.size()), b = a + 3;
+  vertex_.insert(vertex_.end(), {v, qi, w, v, w, qj});
+  opposite_.resize(vertex_.size());
+  glue(next(before_i), a + 2);
+  glue(prev(at_i), a);
+  glue(a + 1, b + 2);
+  glue(next(before_j), b);
+  glue(prev(at_j), b + 1);
+  corner_at_[v] = at_j;
+  add_valence(qi, 1);
+  add_valence(qj, 1);
+  return w;
+}
+
+void Connectivity::collapse(Corner c) {
+  // Face B = (v1, v2, apex12); face A = (v2, v1, apex21) lies across the edge (v1, v2).
+  const Corner b1 = c, b2 = next(c), b3 = prev(c);
+  const Corner a3 = opposite_[b3], a2 = next(a3), a1 = prev(a3);  // a2 at v2, a1 at v1
+  const VertexId v1 = vertex_[b1], v2 = vertex_[b2], apex12 = vertex_[b3], apex21 = vertex_[a3];
+  // Every corner of v2 becomes one of v1.
+  Corner k = b2;
+  do {
+    vertex_[k] = v1;
+    k = swing(k);
+  } while (k != b2);
+  const Corner over_b1 = opposite_[b1], over_b2 = opposite_[b2];
+  const Corner over_a1 = opposite_[a1], over_a2 = opposite_[a2];
+  glue(over_b1, over_b2);
+  glue(over_a1, over_a2);
+  anchor(v1, next(over_b2));
+  anchor(apex12, prev(over_b2));
+  anchor(apex21, next(over_a1));
+  corner_at_[v2] = kNoCorner;
+  for (Corner dead : {b1, b2, b3, a1, a2, a3}) vertex_[dead] = kNoCorner;
+  add_valence(apex12, -1);
+  add_valence(apex21, -1);
+}
+
+void Connectivity::unsplit(VertexId v) {
+  const Corner b = static_cast<Corner>(vertex_.size()) - 3;  // (v, w, qj)
+  if (vertex_[b] != v) return;
+  collapse(b);
+  vertex_.resize(vertex_.size() - 6);
+  opposite_.resize(vertex_.size());
+  corner_at_.pop_back();
+}
+
+void Connectivity::reserve(std::size_t vertices, std::size_t faces) {
+  corner_at_.reserve(vertices);
+  vertex_.reserve(3 * faces);
+  opposite_.reserve(3 * faces);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the simplifier records and the layer encoder replays: a fine mesh and the edge collapses
+// that lead from it to the base mesh, level by level.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/mesh/connectivity.h"
+#include "codec/mesh/triangle_mesh.h"
+#include "codec/progressive/manifest.h"
+
+namespace vitrine {
+
+// The edge (v1, v2) became v~, which keeps the identity v1. Ids are the fine mesh's own.
+struct Collapse {
+  VertexId v1, v2;
+  VertexId apex12;  // third vertex of the face with the directed edge v1 -> v2 (may be virtual)
+  VertexId apex21;  // third vertex of the face with the directed edge v2 -> v1 (may be virtual)
+  Vec3i p1, p2;     // positions before the collapse
+  Colour c1, c2;    // colours before the collapse
+};
+
+// One level: collapses in the order performed, which is ascending lexicographic order of v~.
+using CollapseLevel = std::vector<Collapse>;
+
+struct Hierarchy {
+  Placement placement = Placement::kMidpoint;
+  LatticeMesh base;                       // compacted: real faces, coarse positions
+  std::vector<VertexId> base_ids;         // fine id of each base vertex
+  std::uint32_t loops = 0;
+  std::vector<CollapseLevel> levels;      // [0] leads from the base to level 1 (coarse to fine)
+  std::vector<std::uint16_t> region;      // per fine vertex
+  std::uint32_t regions = 1;
+  std::uint32_t fork_level = 0;           // first level with chunks per region; levels.size()+1 if none
+  std::vector<RegionPlane> planes;        // regions - 1, in pre-order
+};
+
+}  // namespace vitrine

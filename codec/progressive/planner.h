@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses which chunk to fetch next. The same code plans in the server, in `vitrine decode` and,
+// as WebAssembly, in the browser. Pure: no clocks, no I/O.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "codec/progressive/manifest.h"
+
+namespace vitrine {
+
+struct WantTriangles { std::uint64_t triangles; };  // the finest state not above
+struct WantBytes { std::uint64_t bytes; };          // the finest state not above, header and base included
+struct WantError { double error; };                 // the coarsest with max_error at most this, model units
+struct WantLevel { std::uint32_t level; };          // this level everywhere
+using Want = std::variant<WantTriangles, WantBytes, WantError, WantLevel>;
+
+class Planner {
+ public:
+  explicit Planner(const Manifest& manifest);
+
+  void want(const Want& want);
+  void have(std::size_t chunk);  // applied or on its way
+
+  // The next chunk to fetch, or nothing when the want is met. Obeys the region rule.
+  std::optional<std::size_t> next() const;
+
+  // How many triangles the newest chunk may show under WantTriangles: splits of it beyond this
+  // are to be undone (Refiner::undo_splits). 0 where the want is met without.
+  std::uint32_t splits_to_undo() const;
+
+  std::uint64_t bytes_held() const;  // header, base and chunks of have()
+
+ private:
+  const Manifest* manifest_;
+  Want want_;
+  std::vector<bool> have_;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Applies enhancement layers to a base mesh. Chunk (level l, region k) can be applied once level
+// l-1 is present in k and in every region adjacent to k; every order that obeys this ends in the
+// same mesh, and every state on the way is a valid, crack-free manifold.
+//
+// Contract: safe on hostile bytes. A damaged chunk gives an error or a valid mesh, and after an
+// error the refiner is unusable (`apply` keeps failing with kState) but its memory is in order.
+// It allocates at most 200 bytes per vertex that the manifest states for the chunks applied so far,
+// plus 1 KiB per region.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/mesh/connectivity.h"
+#include "codec/mesh/triangle_mesh.h"
+#include "codec/progressive/manifest.h"
+
+namespace vitrine {
+
+class Refiner {
+ public:
+  // `base` holds the real faces as the Draco buffer decodes them, positions in lattice units. Its
+  // counts must equal the manifest's level 0 (kBadInput).
+  static Expected<Refiner> start(Manifest manifest, const LatticeMesh& base) noexcept;
+  Refiner(Refiner&&) noexcept;
+  Refiner& operator=(Refiner&&) noexcept;
+  ~Refiner();
+
+  const Manifest& manifest() const;
+  bool applied(std::size_t chunk) const;
+  bool ready(std::size_t chunk) const;  // not applied yet, and all it needs is present
+
+  // Decodes and applies manifest().chunks[chunk]. The caller has checked the SHA-256 where the
+  // bytes come from outside.
+  Expected<void> apply(std::size_t chunk, std::span<const std::uint8_t> bytes) noexcept;
+
+  // Takes back the newest `count` splits of the chunk applied last (at most all of them): a level
+  // can so be shown in part. Only applying further chunks is impossible afterwards.
+  void undo_splits(std::uint32_t count) noexcept;
+
+  std::uint32_t vertex_count() const;  // real vertices
+  std::uint32_t face_count() const;    // real faces
+  std::uint32_t level_of(VertexId v) const;  // level that the vertex' region has reached
+
+  // The surface as coded: lattice units. All slots of `connectivity()` are live; faces with a
+  // virtual corner (is_virtual) close boundary loops and are not part of the surface.
+  const Connectivity& connectivity() const;
+  std::span<const Vec3i> positions() const;
+  std::span<const Colour> colours() const;  // empty where the model has none
+
+  // The surface as displayed and exported: the display filter applied, lattice units, one entry
+  // per vertex (DESIGN section 2). Equal to positions() at full resolution.
+  void display_positions(std::vector<Vec3>& out) const;
+
+  LatticeMesh lattice_mesh() const;   // exact, real faces only
+  TriangleMesh display_mesh() const;  // filtered, model units, real faces only
+
+ private:
+  struct State;
+  explicit Refiner(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vitrine

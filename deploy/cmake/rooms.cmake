@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+# One folder is one target, and link edges say who may include whom: the headers of a folder are
+# reached only through a symlink that belongs to its target, so an include without a link edge
+# does not compile.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+
+add_library(vitrine_flags INTERFACE)
+# -ffp-contract=off: a fused multiply-add would make the decoder differ between machines.
+target_compile_options(vitrine_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                               -Wno-sign-conversion -Werror -ffp-contract=off)
+
+# vitrine_room(codec/core SOURCES a.cpp b.cpp USES codec/other Lib::target)
+function(vitrine_room folder)
+  cmake_parse_arguments(room "" "" "SOURCES;USES;PRIVATE" ${ARGN})
+  vitrine_room_target(${folder} target)
+  if(room_SOURCES)
+    add_library(${target} STATIC ${room_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE vitrine_flags ${room_PRIVATE})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  set(door ${CMAKE_BINARY_DIR}/rooms/${target})
+  get_filename_component(parent ${folder} DIRECTORY)
+  file(MAKE_DIRECTORY ${door}/${parent})
+  file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${door}/${folder} SYMBOLIC)
+  target_include_directories(${target} ${scope} ${door})
+  foreach(use IN LISTS room_USES)
+    if(use MATCHES "^(codec|server|acquisition)/")
+      vitrine_room_target(${use} use)
+    endif()
+    target_link_libraries(${target} ${scope} ${use})
+  endforeach()
+endfunction()
+
+function(vitrine_room_target folder out)
+  string(REPLACE "/" "_" name "vitrine_${folder}")
+  set(${out} ${name} PARENT_SCOPE)
+endfunction()
