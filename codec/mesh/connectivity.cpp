@@ -190,7 +190,7 @@ void Connectivity::collapse(Corner c) {
   glue(over_a1, over_a2);
   anchor(v1, next(over_b2));
   anchor(apex12, prev(over_b2));
-  anchor(apex21, next(over_a1));
+  anchor(apex21, prev(over_a1));
   corner_at_[v2] = kNoCorner;
   for (Corner dead : {b1, b2, b3, a1, a2, a3}) vertex_[dead] = kNoCorner;
   add_valence(apex12, -1);
