@@ -18,7 +18,7 @@ struct Collapse {
   VertexId apex12;  // third vertex of the face with the directed edge v1 -> v2 (may be virtual)
   VertexId apex21;  // third vertex of the face with the directed edge v2 -> v1 (may be virtual)
   Vec3i p1, p2;     // positions before the collapse
-  Colour c1, c2;    // colours before the collapse
+  Vec3i c1, c2;     // colours before the collapse, YCoCg-R; zero where the mesh has none
 };
 
 // One level: collapses in the order performed, which is ascending lexicographic order of v~.
@@ -26,7 +26,8 @@ using CollapseLevel = std::vector<Collapse>;
 
 struct Hierarchy {
   Placement placement = Placement::kMidpoint;
-  LatticeMesh base;                       // compacted: real faces, coarse positions
+  LatticeMesh base;                       // compacted: real faces, coarse positions, no colours
+  std::vector<Vec3i> base_colours;        // YCoCg-R per base vertex; empty where there are none
   std::vector<VertexId> base_ids;         // fine id of each base vertex
   std::uint32_t loops = 0;
   std::vector<CollapseLevel> levels;      // [0] leads from the base to level 1 (coarse to fine)

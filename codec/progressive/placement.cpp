@@ -14,16 +14,16 @@ struct Sum {
 
 Sum sum_of(std::span<const Vec3i> points) {
   Sum s;
-  for (const Vec3i& p : points) s.x += p.x, s.y += p.y, s.z += p.z;
+  for (const Vec3i& p : points)
+    s.x += p.x, s.y += p.y, s.z += p.z;
   return s;
 }
 
 }  // namespace
 
 Vec3i pyramid_term(std::span<const Vec3i> opposite, std::span<const Vec3i> others,
-                   std::uint32_t level) {
-  const std::int32_t parity = level_parity(level);
-  if (opposite.empty() || others.empty()) return {parity, parity, parity};
+                   std::int32_t parity) {
+  if (opposite.empty() || others.empty()) return midpoint_term(parity);
   const Sum near = sum_of(opposite), far = sum_of(others);
   const auto m = static_cast<std::int64_t>(opposite.size());
   const auto n = static_cast<std::int64_t>(others.size());

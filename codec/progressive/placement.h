@@ -11,14 +11,14 @@
 
 namespace vitrine {
 
-// The parity term of the level that a split leads to. Without it v~ sinks by 1/4 unit a level.
-constexpr std::int32_t level_parity(std::uint32_t level) {
-  return static_cast<std::int32_t>(level & 1);
+// The parity term of the splits that lead to `level`, counted from the finest level `last_level`
+// because that is where the encoder starts. Without it v~ sinks by 1/4 unit a level.
+constexpr std::int32_t level_parity(std::uint32_t level, std::uint32_t last_level) {
+  return static_cast<std::int32_t>((last_level - level) & 1);
 }
 
-// r of the midpoint placement.
-constexpr Vec3i midpoint_term(std::uint32_t level) {
-  const std::int32_t parity = level_parity(level);
+// r of the midpoint placement; `parity` is level_parity().
+constexpr Vec3i midpoint_term(std::int32_t parity) {
   return {parity, parity, parity};
 }
 
@@ -26,7 +26,7 @@ constexpr Vec3i midpoint_term(std::uint32_t level) {
 // one entry): 2 (sum(opposite) / 4m - sum(others) / 4n), rounded half up, plus the level's parity.
 // `opposite` are the m real vertices opposite the edge, `others` the n other real neighbours.
 Vec3i pyramid_term(std::span<const Vec3i> opposite, std::span<const Vec3i> others,
-                   std::uint32_t level);
+                   std::int32_t parity);
 
 constexpr Vec3i merge(const Vec3i& v1, const Vec3i& v2, const Vec3i& r) {
   return {(v1.x + v2.x + r.x) >> 1, (v1.y + v2.y + r.y) >> 1, (v1.z + v2.z + r.z) >> 1};
