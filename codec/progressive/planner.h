@@ -34,7 +34,12 @@ class Planner {
 
   std::uint64_t bytes_held() const;  // header, base and chunks of have()
 
+  std::uint64_t faces_held() const;  // real faces of base and chunks of have()
+
  private:
+  bool is_wanted(std::size_t chunk) const;
+  double faces_per_split(std::uint32_t level) const;
+
   const Manifest* manifest_;
   Want want_;
   std::vector<bool> have_;

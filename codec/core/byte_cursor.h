@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading and writing of little-endian integers, IEEE doubles and LEB128 variable-length integers.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vitrine {
+
+// Reads from untrusted bytes. A read beyond the end gives zero and makes `ok()` false for good, so
+// that a sequence of reads is checked once.
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {}
+
+  bool ok() const noexcept { return ok_; }
+  std::size_t position() const noexcept { return position_; }
+  std::size_t left() const noexcept { return bytes_.size() - position_; }
+
+  std::uint8_t u8() noexcept { return static_cast<std::uint8_t>(fixed(1)); }
+  std::uint16_t u16() noexcept { return static_cast<std::uint16_t>(fixed(2)); }
+  std::uint32_t u32() noexcept { return static_cast<std::uint32_t>(fixed(4)); }
+  std::uint64_t u64() noexcept { return fixed(8); }
+  double f64() noexcept { return std::bit_cast<double>(u64()); }
+
+  // At most ten bytes; a longer or overflowing encoding is an error.
+  std::uint64_t varint() noexcept {
+    std::uint64_t value = 0;
+    for (unsigned shift = 0; shift < 64; shift += 7) {
+      const std::uint8_t byte = u8();
+      if (shift == 63 && byte > 1) break;
+      value |= std::uint64_t{byte & 0x7Fu} << shift;
+      if (byte < 0x80) return ok_ ? value : 0;
+    }
+    ok_ = false;
+    return 0;
+  }
+
+  std::int64_t signed_varint() noexcept {  // zigzag
+    const std::uint64_t z = varint();
+    return static_cast<std::int64_t>(z >> 1) ^ -static_cast<std::int64_t>(z & 1);
+  }
+
+  std::span<const std::uint8_t> bytes(std::size_t count) noexcept {
+    if (!take(count)) return {};
+    return bytes_.subspan(position_ - count, count);
+  }
+
+ private:
+  bool take(std::size_t count) noexcept {
+    if (!ok_ || left() < count) return ok_ = false;
+    position_ += count;
+    return true;
+  }
+
+  std::uint64_t fixed(std::size_t count) noexcept {
+    if (!take(count)) return 0;
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      value |= std::uint64_t{bytes_[position_ - count + i]} << (8 * i);
+    }
+    return value;
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  std::size_t position_ = 0;
+  bool ok_ = true;
+};
+
+class ByteWriter {
+ public:
+  void u8(std::uint8_t v) { out_.push_back(v); }
+  void u16(std::uint16_t v) { fixed(v, 2); }
+  void u32(std::uint32_t v) { fixed(v, 4); }
+  void u64(std::uint64_t v) { fixed(v, 8); }
+  void f64(double v) { u64(std::bit_cast<std::uint64_t>(v)); }
+  void varint(std::uint64_t v) {
+    for (; v >= 0x80; v >>= 7) u8(static_cast<std::uint8_t>(v | 0x80));
+    u8(static_cast<std::uint8_t>(v));
+  }
+  void signed_varint(std::int64_t v) {
+    varint(static_cast<std::uint64_t>(v) << 1 ^ static_cast<std::uint64_t>(v >> 63));
+  }
+  void bytes(std::span<const std::uint8_t> b) { out_.insert(out_.end(), b.begin(), b.end()); }
+
+  std::size_t size() const { return out_.size(); }
+  std::vector<std::uint8_t> take() { return std::move(out_); }
+
+ private:
+  void fixed(std::uint64_t v, int count) {
+    for (int i = 0; i < count; ++i) out_.push_back(static_cast<std::uint8_t>(v >> (8 * i)));
+  }
+
+  std::vector<std::uint8_t> out_;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/progressive/manifest.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "codec/core/byte_cursor.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'P', 'M', 'E', 'S', 'H', 0x0D, 0x0A};
+
+// Required feature flags: a reader that does not know one refuses the file by name.
+constexpr std::uint64_t kFeaturePyramid = 1u << 0;
+constexpr std::uint64_t kFeatureColours = 1u << 1;
+constexpr std::uint64_t kKnownFeatures = kFeaturePyramid | kFeatureColours;
+
+constexpr std::size_t kMaxUnitBytes = 16;
+constexpr std::size_t kHashBytes = 32;
+constexpr std::size_t kLevelBytes = 2 + 3 * 4;       // fewest bytes of a level record
+constexpr std::size_t kChunkBytes = 2 + kHashBytes;  // fewest bytes of a chunk record
+
+Unexpected bad(const std::string& what) {
+  return fail(ErrorCode::kBadInput, "damaged .pmesh header: " + what);
+}
+
+float round_up(double v) {  // a bound stays a bound when it is stored in single precision
+  const float f = static_cast<float>(v);
+  return static_cast<double>(f) < v ? std::nextafter(f, 3e38f) : f;
+}
+
+void write_float(ByteWriter& out, float v) { out.u32(std::bit_cast<std::uint32_t>(v)); }
+double read_float(ByteReader& in) { return std::bit_cast<float>(in.u32()); }
+
+bool is_sane_error(double v) { return v >= 0 && v < 1e30; }
+
+void write_levels(ByteWriter& out, const Manifest& m) {
+  out.varint(m.levels.size());
+  for (const LevelInfo& level : m.levels) {
+    out.varint(level.vertices);
+    out.varint(level.faces);
+    write_float(out, round_up(level.max_error));
+    write_float(out, static_cast<float>(level.rms_error));
+    write_float(out, static_cast<float>(level.display_filter));
+  }
+}
+
+Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
+  const std::uint64_t count = in.varint();
+  if (!in.ok() || count == 0 || count > limits.levels || count > in.left() / kLevelBytes) {
+    return bad("impossible number of levels (" + std::to_string(count) + ")");
+  }
+  m.levels.resize(count);
+  for (LevelInfo& level : m.levels) {
+    const std::uint64_t vertices = in.varint(), faces = in.varint();
+    if (vertices > limits.vertices || faces > limits.faces) {
+      return fail(ErrorCode::kLimit, "the model has more vertices or faces than this reader allows");
+    }
+    level.vertices = static_cast<std::uint32_t>(vertices);
+    level.faces = static_cast<std::uint32_t>(faces);
+    level.max_error = read_float(in);
+    level.rms_error = read_float(in);
+    level.display_filter = read_float(in);
+    if (!is_sane_error(level.max_error) || !is_sane_error(level.rms_error) ||
+        !(level.display_filter >= 0 && level.display_filter <= 1)) {
+      return bad("a level's error or display filter is out of range");
+    }
+  }
+  for (std::size_t l = 1; l < m.levels.size(); ++l) {
+    if (m.levels[l].vertices < m.levels[l - 1].vertices) return bad("levels lose vertices");
+  }
+  return {};
+}
+
+void write_regions(ByteWriter& out, const Manifest& m) {
+  out.varint(m.regions);
+  if (m.regions == 1) return;
+  out.varint(m.fork_level);
+  for (const RegionPlane& plane : m.planes) {
+    out.u8(plane.axis);
+    out.signed_varint(plane.at);
+  }
+  for (const auto& neighbours : m.adjacency) {
+    out.varint(neighbours.size());
+    std::uint32_t last = 0;
+    for (std::uint32_t n : neighbours) out.varint(n - last), last = n;
+  }
+}
+
+Expected<void> read_adjacency(ByteReader& in, Manifest& m) {
+  m.adjacency.resize(m.regions);
+  for (std::uint32_t k = 0; k < m.regions; ++k) {
+    const std::uint64_t count = in.varint();
+    if (count >= m.regions || count > in.left()) return bad("impossible region adjacency");
+    std::uint64_t id = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::uint64_t step = in.varint();
+      id += step;
+      if ((i > 0 && step == 0) || step >= m.regions || id >= m.regions || id == k) {
+        return bad("impossible region adjacency");
+      }
+      m.adjacency[k].push_back(static_cast<std::uint32_t>(id));
+    }
+  }
+  for (std::uint32_t k = 0; k < m.regions; ++k) {
+    for (std::uint32_t n : m.adjacency[k]) {
+      if (!std::binary_search(m.adjacency[n].begin(), m.adjacency[n].end(), k)) {
+        return bad("region adjacency is not symmetric");
+      }
+    }
+  }
+  return {};
+}
+
+Expected<void> read_regions(ByteReader& in, const Limits& limits, Manifest& m) {
+  const std::uint64_t regions = in.varint();
+  // A region takes at least two bytes of plane and one of adjacency.
+  if (!in.ok() || regions == 0 || regions > limits.regions || (regions - 1) > in.left() / 3) {
+    return bad("impossible number of regions");
+  }
+  m.regions = static_cast<std::uint32_t>(regions);
+  m.fork_level = static_cast<std::uint32_t>(m.levels.size());
+  m.adjacency.assign(1, {});
+  if (m.regions == 1) return {};
+  const std::uint64_t fork = in.varint();
+  if (fork == 0 || fork >= m.levels.size()) return bad("the region level does not exist");
+  m.fork_level = static_cast<std::uint32_t>(fork);
+  m.planes.resize(m.regions - 1);
+  for (RegionPlane& plane : m.planes) {
+    plane.axis = in.u8();
+    const std::int64_t at = in.signed_varint();
+    if (plane.axis > 2 || at < -(1 << 20) || at > (1 << 20)) return bad("impossible region plane");
+    plane.at = static_cast<std::int32_t>(at);
+  }
+  return read_adjacency(in, m);
+}
+
+void write_chunks(ByteWriter& out, const Manifest& m) {
+  for (const ChunkInfo& chunk : m.chunks) {
+    out.varint(chunk.length);
+    out.varint(chunk.splits);
+    out.bytes(chunk.sha256);
+  }
+}
+
+std::uint64_t chunk_count(const Manifest& m) {
+  const std::uint64_t levels = m.levels.size();
+  return (std::min<std::uint64_t>(m.fork_level, levels) - 1) + (levels - m.fork_level) * m.regions;
+}
+
+Expected<void> read_chunks(ByteReader& in, Manifest& m) {
+  if (chunk_count(m) > in.left() / kChunkBytes) return bad("it ends inside the chunk index");
+  m.chunks.reserve(chunk_count(m));
+  std::uint64_t offset = m.base_offset + m.base_length;
+  for (std::uint32_t level = 1; level < m.levels.size(); ++level) {
+    std::uint64_t splits = 0;
+    for (std::uint32_t region = 0; region < m.regions_at(level); ++region) {
+      ChunkInfo chunk{.level = level, .region = region, .offset = offset};
+      chunk.length = in.varint();
+      const std::uint64_t own = in.varint();
+      splits += own;
+      const auto digest = in.bytes(kHashBytes);
+      const std::uint64_t born = m.levels[level].vertices - m.levels[level - 1].vertices;
+      if (!in.ok() || chunk.length > (1ull << 40) || own > born || splits > born) {
+        return bad("impossible chunk of level " + std::to_string(level));
+      }
+      chunk.splits = static_cast<std::uint32_t>(own);
+      std::copy(digest.begin(), digest.end(), chunk.sha256.begin());
+      offset += chunk.length;
+      m.chunks.push_back(chunk);
+    }
+    if (splits != m.levels[level].vertices - m.levels[level - 1].vertices) {
+      return bad("the splits of level " + std::to_string(level) + " do not make up its vertices");
+    }
+  }
+  m.file_bytes = offset;
+  return {};
+}
+
+void write_frame(ByteWriter& out, const Manifest& m) {
+  out.u8(static_cast<std::uint8_t>(m.lattice.bits));
+  out.f64(m.lattice.origin.x);
+  out.f64(m.lattice.origin.y);
+  out.f64(m.lattice.origin.z);
+  out.f64(m.lattice.step);
+  out.u8(static_cast<std::uint8_t>(m.unit.size()));
+  out.bytes({reinterpret_cast<const std::uint8_t*>(m.unit.data()), m.unit.size()});
+  out.varint(m.loops);
+}
+
+Expected<void> read_frame(ByteReader& in, const Limits& limits, Manifest& m) {
+  m.lattice.bits = in.u8();
+  m.lattice.origin.x = in.f64();
+  m.lattice.origin.y = in.f64();
+  m.lattice.origin.z = in.f64();
+  m.lattice.step = in.f64();
+  if (m.lattice.bits < kMinBits || m.lattice.bits > kMaxBits) return bad("lattice bits");
+  const bool finite = std::isfinite(m.lattice.origin.x) && std::isfinite(m.lattice.origin.y) &&
+                      std::isfinite(m.lattice.origin.z) && std::isfinite(m.lattice.step);
+  if (!finite || !(m.lattice.step > 0)) return bad("lattice transform");
+  const std::size_t unit = in.u8();
+  if (unit > kMaxUnitBytes) return bad("unit name too long");
+  const auto name = in.bytes(unit);
+  m.unit.assign(name.begin(), name.end());
+  const std::uint64_t loops = in.varint();
+  if (loops > limits.vertices / 3) return bad("impossible number of boundary loops");
+  m.loops = static_cast<std::uint32_t>(loops);
+  return {};
+}
+
+Expected<void> read_body(ByteReader& in, const Limits& limits, Manifest& m) {
+  if (auto ok = read_frame(in, limits, m); !ok) return ok;
+  if (auto ok = read_levels(in, limits, m); !ok) return ok;
+  if (auto ok = read_regions(in, limits, m); !ok) return ok;
+  m.base_length = in.varint();
+  const auto digest = in.bytes(kHashBytes);
+  if (!in.ok() || m.base_length > (1ull << 40)) return bad("it ends before the base mesh's record");
+  std::copy(digest.begin(), digest.end(), m.base_sha256.begin());
+  if (auto ok = read_chunks(in, m); !ok) return ok;
+  if (!in.ok()) return bad("it ends early");
+  return {};
+}
+
+}  // namespace
+
+std::uint64_t Manifest::cumulative_bytes(std::uint32_t level) const {
+  std::uint64_t bytes = head_bytes();
+  for (const ChunkInfo& chunk : chunks) {
+    if (chunk.level <= level) bytes += chunk.length;
+  }
+  return bytes;
+}
+
+std::size_t Manifest::find_chunk(std::uint32_t level, std::uint32_t region) const {
+  if (level == 0 || level >= levels.size() || region >= regions_at(level)) return chunks.size();
+  if (level < fork_level) return level - 1;
+  return (fork_level - 1) + std::size_t{level - fork_level} * regions + region;
+}
+
+// Prefix: magic (8), major (2), minor (2), header length (4). Then the feature flags and the body.
+Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) noexcept {
+  ByteReader in(prefix);
+  const auto magic = in.bytes(kMagic.size());
+  const std::uint16_t major = in.u16();
+  in.u16();  // a newer minor version decodes with this reader
+  const std::uint64_t length = in.u32();
+  if (!in.ok() || !std::equal(magic.begin(), magic.end(), kMagic.begin())) {
+    return fail(ErrorCode::kBadInput, "not a .pmesh file (its first bytes are not the signature)");
+  }
+  if (major != kFormatMajor) {
+    return fail(ErrorCode::kUnsupported, "the file has format version " + std::to_string(major) +
+                                             ", this program reads version " +
+                                             std::to_string(kFormatMajor) + "; update it");
+  }
+  if (length < kHeaderPrefix) return bad("its length is impossible");
+  return length;
+}
+
+Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes,
+                                const Limits& limits) noexcept {
+  const auto length = header_bytes(bytes.first(std::min(bytes.size(), kHeaderPrefix)));
+  if (!length) return tl::unexpected(length.error());
+  if (*length > limits.header_bytes || *length > bytes.size()) {
+    return bad("it is cut off (" + std::to_string(bytes.size()) + " of " + std::to_string(*length) +
+               " bytes)");
+  }
+  ByteReader in(bytes.subspan(kHeaderPrefix, *length - kHeaderPrefix));
+  Manifest m;
+  const std::uint64_t features = in.varint();
+  if ((features & ~kKnownFeatures) != 0) {
+    return fail(ErrorCode::kUnsupported,
+                "the file needs feature bits " + std::to_string(features & ~kKnownFeatures) +
+                    " that this program does not know; update it");
+  }
+  m.placement = (features & kFeaturePyramid) != 0 ? Placement::kPyramid : Placement::kMidpoint;
+  m.coloured = (features & kFeatureColours) != 0;
+  m.base_offset = *length;
+  if (auto ok = read_body(in, limits, m); !ok) return tl::unexpected(ok.error());
+  if (in.left() != 0) return bad("it holds bytes that belong to nothing");
+  return m;
+}
+
+std::vector<std::uint8_t> write_header(Manifest& m) {
+  ByteWriter body;
+  body.varint((m.placement == Placement::kPyramid ? kFeaturePyramid : 0) |
+              (m.coloured ? kFeatureColours : 0));
+  write_frame(body, m);
+  write_levels(body, m);
+  write_regions(body, m);
+  body.varint(m.base_length);
+  body.bytes(m.base_sha256);
+  write_chunks(body, m);
+
+  ByteWriter out;
+  out.bytes(kMagic);
+  out.u16(kFormatMajor);
+  out.u16(kFormatMinor);
+  out.u32(static_cast<std::uint32_t>(kHeaderPrefix + body.size()));
+  out.bytes(body.take());
+
+  m.base_offset = out.size();
+  std::uint64_t offset = m.base_offset + m.base_length;
+  for (ChunkInfo& chunk : m.chunks) chunk.offset = offset, offset += chunk.length;
+  m.file_bytes = offset;
+  return out.take();
+}
+
+}  // namespace vitrine

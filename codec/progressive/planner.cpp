@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/progressive/planner.h"
+
+namespace vitrine {
+
+Planner::Planner(const Manifest& manifest)
+    : manifest_(&manifest), want_(WantLevel{0}), have_(manifest.chunks.size(), false) {}
+
+void Planner::want(const Want& want) { want_ = want; }
+
+void Planner::have(std::size_t chunk) {
+  if (chunk < have_.size()) have_[chunk] = true;
+}
+
+std::uint64_t Planner::bytes_held() const {
+  std::uint64_t bytes = manifest_->head_bytes();
+  for (std::size_t i = 0; i < have_.size(); ++i) {
+    if (have_[i]) bytes += manifest_->chunks[i].length;
+  }
+  return bytes;
+}
+
+std::uint64_t Planner::faces_held() const {
+  // A split adds two faces, or one at a boundary; a level's own average is exact once it is whole.
+  double faces = manifest_->levels[0].faces;
+  for (std::size_t i = 0; i < have_.size(); ++i) {
+    if (have_[i]) faces += manifest_->chunks[i].splits * faces_per_split(manifest_->chunks[i].level);
+  }
+  return static_cast<std::uint64_t>(faces + 0.5);
+}
+
+double Planner::faces_per_split(std::uint32_t level) const {
+  const LevelInfo &fine = manifest_->levels[level], &coarse = manifest_->levels[level - 1];
+  const double splits = static_cast<double>(fine.vertices - coarse.vertices);
+  return splits > 0 ? (static_cast<double>(fine.faces) - static_cast<double>(coarse.faces)) / splits
+                    : 0.0;
+}
+
+// File order is level order, so the first chunk not held is always ready.
+std::optional<std::size_t> Planner::next() const {
+  for (std::size_t i = 0; i < have_.size(); ++i) {
+    if (!have_[i]) return is_wanted(i) ? std::optional(i) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool Planner::is_wanted(std::size_t chunk) const {
+  const ChunkInfo& info = manifest_->chunks[chunk];
+  if (const auto* w = std::get_if<WantTriangles>(&want_)) return faces_held() < w->triangles;
+  if (const auto* w = std::get_if<WantBytes>(&want_)) {
+    return bytes_held() + info.length <= w->bytes;
+  }
+  if (const auto* w = std::get_if<WantError>(&want_)) {
+    return manifest_->levels[info.level - 1].max_error > w->error;
+  }
+  return info.level <= std::get<WantLevel>(want_).level;
+}
+
+std::uint32_t Planner::splits_to_undo() const {
+  const auto* w = std::get_if<WantTriangles>(&want_);
+  const std::uint64_t held = faces_held();
+  if (w == nullptr || held <= w->triangles) return 0;
+  for (std::size_t i = have_.size(); i-- > 0;) {
+    if (!have_[i]) continue;
+    const double rate = faces_per_split(manifest_->chunks[i].level);
+    if (rate <= 0) return 0;
+    const double surplus = static_cast<double>(held - w->triangles) / rate;
+    return std::min(manifest_->chunks[i].splits, static_cast<std::uint32_t>(surplus) + 1);
+  }
+  return 0;
+}
+
+}  // namespace vitrine
