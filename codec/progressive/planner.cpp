@@ -56,18 +56,4 @@ bool Planner::is_wanted(std::size_t chunk) const {
   return info.level <= std::get<WantLevel>(want_).level;
 }
 
-std::uint32_t Planner::splits_to_undo() const {
-  const auto* w = std::get_if<WantTriangles>(&want_);
-  const std::uint64_t held = faces_held();
-  if (w == nullptr || held <= w->triangles) return 0;
-  for (std::size_t i = have_.size(); i-- > 0;) {
-    if (!have_[i]) continue;
-    const double rate = faces_per_split(manifest_->chunks[i].level);
-    if (rate <= 0) return 0;
-    const double surplus = static_cast<double>(held - w->triangles) / rate;
-    return std::min(manifest_->chunks[i].splits, static_cast<std::uint32_t>(surplus) + 1);
-  }
-  return 0;
-}
-
 }  // namespace vitrine

@@ -12,7 +12,9 @@
 
 namespace vitrine {
 
-struct WantTriangles { std::uint64_t triangles; };  // the finest state not above
+// The finest state not above; the chunk that passes it is fetched whole and shown in part
+// (Refiner::undo_to_faces).
+struct WantTriangles { std::uint64_t triangles; };
 struct WantBytes { std::uint64_t bytes; };          // the finest state not above, header and base included
 struct WantError { double error; };                 // the coarsest with max_error at most this, model units
 struct WantLevel { std::uint32_t level; };          // this level everywhere
@@ -27,10 +29,6 @@ class Planner {
 
   // The next chunk to fetch, or nothing when the want is met. Obeys the region rule.
   std::optional<std::size_t> next() const;
-
-  // How many triangles the newest chunk may show under WantTriangles: splits of it beyond this
-  // are to be undone (Refiner::undo_splits). 0 where the want is met without.
-  std::uint32_t splits_to_undo() const;
 
   std::uint64_t bytes_held() const;  // header, base and chunks of have()
 

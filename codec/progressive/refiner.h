@@ -17,6 +17,7 @@
 #include "codec/core/expected.h"
 #include "codec/mesh/connectivity.h"
 #include "codec/mesh/triangle_mesh.h"
+#include "codec/progressive/base_mesh.h"
 #include "codec/progressive/manifest.h"
 
 namespace vitrine {
@@ -25,7 +26,7 @@ class Refiner {
  public:
   // `base` holds the real faces as the Draco buffer decodes them, positions in lattice units. Its
   // counts must equal the manifest's level 0 (kBadInput).
-  static Expected<Refiner> start(Manifest manifest, const LatticeMesh& base) noexcept;
+  static Expected<Refiner> start(Manifest manifest, const BaseMesh& base) noexcept;
   Refiner(Refiner&&) noexcept;
   Refiner& operator=(Refiner&&) noexcept;
   ~Refiner();
@@ -38,9 +39,10 @@ class Refiner {
   // bytes come from outside.
   Expected<void> apply(std::size_t chunk, std::span<const std::uint8_t> bytes) noexcept;
 
-  // Takes back the newest `count` splits of the chunk applied last (at most all of them): a level
-  // can so be shown in part. Only applying further chunks is impossible afterwards.
-  void undo_splits(std::uint32_t count) noexcept;
+  // Takes back splits of the chunk applied last, newest first, until at most `faces` real faces
+  // are left or the chunk is undone: a level can so be shown in part. No chunk can be applied
+  // afterwards.
+  void undo_to_faces(std::uint32_t faces) noexcept;
 
   std::uint32_t vertex_count() const;  // real vertices
   std::uint32_t face_count() const;    // real faces
@@ -50,7 +52,7 @@ class Refiner {
   // virtual corner (is_virtual) close boundary loops and are not part of the surface.
   const Connectivity& connectivity() const;
   std::span<const Vec3i> positions() const;
-  std::span<const Colour> colours() const;  // empty where the model has none
+  std::span<const Vec3i> colours() const;  // YCoCg-R (colour.h); empty where the model has none
 
   // The surface as displayed and exported: the display filter applied, lattice units, one entry
   // per vertex (DESIGN section 2). Equal to positions() at full resolution.

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adaptive binary range coder (G. N. N. Martin, 1979; carry by a pending-byte run).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vitrine {
+
+// One adaptive binary decision: the probability of a 1 in 1/65536, moved by 1/(n + 1.5) of the
+// distance after the n-th observation until the step has shrunk to 1/(limit + 1.5).
+struct AdaptiveBit {
+  static constexpr int kLimit = 160;
+
+  std::uint16_t one = 32768;
+  std::uint8_t seen = 0;
+
+  void update(int bit) {
+    const std::int32_t target = bit != 0 ? 65535 - 24 : 24;
+    const std::int32_t delta = target - one;
+    one = static_cast<std::uint16_t>(one + ((delta * kStep[seen]) >> 16));
+    if (seen < kLimit) ++seen;
+  }
+
+ private:
+  static constexpr std::array<std::int32_t, kLimit + 1> kStep = [] {
+    std::array<std::int32_t, kLimit + 1> step{};
+    for (int n = 0; n <= kLimit; ++n) step[n] = 131072 / (2 * n + 3);
+    return step;
+  }();
+};
+
+namespace range_coder {
+inline constexpr std::uint32_t kTop = 1u << 24;
+// The share of `range` that codes a 1; never 0 and never all of it.
+constexpr std::uint32_t share(std::uint32_t range, std::uint16_t one) {
+  return (range >> 16) * (one | 1u);
+}
+}  // namespace range_coder
+
+class RangeEncoder {
+ public:
+  static constexpr bool kEncodes = true;
+
+  int bit(AdaptiveBit& model, int value) {
+    const std::uint32_t bound = range_coder::share(range_, model.one);
+    if (value != 0) {
+      range_ = bound;
+    } else {
+      low_ += bound;
+      range_ -= bound;
+    }
+    model.update(value);
+    while (range_ < range_coder::kTop) range_ <<= 8, shift();
+    return value;
+  }
+
+  // `count` bits of even odds, most significant first.
+  std::uint32_t raw(std::uint32_t value, int count) {
+    while (count-- > 0) {
+      range_ >>= 1;
+      if ((value >> count & 1u) == 0) low_ += range_;
+      while (range_ < range_coder::kTop) range_ <<= 8, shift();
+    }
+    return value;
+  }
+
+  // Ends the stream. Trailing zero bytes are dropped: the decoder reads zeros beyond the end.
+  std::vector<std::uint8_t> finish() {
+    for (int i = 0; i < 5; ++i) shift();
+    while (!out_.empty() && out_.back() == 0) out_.pop_back();
+    return std::move(out_);
+  }
+
+ private:
+  void shift() {
+    if (low_ < 0xFF00'0000u || low_ > 0xFFFF'FFFFu) {
+      const auto carry = static_cast<std::uint8_t>(low_ >> 32);
+      if (started_) out_.push_back(static_cast<std::uint8_t>(pending_ + carry));
+      for (; run_ > 0; --run_) out_.push_back(static_cast<std::uint8_t>(0xFF + carry));
+      pending_ = static_cast<std::uint8_t>(low_ >> 24);
+      started_ = true;
+    } else {
+      ++run_;
+    }
+    low_ = (low_ & 0x00FF'FFFFu) << 8;
+  }
+
+  std::uint64_t low_ = 0;
+  std::uint32_t range_ = 0xFFFF'FFFFu;
+  std::uint8_t pending_ = 0;
+  bool started_ = false;
+  std::uint64_t run_ = 0;
+  std::vector<std::uint8_t> out_;
+};
+
+class RangeDecoder {
+ public:
+  static constexpr bool kEncodes = false;
+
+  explicit RangeDecoder(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {
+    for (int i = 0; i < 4; ++i) code_ = code_ << 8 | take();
+  }
+
+  int bit(AdaptiveBit& model, int = 0) noexcept {
+    const std::uint32_t bound = range_coder::share(range_, model.one);
+    const int value = code_ < bound ? 1 : 0;
+    if (value != 0) {
+      range_ = bound;
+    } else {
+      code_ -= bound;
+      range_ -= bound;
+    }
+    model.update(value);
+    while (range_ < range_coder::kTop) range_ <<= 8, code_ = code_ << 8 | take();
+    return value;
+  }
+
+  std::uint32_t raw(std::uint32_t, int count) noexcept {
+    std::uint32_t value = 0;
+    while (count-- > 0) {
+      range_ >>= 1;
+      const bool one = code_ < range_;
+      if (!one) code_ -= range_;
+      value = value << 1 | (one ? 1u : 0u);
+      while (range_ < range_coder::kTop) range_ <<= 8, code_ = code_ << 8 | take();
+    }
+    return value;
+  }
+
+ private:
+  std::uint8_t take() noexcept {
+    return position_ < bytes_.size() ? bytes_[position_++] : 0;
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  std::size_t position_ = 0;
+  std::uint32_t range_ = 0xFFFF'FFFFu;
+  std::uint32_t code_ = 0;
+};
+
+}  // namespace vitrine
