@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which models there are, what is known about them, and where the bytes of each chunk lie. The only
+// part of an installation that changes; everything it points to is immutable.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/core/sha256.h"
+#include "server/catalogue/model_id.h"
+
+namespace vitrine {
+
+enum class ModelState : std::uint8_t { kDraft = 0, kPublished = 1 };
+
+struct ModelRecord {
+  ModelId id;
+  ModelState state = ModelState::kDraft;
+  std::int64_t created = 0;  // milliseconds since 1970, UTC
+  std::string title;
+  std::string creator;
+  std::string rights;   // a statement for people
+  std::string licence;  // an SPDX identifier or a URL
+  std::string unit;     // of the model's coordinates, empty where unknown
+  Sha256 file{};        // the .pmesh object
+  std::uint64_t file_bytes = 0;
+  std::uint64_t head_bytes = 0;  // header and base mesh, the file's first bytes
+  std::uint64_t faces = 0, vertices = 0;
+};
+
+// A chunk (or a base mesh) is a range of a stored file.
+struct ChunkPlace {
+  Sha256 chunk{};
+  std::uint64_t offset = 0, length = 0;
+};
+
+struct ChunkLocation {
+  ModelId model;
+  ChunkPlace place;
+};
+
+struct ModelQuery {
+  std::string text;              // every word occurs in title or creator; empty: all models
+  std::optional<ModelId> after;  // the cursor: `next` of the page before
+  std::uint32_t limit = 50;      // 1..kMaxPage
+  bool drafts = false;           // list drafts too
+};
+inline constexpr std::uint32_t kMaxPage = 200;
+
+struct ModelPage {
+  std::vector<ModelRecord> models;  // newest first
+  std::optional<ModelId> next;      // nothing on the last page
+};
+
+// Safe to use from several threads at once, and by several processes on the same data. Errors are
+// kIo where the database refuses, kState as stated.
+class Catalogue {
+ public:
+  virtual ~Catalogue() = default;
+
+  // Adds a model and its chunks in one transaction. kState where the id exists.
+  virtual Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) = 0;
+
+  // Makes a model visible or hides it, in one statement. kState where there is no such model.
+  virtual Expected<void> set_state(const ModelId& id, ModelState state) = 0;
+
+  virtual Expected<std::optional<ModelRecord>> find(const ModelId& id) = 0;  // drafts too
+  virtual Expected<ModelPage> search(const ModelQuery& query) = 0;
+
+  // Where a chunk's bytes lie; published models only.
+  virtual Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) = 0;
+
+  // A number that differs once anybody, this process or another, has changed the catalogue. Cheap:
+  // what is cached from the catalogue holds as long as it stays.
+  virtual Expected<std::uint64_t> revision() = 0;
+};
+
+}  // namespace vitrine

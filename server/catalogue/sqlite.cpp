@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/catalogue/sqlite.h"
+
+#include <algorithm>
+
+namespace vitrine::sqlite {
+
+constexpr int kBusyMilliseconds = 10'000;  // how long to wait for another process's write
+
+Database::Database(const std::string& file) {
+  sqlite3* handle = nullptr;
+  const int result =
+      sqlite3_open_v2(file.c_str(), &handle,
+                      SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+  handle_.reset(handle);
+  if (result != SQLITE_OK) raise();
+  sqlite3_extended_result_codes(handle, 1);
+  sqlite3_busy_timeout(handle, kBusyMilliseconds);
+}
+
+void Database::raise() const {
+  throw Failure(sqlite3_extended_errcode(handle()), sqlite3_errmsg(handle()));
+}
+
+void Database::run(const char* sql) {
+  if (sqlite3_exec(handle(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) raise();
+}
+
+Statement::Statement(const Database& database, std::string_view sql) : database_(&database) {
+  sqlite3_stmt* handle = nullptr;
+  const int result = sqlite3_prepare_v3(database.handle(), sql.data(), static_cast<int>(sql.size()),
+                                        SQLITE_PREPARE_PERSISTENT, &handle, nullptr);
+  handle_.reset(handle);
+  if (result != SQLITE_OK) database.raise();
+}
+
+void Statement::check(int result) const {
+  if (result != SQLITE_OK) database_->raise();
+}
+
+Statement& Statement::reset() {
+  sqlite3_reset(handle_.get());
+  sqlite3_clear_bindings(handle_.get());
+  bound_ = 0;
+  return *this;
+}
+
+Statement& Statement::bind(std::int64_t value) {
+  check(sqlite3_bind_int64(handle_.get(), ++bound_, value));
+  return *this;
+}
+
+Statement& Statement::bind(std::string_view text) {
+  check(sqlite3_bind_text64(handle_.get(), ++bound_, text.data(), text.size(), SQLITE_TRANSIENT,
+                            SQLITE_UTF8));
+  return *this;
+}
+
+Statement& Statement::bind(std::span<const std::uint8_t> blob) {
+  check(sqlite3_bind_blob64(handle_.get(), ++bound_, blob.data(), blob.size(), SQLITE_TRANSIENT));
+  return *this;
+}
+
+bool Statement::step() {
+  const int result = sqlite3_step(handle_.get());
+  if (result == SQLITE_ROW) return true;
+  if (result == SQLITE_DONE) {
+    sqlite3_reset(handle_.get());  // ends the read transaction
+    return false;
+  }
+  database_->raise();
+}
+
+std::string Statement::text(int column) const {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), column));
+  return std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column)));
+}
+
+void Statement::copy_blob(int column, std::span<std::uint8_t> out) const {
+  const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column));
+  if (sqlite3_column_bytes(handle_.get(), column) != static_cast<int>(out.size())) {
+    throw Failure(SQLITE_CORRUPT, "a column has another length than it should");
+  }
+  std::copy_n(bytes, out.size(), out.begin());
+}
+
+}  // namespace vitrine::sqlite

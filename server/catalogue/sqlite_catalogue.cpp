@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/catalogue/sqlite_catalogue.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "server/catalogue/sqlite.h"
+
+namespace vitrine {
+namespace {
+
+using sqlite::Database;
+using sqlite::Statement;
+using sqlite::Transaction;
+
+// Migration i leads from schema version i to i + 1. Never edit one that has been released.
+constexpr const char* kMigrations[] = {
+    R"sql(
+CREATE TABLE model (
+  id BLOB PRIMARY KEY, state INTEGER NOT NULL, created INTEGER NOT NULL,
+  title TEXT NOT NULL, creator TEXT NOT NULL, rights TEXT NOT NULL, licence TEXT NOT NULL,
+  unit TEXT NOT NULL, file BLOB NOT NULL, file_bytes INTEGER NOT NULL,
+  head_bytes INTEGER NOT NULL, faces INTEGER NOT NULL, vertices INTEGER NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE chunk (
+  sha256 BLOB NOT NULL, model BLOB NOT NULL REFERENCES model(id) ON DELETE CASCADE,
+  offset INTEGER NOT NULL, length INTEGER NOT NULL,
+  PRIMARY KEY (sha256, model)
+) WITHOUT ROWID;
+CREATE INDEX chunk_of_model ON chunk(model);
+)sql",
+};
+constexpr std::int64_t kSchemaVersion = std::size(kMigrations);
+
+constexpr std::string_view kColumns =
+    "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
+    "faces, vertices";
+
+// Returns the version found where that is newer than ours, else ours.
+std::int64_t migrate(Database& database) {
+  Transaction transaction(database);
+  database.run(
+      "CREATE TABLE IF NOT EXISTS migration (version INTEGER PRIMARY KEY, "
+      "applied TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP)");
+  Statement newest(database, "SELECT coalesce(max(version), 0) FROM migration");
+  newest.step();
+  const std::int64_t found = newest.integer(0);
+  newest.reset();
+  Statement record(database, "INSERT INTO migration(version) VALUES (?)");
+  for (std::int64_t version = found; version < kSchemaVersion; ++version) {
+    database.run(kMigrations[version]);
+    record.reset().bind(version + 1).step();
+  }
+  transaction.commit();
+  return std::max(found, kSchemaVersion);
+}
+
+ModelRecord read_model(const Statement& row) {
+  ModelRecord model;
+  model.id = ModelId::from_bytes(row.blob<16>(0));
+  model.state = row.integer(1) == 1 ? ModelState::kPublished : ModelState::kDraft;
+  model.created = row.integer(2);
+  model.title = row.text(3);
+  model.creator = row.text(4);
+  model.rights = row.text(5);
+  model.licence = row.text(6);
+  model.unit = row.text(7);
+  model.file = row.blob<32>(8);
+  model.file_bytes = static_cast<std::uint64_t>(row.integer(9));
+  model.head_bytes = static_cast<std::uint64_t>(row.integer(10));
+  model.faces = static_cast<std::uint64_t>(row.integer(11));
+  model.vertices = static_cast<std::uint64_t>(row.integer(12));
+  return model;
+}
+
+std::int64_t number(std::uint64_t value) {
+  return static_cast<std::int64_t>(value);
+}
+
+void bind_model(Statement& row, const ModelRecord& m) {
+  row.reset().bind(m.id.bytes()).bind(static_cast<std::int64_t>(m.state)).bind(m.created);
+  row.bind(m.title).bind(m.creator).bind(m.rights).bind(m.licence).bind(m.unit).bind(m.file);
+  row.bind(number(m.file_bytes)).bind(number(m.head_bytes));
+  row.bind(number(m.faces)).bind(number(m.vertices));
+}
+
+// Words become patterns of LIKE in which the user's own % and _ mean themselves.
+std::vector<std::string> patterns(std::string_view text) {
+  constexpr std::size_t kMaxWords = 8;
+  std::vector<std::string> words;
+  std::string word;
+  for (const char c : text) {
+    if (c == '%' || c == '_' || c == '\\') word += '\\';
+    if (c != ' ' && c != '\t') word += c;
+    if ((c == ' ' || c == '\t') && !word.empty())
+      words.push_back('%' + std::exchange(word, {}) + '%');
+  }
+  if (!word.empty()) words.push_back('%' + word + '%');
+  words.resize(std::min(words.size(), kMaxWords));
+  return words;
+}
+
+Unexpected refused(const sqlite::Failure& failure) {
+  return fail(ErrorCode::kIo,
+              fmt::format("the catalogue refuses: {}; check the data folder and its free space",
+                          failure.what()));
+}
+
+class SqliteCatalogue final : public Catalogue {
+ public:
+  explicit SqliteCatalogue(Database database)
+      : database_(std::move(database)),
+        insert_model_(database_, fmt::format("INSERT INTO model({}) VALUES "
+                                             "(?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                                             kColumns)),
+        insert_chunk_(database_, "INSERT OR IGNORE INTO chunk VALUES (?,?,?,?)"),
+        update_state_(database_, "UPDATE model SET state = ?2 WHERE id = ?1 RETURNING 1"),
+        find_model_(database_, fmt::format("SELECT {} FROM model WHERE id = ?", kColumns)),
+        find_chunk_(database_,
+                    "SELECT model, offset, length FROM chunk JOIN model ON model.id = chunk.model "
+                    "WHERE sha256 = ? AND state = 1 LIMIT 1"),
+        data_version_(database_, "PRAGMA data_version") {}
+
+  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
+    return guarded<void>([&]() -> Expected<void> {
+      Transaction transaction(database_);
+      if (find_model_.reset().bind(model.id.bytes()).step()) {
+        find_model_.reset();
+        return fail(ErrorCode::kState,
+                    fmt::format("model {} exists; use another id", model.id.to_string()));
+      }
+      bind_model(insert_model_, model);
+      insert_model_.step();
+      for (const ChunkPlace& c : chunks) {
+        insert_chunk_.reset().bind(c.chunk).bind(model.id.bytes());
+        insert_chunk_.bind(number(c.offset)).bind(number(c.length)).step();
+      }
+      transaction.commit();
+      ++own_changes_;
+      return {};
+    });
+  }
+
+  Expected<void> set_state(const ModelId& id, ModelState state) override {
+    return guarded<void>([&]() -> Expected<void> {
+      update_state_.reset().bind(id.bytes()).bind(static_cast<std::int64_t>(state));
+      bool found = false;
+      while (update_state_.step()) found = true;
+      if (!found) {
+        return fail(ErrorCode::kState,
+                    fmt::format("there is no model {}; list the models", id.to_string()));
+      }
+      ++own_changes_;
+      return {};
+    });
+  }
+
+  Expected<std::optional<ModelRecord>> find(const ModelId& id) override {
+    return guarded<std::optional<ModelRecord>>([&]() -> Expected<std::optional<ModelRecord>> {
+      if (!find_model_.reset().bind(id.bytes()).step()) return std::nullopt;
+      auto model = read_model(find_model_);
+      find_model_.reset();
+      return model;
+    });
+  }
+
+  Expected<ModelPage> search(const ModelQuery& query) override {
+    return guarded<ModelPage>([&]() -> Expected<ModelPage> { return search_locked(query); });
+  }
+
+  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
+    return guarded<std::optional<ChunkLocation>>([&]() -> Expected<std::optional<ChunkLocation>> {
+      if (!find_chunk_.reset().bind(chunk).step()) return std::nullopt;
+      ChunkLocation location{ModelId::from_bytes(find_chunk_.blob<16>(0)),
+                             {chunk, static_cast<std::uint64_t>(find_chunk_.integer(1)),
+                              static_cast<std::uint64_t>(find_chunk_.integer(2))}};
+      find_chunk_.reset();
+      return location;
+    });
+  }
+
+  Expected<std::uint64_t> revision() override {
+    return guarded<std::uint64_t>([&]() -> Expected<std::uint64_t> {
+      data_version_.reset().step();
+      const auto others = static_cast<std::uint64_t>(data_version_.integer(0));
+      data_version_.reset();
+      return others + (own_changes_ << 32);
+    });
+  }
+
+ private:
+  // Runs `action` alone on the connection.
+  template <class T, class Action>
+  Expected<T> guarded(Action action) {
+    const std::scoped_lock lock(mutex_);
+    try {
+      return action();
+    } catch (const sqlite::Failure& failure) {
+      return refused(failure);
+    }
+  }
+
+  ModelPage search_locked(const ModelQuery& query) {
+    const auto words = patterns(query.text);
+    std::string sql = fmt::format("SELECT {} FROM model WHERE state >= ?", kColumns);
+    if (query.after) sql += " AND id < ?";
+    for (std::size_t i = 0; i < words.size(); ++i)
+      sql += " AND title||' '||creator LIKE ? ESCAPE '\\'";
+    sql += " ORDER BY id DESC LIMIT ?";
+
+    Statement rows(database_, sql);
+    rows.bind(query.drafts ? 0 : 1);
+    if (query.after) rows.bind(query.after->bytes());
+    for (const std::string& word : words)
+      rows.bind(word);
+    const std::uint32_t limit = std::clamp(query.limit, 1u, kMaxPage);
+    rows.bind(limit + 1);  // one more tells whether there is a next page
+
+    ModelPage page;
+    while (rows.step())
+      page.models.push_back(read_model(rows));
+    if (page.models.size() > limit) {
+      page.models.pop_back();
+      page.next = page.models.back().id;
+    }
+    return page;
+  }
+
+  std::mutex mutex_;
+  Database database_;
+  Statement insert_model_, insert_chunk_, update_state_, find_model_, find_chunk_, data_version_;
+  std::uint64_t own_changes_ = 0;  // `PRAGMA data_version` counts the changes of others only
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<Catalogue>> open_sqlite_catalogue(const std::filesystem::path& file) {
+  try {
+    Database database(file.string());
+    database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
+    if (migrate(database) > kSchemaVersion) {
+      return fail(ErrorCode::kUnsupported,
+                  fmt::format("{} was written by a newer version of Vitrine; install that version",
+                              file.string()));
+    }
+    return std::make_unique<SqliteCatalogue>(std::move(database));
+  } catch (const sqlite::Failure& failure) {
+    return fail(ErrorCode::kIo,
+                fmt::format("cannot open the catalogue {}: {}; check the data folder",
+                            file.string(), failure.what()));
+  }
+}
+
+}  // namespace vitrine

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <random>
+
+#include "server/store/file_descriptor.h"
+
+namespace vitrine {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* next_step(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose another folder";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose a folder you may write to";
+    case ENOENT:
+    case ENOTDIR:
+      return "create the folder first";
+    default:
+      return "check the disk";
+  }
+}
+
+Unexpected refused(const char* what, const fs::path& path, int error) {
+  return fail(ErrorCode::kIo, fmt::format("cannot {} {}: {}; {}", what, path.string(),
+                                          std::strerror(error), next_step(error)));
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+fs::path temporary_name(const fs::path& path) {
+  static thread_local std::mt19937_64 random{std::random_device{}()};
+  return folder_of(path) / fmt::format(".{}.{:016x}.part", path.filename().string(), random());
+}
+
+// 0, or the error number.
+int write_all(int fd, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return ::fsync(fd) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+Expected<void> sync_folder(const fs::path& folder) {
+  const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!fd || ::fsync(fd.get()) != 0) return refused("sync", folder, errno);
+  return {};
+}
+
+Expected<void> write_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  const fs::path temporary = temporary_name(path);
+  const FileDescriptor fd(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!fd) return refused("write", path, errno);
+  int error = write_all(fd.get(), bytes);
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    return refused("write", path, error);
+  }
+  return sync_folder(folder_of(path));
+}
+
+}  // namespace vitrine

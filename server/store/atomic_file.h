@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that are whole or absent: temporary in the same folder, write, fsync, rename, fsync folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "codec/core/expected.h"
+
+namespace vitrine {
+
+// Replaces `path` by `bytes`. Fails with kIo, and then `path` is as it was and the temporary file,
+// whose name starts with a dot, is gone.
+Expected<void> write_file_atomically(const std::filesystem::path& path,
+                                     std::span<const std::uint8_t> bytes);
+
+// Makes the names in `folder` durable.
+Expected<void> sync_folder(const std::filesystem::path& folder);
+
+}  // namespace vitrine

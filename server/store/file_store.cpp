@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/file_store.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "server/store/atomic_file.h"
+#include "server/store/file_descriptor.h"
+
+namespace vitrine {
+namespace {
+
+namespace fs = std::filesystem;
+
+Unexpected refused(const char* what, const fs::path& path, const char* why) {
+  return fail(ErrorCode::kIo,
+              fmt::format("cannot {} {}: {}; check the data folder", what, path.string(), why));
+}
+
+class FileObject final : public Object {
+ public:
+  FileObject(FileDescriptor fd, std::uint64_t size) : fd_(std::move(fd)), size_(size) {}
+
+  std::uint64_t size() const override { return size_; }
+  std::optional<int> descriptor() const override { return fd_.get(); }
+
+  Expected<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const override {
+    if (offset > size_ || out.size() > size_ - offset) {
+      return fail(ErrorCode::kIo, "read beyond the end of an object; check the data folder");
+    }
+    while (!out.empty()) {
+      const ssize_t n = ::pread(fd_.get(), out.data(), out.size(), static_cast<off_t>(offset));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return refused("read", "an object", n < 0 ? std::strerror(errno) : "cut short");
+      offset += static_cast<std::uint64_t>(n);
+      out = out.subspan(static_cast<std::size_t>(n));
+    }
+    return {};
+  }
+
+ private:
+  FileDescriptor fd_;
+  std::uint64_t size_;
+};
+
+// Creates `folder` below `parent`; both names are durable afterwards.
+Expected<void> create_folder(const fs::path& folder) {
+  if (::mkdir(folder.c_str(), 0777) == 0) return sync_folder(folder.parent_path());
+  if (errno != EEXIST) return refused("create", folder, std::strerror(errno));
+  return {};
+}
+
+}  // namespace
+
+Expected<std::vector<std::uint8_t>> Object::read(std::uint64_t offset, std::uint64_t length) const {
+  if (offset > size() || length > size() - offset) {
+    return fail(ErrorCode::kIo, "read beyond the end of an object; check the data folder");
+  }
+  std::vector<std::uint8_t> bytes(length);
+  if (auto done = read(offset, std::span(bytes)); !done) return tl::unexpected(done.error());
+  return bytes;
+}
+
+Expected<FileStore> FileStore::open(const fs::path& root) {
+  std::error_code error;
+  fs::create_directories(root, error);
+  if (error) return refused("create", root, error.message().c_str());
+  return FileStore(root);
+}
+
+fs::path FileStore::path_of(const Sha256& name) const {
+  const std::string hex = to_hex(name);
+  return root_ / hex.substr(0, 2) / hex.substr(2, 2) / hex;
+}
+
+Expected<void> FileStore::put(const Sha256& name, std::span<const std::uint8_t> bytes) {
+  if (sha256(bytes) != name) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("the bytes are not those of object {}; send them again", to_hex(name)));
+  }
+  const fs::path path = path_of(name);
+  const fs::path folder = path.parent_path();
+  std::error_code error;
+  if (fs::file_size(path, error) == bytes.size() && !error) return sync_folder(folder);
+  if (auto made = create_folder(folder.parent_path()); !made) return made;
+  if (auto made = create_folder(folder); !made) return made;
+  return write_file_atomically(path, bytes);
+}
+
+Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
+  const fs::path path = path_of(name);
+  FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!fd && errno == ENOENT) return nullptr;
+  struct stat status {};
+  if (!fd || ::fstat(fd.get(), &status) != 0) return refused("open", path, std::strerror(errno));
+  return std::make_unique<FileObject>(std::move(fd), static_cast<std::uint64_t>(status.st_size));
+}
+
+}  // namespace vitrine

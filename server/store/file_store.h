@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The object store in a folder: ROOT/ab/cd/abcd….
+#pragma once
+
+#include <filesystem>
+
+#include "server/store/object_store.h"
+
+namespace vitrine {
+
+class FileStore final : public ObjectStore {
+ public:
+  // Creates the folder where it is missing. Fails (kIo) where that is refused.
+  static Expected<FileStore> open(const std::filesystem::path& root);
+
+  Expected<void> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
+  Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
+
+ private:
+  explicit FileStore(std::filesystem::path root) : root_(std::move(root)) {}
+  std::filesystem::path path_of(const Sha256& name) const;
+
+  std::filesystem::path root_;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Immutable objects named by the SHA-256 of their bytes. Nothing is ever overwritten: what changes
+// is the catalogue's row that names an object.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/core/sha256.h"
+
+namespace vitrine {
+
+// An object that is open for reading. It stays readable until destroyed, whatever happens to the
+// store meanwhile. Safe to use from several threads at once.
+class Object {
+ public:
+  virtual ~Object() = default;
+
+  virtual std::uint64_t size() const = 0;
+
+  // Fills `out` from `offset`. Fails (kIo) unless offset + out.size() <= size().
+  virtual Expected<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const = 0;
+
+  // A descriptor for sendfile(2), owned by the object; nothing where the object is remote. Its
+  // file position is shared: give sendfile an explicit offset.
+  virtual std::optional<int> descriptor() const { return std::nullopt; }
+
+  Expected<std::vector<std::uint8_t>> read(std::uint64_t offset, std::uint64_t length) const;
+};
+
+// Safe to use from several threads and processes at once.
+class ObjectStore {
+ public:
+  virtual ~ObjectStore() = default;
+
+  // Stores `bytes` durably and under `name`, or not at all. Fails with kBadInput where the bytes do
+  // not have that name, kIo where the disk refuses. Putting an object again changes nothing.
+  virtual Expected<void> put(const Sha256& name, std::span<const std::uint8_t> bytes) = 0;
+
+  // Null where there is no such object.
+  virtual Expected<std::unique_ptr<Object>> open(const Sha256& name) const = 0;
+};
+
+}  // namespace vitrine

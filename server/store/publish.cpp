@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/publish.h"
+
+#include <chrono>
+
+#include "server/store/published_model.h"
+
+namespace vitrine {
+namespace {
+
+std::int64_t now_in_milliseconds() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+ModelRecord describe(const Manifest& manifest, const ModelMetadata& metadata, const Sha256& file) {
+  ModelRecord record;
+  record.id = ModelId::generate();
+  record.state = ModelState::kPublished;
+  record.created = now_in_milliseconds();
+  record.title = metadata.title;
+  record.creator = metadata.creator;
+  record.rights = metadata.rights;
+  record.licence = metadata.licence;
+  record.unit = manifest.unit;
+  record.file = file;
+  record.file_bytes = manifest.file_bytes;
+  record.head_bytes = manifest.head_bytes();
+  record.faces = manifest.levels.back().faces;
+  record.vertices = manifest.levels.back().vertices;
+  return record;
+}
+
+std::vector<ChunkPlace> places(const Manifest& manifest) {
+  std::vector<ChunkPlace> result;
+  result.reserve(manifest.chunks.size() + 1);
+  result.push_back({manifest.base_sha256, manifest.base_offset, manifest.base_length});
+  for (const ChunkInfo& c : manifest.chunks)
+    result.push_back({c.sha256, c.offset, c.length});
+  return result;
+}
+
+Expected<void> check_size(const Manifest& manifest, std::uint64_t size) {
+  if (manifest.file_bytes == size) return {};
+  return fail(ErrorCode::kBadInput,
+              "the file has " + std::to_string(size) + " bytes and its header says " +
+                  std::to_string(manifest.file_bytes) + "; build or fetch it again");
+}
+
+// What a visitor would be served is what the header promises.
+Expected<void> check_stored(const PublishedModel& model, std::span<const ChunkPlace> chunks) {
+  for (const ChunkPlace& place : chunks) {
+    const auto bytes = model.read({place.offset, place.length});
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (sha256(*bytes) != place.chunk) {
+      return fail(ErrorCode::kBadInput, "the chunk at byte " + std::to_string(place.offset) +
+                                            " does not have its SHA-256; build the file again");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<ModelId> publish(ObjectStore& store, Catalogue& catalogue,
+                          std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata) {
+  const auto manifest = parse_header(pmesh);
+  if (!manifest) return tl::unexpected(manifest.error());
+  if (auto fits = check_size(*manifest, pmesh.size()); !fits) return tl::unexpected(fits.error());
+  const Sha256 name = sha256(pmesh);
+  if (auto stored = store.put(name, pmesh); !stored) return tl::unexpected(stored.error());
+  const ModelRecord record = describe(*manifest, metadata, name);
+  const auto model = PublishedModel::open(store, record);
+  if (!model) return tl::unexpected(model.error());
+  const auto chunks = places((*model)->manifest());
+  if (auto good = check_stored(**model, chunks); !good) return tl::unexpected(good.error());
+  if (auto added = catalogue.add(record, chunks); !added) return tl::unexpected(added.error());
+  return record.id;
+}
+
+}  // namespace vitrine

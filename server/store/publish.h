@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// From .pmesh bytes to a model that visitors can open.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "server/catalogue/catalogue.h"
+#include "server/store/object_store.h"
+
+namespace vitrine {
+
+struct ModelMetadata {
+  std::string title, creator, rights, licence;
+};
+
+// Stores the file, reads it back from the store to check the header and the SHA-256 of the base and
+// of every chunk, and then adds the model as published, in one transaction: a crash at any point
+// leaves at most an object that nothing names. Fails with kBadInput where the file is damaged.
+Expected<ModelId> publish(ObjectStore& store, Catalogue& catalogue,
+                          std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata);
+
+}  // namespace vitrine

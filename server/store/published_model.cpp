@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/published_model.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+
+namespace vitrine {
+namespace {
+
+constexpr std::size_t kMaxOpenModels = 256;  // each holds a descriptor
+
+Unexpected damaged(const ModelRecord& record, std::string_view why) {
+  return fail(ErrorCode::kState, fmt::format("model {} cannot be served: {}; publish it again",
+                                             record.id.to_string(), why));
+}
+
+Expected<Manifest> read_manifest(const Object& file, const ModelRecord& record) {
+  const auto head = file.read(0, std::min(record.head_bytes, file.size()));
+  if (!head) return tl::unexpected(head.error());
+  auto manifest = parse_header(*head);
+  if (!manifest) return damaged(record, manifest.error().message);
+  if (manifest->file_bytes != file.size() || manifest->head_bytes() != record.head_bytes) {
+    return damaged(record, "its file has another length than its header says");
+  }
+  return manifest;
+}
+
+template <class Value>
+std::size_t first_word(const Value& value) {
+  std::size_t word;
+  std::memcpy(&word, value.data(), sizeof word);
+  return word;
+}
+
+}  // namespace
+
+Expected<std::shared_ptr<const PublishedModel>> PublishedModel::open(const ObjectStore& store,
+                                                                     ModelRecord record) {
+  auto file = store.open(record.file);
+  if (!file) return tl::unexpected(file.error());
+  if (!*file) return damaged(record, "its file is missing from the store");
+  auto manifest = read_manifest(**file, record);
+  if (!manifest) return tl::unexpected(manifest.error());
+  std::shared_ptr<PublishedModel> model(new PublishedModel);
+  model->record_ = std::move(record);
+  model->manifest_ = std::move(*manifest);
+  model->file_ = std::move(*file);
+  return model;
+}
+
+std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const noexcept {
+  return first_word(sha256);
+}
+
+std::size_t PublishedModels::HashOfId::operator()(const ModelId& id) const noexcept {
+  std::array<std::uint8_t, 8> random;  // the last bytes; the first are the time
+  std::copy(id.bytes().begin() + 8, id.bytes().end(), random.begin());
+  return first_word(random);
+}
+
+Expected<void> PublishedModels::forget_if_changed() {
+  const auto now = Clock::now();
+  {
+    const std::shared_lock lock(mutex_);
+    if (checked_ != Clock::time_point{} && now - checked_ < staleness_) return {};
+  }
+  const auto revision = catalogue_.revision();
+  if (!revision) return tl::unexpected(revision.error());
+  const std::unique_lock lock(mutex_);
+  checked_ = now;
+  if (*revision == revision_) return {};
+  revision_ = *revision;
+  models_.clear();
+  chunks_.clear();
+  return {};
+}
+
+Expected<std::shared_ptr<const PublishedModel>> PublishedModels::load(const ModelId& id) {
+  const auto before = catalogue_.revision();
+  if (!before) return tl::unexpected(before.error());
+  auto record = catalogue_.find(id);
+  if (!record) return tl::unexpected(record.error());
+  if (!*record || (*record)->state != ModelState::kPublished) return nullptr;
+  auto model = PublishedModel::open(store_, std::move(**record));
+  if (!model) return model;
+  remember(*model, *before);
+  return model;
+}
+
+void PublishedModels::remember(const std::shared_ptr<const PublishedModel>& model,
+                               std::uint64_t revision) {
+  const std::unique_lock lock(mutex_);
+  if (revision != revision_) return;  // what was read may be old by now
+  if (models_.size() >= kMaxOpenModels) {
+    models_.clear();
+    chunks_.clear();
+  }
+  const Manifest& manifest = model->manifest();
+  models_[model->record().id] = model;
+  chunks_[manifest.base_sha256] = {model, model->base()};
+  for (std::size_t i = 0; i < manifest.chunks.size(); ++i) {
+    chunks_[manifest.chunks[i].sha256] = {model, model->chunk(i)};
+  }
+}
+
+Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const ModelId& id) {
+  if (auto fresh = forget_if_changed(); !fresh) return tl::unexpected(fresh.error());
+  {
+    const std::shared_lock lock(mutex_);
+    if (const auto it = models_.find(id); it != models_.end()) return it->second;
+  }
+  return load(id);
+}
+
+Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {
+  if (auto fresh = forget_if_changed(); !fresh) return tl::unexpected(fresh.error());
+  {
+    const std::shared_lock lock(mutex_);
+    if (const auto it = chunks_.find(sha256); it != chunks_.end()) return it->second;
+  }
+  const auto location = catalogue_.find_chunk(sha256);
+  if (!location) return tl::unexpected(location.error());
+  if (!*location) return PublishedChunk{};
+  const auto model = load((*location)->model);
+  if (!model) return tl::unexpected(model.error());
+  return PublishedChunk{*model, {(*location)->place.offset, (*location)->place.length}};
+}
+
+}  // namespace vitrine
