@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/simplify/matching.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace vitrine {
+namespace {
+
+// Costs are not negative, so that their bits ascend with them.
+std::uint32_t cost_key(double cost) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(std::max(cost, 0.0)));
+}
+
+bool inside(const Vec3i& p, const Vec3i& low, const Vec3i& high) {
+  return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
+         p.z <= high.z;
+}
+
+}  // namespace
+
+const std::vector<Pick>& Matcher::match(const LevelRules& rules) {
+  taken_.assign(surface_.position.size(), 0);
+  if (rules.placement == Placement::kPyramid) sum_rings();
+  list_edges(rules);
+  radix_sort(edges_, scratch_);
+
+  picks_.clear();
+  const std::size_t half = edges_.size() / 2;
+  const std::size_t enough = surface_.live.size() / 5;
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    if (picks_.size() == rules.most || (i >= half && picks_.size() >= enough)) break;
+    choose(rules, edges_[i].index);
+  }
+  const auto target_less = [](const Pick& a, const Pick& b) { return a.target < b.target; };
+  const auto target_same = [](const Pick& a, const Pick& b) { return a.target == b.target; };
+  std::stable_sort(picks_.begin(), picks_.end(), target_less);
+  picks_.erase(std::unique(picks_.begin(), picks_.end(), target_same), picks_.end());
+  return picks_;
+}
+
+void Matcher::sum_rings() {
+  ring_sum_.resize(surface_.position.size());
+  ring_size_.resize(surface_.position.size());
+  const Connectivity& mesh = surface_.mesh;
+  for (VertexId v : surface_.live) {
+    Vec3 sum;
+    std::uint32_t size = 0;
+    const Corner first = mesh.corner_at(v);
+    Corner c = first;
+    do {
+      const VertexId w = mesh.vertex(next(c));
+      if (!is_virtual(w)) sum += surface_.point(w), ++size;
+      c = mesh.swing(c);
+    } while (c != first);
+    ring_sum_[v] = sum, ring_size_[v] = size;
+  }
+}
+
+void Matcher::list_edges(const LevelRules& rules) {
+  edges_.clear();
+  const Connectivity& mesh = surface_.mesh;
+  for (VertexId v : surface_.live) {
+    const Corner first = mesh.corner_at(v);
+    Corner c = first;
+    do {
+      const VertexId w = mesh.vertex(next(c));
+      const bool listed =
+          !is_virtual(w) && v < w && !(rules.by_region && surface_.region[v] != surface_.region[w]);
+      if (listed) {
+        const Quadric &a = surface_.quadric[v], &b = surface_.quadric[w];
+        const Vec3 target = likely_target(rules, c), d = surface_.point(v) - surface_.point(w);
+        const double regular = rules.length_weight * dot(d, d) * (a.weight() + b.weight());
+        edges_.push_back({cost_key(a.at(target) + b.at(target) + regular), c});
+      }
+      c = mesh.swing(c);
+    } while (c != first);
+  }
+}
+
+// v~ up to rounding, for a fraction of the price of merged_position().
+Vec3 Matcher::likely_target(const LevelRules& rules, Corner c) const {
+  const Connectivity& mesh = surface_.mesh;
+  const VertexId v = mesh.vertex(c), w = mesh.vertex(next(c));
+  const Vec3 p = surface_.point(v), q = surface_.point(w);
+  const Vec3 middle = (p + q) * 0.5;
+  if (rules.placement == Placement::kMidpoint) return middle;
+  Vec3 near;
+  std::uint32_t m = 0;
+  for (VertexId apex : {mesh.vertex(prev(c)), mesh.vertex(mesh.opposite(prev(c)))}) {
+    if (!is_virtual(apex)) near += surface_.point(apex), ++m;
+  }
+  // Both rings hold the other end and the opposite vertices.
+  const std::uint32_t both = ring_size_[v] + ring_size_[w], shared = 2 + 2 * m;
+  if (m == 0 || both <= shared) return middle;
+  const Vec3 far = ring_sum_[v] + ring_sum_[w] - p - q - near * 2;
+  return middle + near * (1.0 / (4 * m)) - far * (1.0 / (4 * (both - shared)));
+}
+
+bool Matcher::choose(const LevelRules& rules, Corner c) {
+  const Connectivity& mesh = surface_.mesh;
+  if (taken_[mesh.vertex(c)] || taken_[mesh.vertex(next(c))]) return false;
+  const EdgeStar edge(mesh, c);
+  if (!keeps_manifold(mesh, edge)) return false;
+  const Vec3i target = merged_position(surface_, edge, rules.placement, rules.parity);
+  if (!inside(target, rules.low, rules.high)) return false;
+  if (!keeps_orientation(surface_, edge, target)) return false;
+  taken_[edge.v1] = taken_[edge.v2] = 1;
+  withhold_neighbours(rules, edge);
+  picks_.push_back({c, target});
+  return true;
+}
+
+void Matcher::withhold_neighbours(const LevelRules& rules, const EdgeStar& edge) {
+  const bool all = rules.placement == Placement::kPyramid;
+  if (!all && !rules.by_region) return;
+  const std::uint16_t own = surface_.region[edge.v1];
+  for (const Star* star : {&edge.star1, &edge.star2}) {
+    for (VertexId v : star->neighbours()) {
+      if (!is_virtual(v) && (all || surface_.region[v] != own)) taken_[v] = 1;
+    }
+  }
+}
+
+}  // namespace vitrine

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses the collapses of one level: the cheapest legal edges with disjoint end points.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/progressive/manifest.h"
+#include "codec/simplify/collapse_rules.h"
+#include "codec/simplify/radix_sort.h"
+#include "codec/simplify/surface.h"
+
+namespace vitrine {
+
+struct LevelRules {
+  Placement placement = Placement::kMidpoint;
+  std::int32_t parity = 0;          // of the level, see placement.h
+  bool by_region = false;           // collapses stay inside their region
+  double length_weight = 0;         // of the squared edge length, against the planes of the edge
+  std::uint32_t most = 0xFFFFFFFF;  // collapses at most
+  Vec3i low, high;                  // v~ stays in this box, inclusive
+};
+
+struct Pick {
+  Corner corner;  // of v1 in the face (v1, v2, apex12)
+  Vec3i target;   // v~
+};
+
+class Matcher {
+ public:
+  explicit Matcher(const Surface& surface) : surface_(surface) {}
+
+  // In ascending lexicographic order of target, no two the same. Costs ascend in the order of
+  // choice, ties go to the smaller vertex ids. A chosen edge keeps its neighbours in other regions
+  // (by_region) or all of its neighbours (pyramid placement) from collapsing in this level.
+  const std::vector<Pick>& match(const LevelRules& rules);
+
+ private:
+  void sum_rings();
+  void list_edges(const LevelRules& rules);
+  Vec3 likely_target(const LevelRules& rules, Corner c) const;
+  bool choose(const LevelRules& rules, Corner c);
+  void withhold_neighbours(const LevelRules& rules, const EdgeStar& edge);
+
+  const Surface& surface_;
+  std::vector<KeyedIndex> edges_, scratch_;  // key: bits of the cost as float; index: a corner
+  std::vector<std::uint8_t> taken_;          // per vertex
+  std::vector<Vec3> ring_sum_;               // per vertex: of its real neighbours
+  std::vector<std::uint32_t> ring_size_;
+  std::vector<Pick> picks_;
+};
+
+}  // namespace vitrine

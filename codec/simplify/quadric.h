@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quadric error metric (Garland and Heckbert 1997): the weighted sum of squared distances to
+// planes.
+#pragma once
+
+#include "codec/core/vec.h"
+
+namespace vitrine {
+
+struct Quadric {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // weight * normal * normal^T
+  double x = 0, y = 0, z = 0;                             // weight * normal * offset
+  double c = 0;                                           // weight * offset^2
+
+  // Planes have unit normals, so the trace is the weight of all planes.
+  double weight() const { return xx + yy + zz; }
+
+  Quadric& operator+=(const Quadric& o) {
+    xx += o.xx, xy += o.xy, xz += o.xz, yy += o.yy, yz += o.yz, zz += o.zz;
+    x += o.x, y += o.y, z += o.z, c += o.c;
+    return *this;
+  }
+
+  // The error at p; rounding may make it slightly negative.
+  double at(const Vec3& p) const {
+    return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) +
+           p.y * (yy * p.y + 2 * (yz * p.z + y)) + p.z * (zz * p.z + 2 * z) + c;
+  }
+};
+
+// The plane through `p` with the unit `normal`.
+inline Quadric plane_quadric(const Vec3& normal, const Vec3& p, double weight) {
+  const double offset = -dot(normal, p);
+  const Vec3 n = normal * weight;
+  return {n.x * normal.x, n.x * normal.y, n.x * normal.z, n.y * normal.y, n.y * normal.z,
+          n.z * normal.z, n.x * offset,   n.y * offset,   n.z * offset,   weight * offset * offset};
+}
+
+}  // namespace vitrine

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stable radix sort of keyed indices.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace vitrine {
+
+struct KeyedIndex {
+  std::uint32_t key;
+  std::uint32_t index;
+};
+
+// Sorts by key; equal keys keep their order. `scratch` is grown as needed.
+inline void radix_sort(std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& scratch) {
+  constexpr int kBits = 11, kPasses = 3;
+  constexpr std::uint32_t kBuckets = 1u << kBits;
+  std::array<std::array<std::uint32_t, kBuckets>, kPasses> start{};
+  for (const KeyedIndex& item : items) {
+    for (int p = 0; p < kPasses; ++p)
+      ++start[p][item.key >> (kBits * p) & (kBuckets - 1)];
+  }
+  scratch.resize(items.size());
+  for (int p = 0; p < kPasses; ++p) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t& s : start[p])
+      sum += std::exchange(s, sum);
+    for (const KeyedIndex& item : items) {
+      scratch[start[p][item.key >> (kBits * p) & (kBuckets - 1)]++] = item;
+    }
+    items.swap(scratch);
+  }
+}
+
+}  // namespace vitrine

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/simplify/simplify.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "codec/progressive/colour.h"
+#include "codec/progressive/placement.h"
+#include "codec/simplify/matching.h"
+#include "codec/simplify/region_tree.h"
+#include "codec/simplify/surface.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::uint32_t kRegularLevels = 3;  // finest levels that also prefer short edges
+constexpr double kLengthWeight = 1e-3;
+constexpr std::uint32_t kMaxRegions = 65'535;
+// A level that removes less than this share of the vertices is the last one: what is left is
+// locked by topology, and each level has its price.
+constexpr std::uint32_t kLeastShare = 50;
+
+Surface make_surface(const LatticeMesh& fine, Connectivity mesh) {
+  Surface s{.mesh = std::move(mesh), .position = fine.positions};
+  s.quadric = surface_quadrics(s.mesh, s.position);
+  s.colour.reserve(fine.colours.size());
+  for (const Colour& c : fine.colours)
+    s.colour.push_back(to_ycocg(c));
+  s.live.resize(s.position.size());
+  std::iota(s.live.begin(), s.live.end(), 0u);
+  return s;
+}
+
+class Simplifier {
+ public:
+  Simplifier(Surface& surface, const Lattice& lattice, const SimplifyOptions& options)
+      : surface_(surface), options_(options), matcher_(surface) {
+    const std::int32_t side = 1 << lattice.bits, margin = side / 4;
+    low_ = {-margin, -margin, -margin};
+    high_ = {side - 1 + margin, side - 1 + margin, side - 1 + margin};
+  }
+
+  // Levels from fine to coarse.
+  std::vector<CollapseLevel> run() {
+    std::vector<CollapseLevel> levels;
+    while (surface_.live.size() > options_.target_vertices + options_.target_vertices / 4) {
+      const std::size_t before = surface_.live.size();
+      CollapseLevel level = collapse_level(rules(static_cast<std::uint32_t>(levels.size())));
+      if (level.empty()) break;
+      levels.push_back(std::move(level));
+      report();
+      if ((before - surface_.live.size()) * kLeastShare < before) break;
+    }
+    return levels;
+  }
+
+  std::uint32_t levels_by_region() const { return levels_by_region_; }
+
+ private:
+  LevelRules rules(std::uint32_t from_finest) {
+    const std::uint64_t few = std::uint64_t{options_.regions} * options_.vertices_per_region;
+    const bool by_region = options_.regions > 1 && surface_.live.size() > few;
+    if (by_region) ++levels_by_region_;
+    const auto live = static_cast<std::uint32_t>(surface_.live.size());
+    return {.placement = options_.placement,
+            .parity = static_cast<std::int32_t>(from_finest & 1),
+            .by_region = by_region,
+            .length_weight = from_finest < kRegularLevels ? kLengthWeight : 0,
+            .most = live - options_.target_vertices,
+            .low = low_,
+            .high = high_};
+  }
+
+  CollapseLevel collapse_level(const LevelRules& rules) {
+    CollapseLevel level;
+    const std::vector<Pick>& picks = matcher_.match(rules);
+    level.reserve(picks.size());
+    // The collapses before may have changed the surroundings since the match.
+    for (const Pick& pick : picks) {
+      const EdgeStar edge(surface_.mesh, pick.corner);
+      if (keeps_manifold(surface_.mesh, edge) && keeps_orientation(surface_, edge, pick.target)) {
+        level.push_back(collapse(edge, pick));
+      }
+    }
+    std::erase_if(surface_.live,
+                  [&](VertexId v) { return surface_.mesh.corner_at(v) == kNoCorner; });
+    return level;
+  }
+
+  Collapse collapse(const EdgeStar& edge, const Pick& pick) {
+    const auto [v1, v2] = std::pair(edge.v1, edge.v2);
+    Collapse done{.v1 = v1,
+                  .v2 = v2,
+                  .apex12 = edge.apex12,
+                  .apex21 = edge.apex21,
+                  .p1 = surface_.position[v1],
+                  .p2 = surface_.position[v2],
+                  .c1 = {},
+                  .c2 = {}};
+    surface_.mesh.collapse(pick.corner);
+    surface_.position[v1] = pick.target;
+    surface_.quadric[v1] += surface_.quadric[v2];
+    if (!surface_.colour.empty()) {
+      done.c1 = surface_.colour[v1], done.c2 = surface_.colour[v2];
+      surface_.colour[v1] = merge_colours(done.c1, done.c2);
+    }
+    return done;
+  }
+
+  void report() const {
+    if (!options_.progress) return;
+    options_.progress(1 - static_cast<double>(surface_.live.size()) /
+                              static_cast<double>(surface_.position.size()));
+  }
+
+  Surface& surface_;
+  const SimplifyOptions& options_;
+  Matcher matcher_;
+  Vec3i low_, high_;
+  std::uint32_t levels_by_region_ = 0;
+};
+
+void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out) {
+  out.base.lattice = lattice;
+  out.base_ids = surface.live;
+  std::vector<std::uint32_t> index(surface.position.size());
+  for (std::uint32_t i = 0; i < surface.live.size(); ++i) {
+    const VertexId v = surface.live[i];
+    index[v] = i;
+    out.base.positions.push_back(surface.position[v]);
+    if (!surface.colour.empty()) out.base_colours.push_back(surface.colour[v]);
+  }
+  const Connectivity& mesh = surface.mesh;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.is_dead(f) || !mesh.is_real(f)) continue;
+    out.base.faces.push_back(
+        {index[mesh.vertex(3 * f)], index[mesh.vertex(3 * f + 1)], index[mesh.vertex(3 * f + 2)]});
+  }
+}
+
+}  // namespace
+
+Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options) {
+  if (options.regions == 0 || options.regions > kMaxRegions) {
+    return fail(ErrorCode::kLimit, "regions is " + std::to_string(options.regions) +
+                                       ", choose 1 to " + std::to_string(kMaxRegions));
+  }
+  auto mesh = Connectivity::close(static_cast<std::uint32_t>(fine.positions.size()), fine.faces);
+  if (!mesh) return tl::unexpected(mesh.error());
+
+  Hierarchy out{.placement = options.placement};
+  out.loops = mesh->loop_count();
+  out.regions = options.regions;
+  RegionTree tree = build_region_tree(fine.positions, options.regions);
+  out.planes = std::move(tree.planes);
+  out.region = tree.region;
+
+  Surface surface = make_surface(fine, std::move(*mesh));
+  surface.region = std::move(tree.region);
+  Simplifier simplifier(surface, fine.lattice, options);
+  out.levels = simplifier.run();
+  std::reverse(out.levels.begin(), out.levels.end());
+  out.fork_level =
+      static_cast<std::uint32_t>(out.levels.size()) + 1 - simplifier.levels_by_region();
+  compact_base(surface, fine.lattice, out);
+  return out;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a fine mesh to a base mesh by levels of edge collapses, recorded so that vertex splits undo
+// them exactly (DESIGN section 2, "Levels").
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "codec/core/expected.h"
+#include "codec/mesh/triangle_mesh.h"
+#include "codec/progressive/hierarchy.h"
+
+namespace vitrine {
+
+struct SimplifyOptions {
+  Placement placement = Placement::kMidpoint;
+  std::uint32_t target_vertices = 300;        // of the base mesh, about
+  std::uint32_t regions = 1;                  // leaves of the region tree, 1..65535
+  std::uint32_t vertices_per_region = 600;    // collapses stay inside regions down to this mean
+  std::function<void(double)> progress = {};  // fraction done, 0..1; called once a level
+};
+
+// Fails (kBadInput) where Connectivity::close refuses the faces, (kLimit) where `regions` is out
+// of range. The base stays larger than asked where no legal collapse is left (high genus, many
+// components). v~ lies within a quarter of the lattice's side of the lattice; with the midpoint
+// placement within it. The same input gives the same hierarchy on every machine.
+Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options);
+
+}  // namespace vitrine

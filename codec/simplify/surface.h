@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mesh while it is being simplified: connectivity and side arrays, indexed by fine vertex ids.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/mesh/connectivity.h"
+#include "codec/mesh/triangle_mesh.h"
+#include "codec/simplify/quadric.h"
+
+namespace vitrine {
+
+struct Surface {
+  Connectivity mesh;
+  std::vector<Vec3i> position;
+  std::vector<Vec3i> colour;  // YCoCg-R; empty where the mesh has none
+  std::vector<Quadric> quadric;
+  std::vector<std::uint16_t> region;
+  std::vector<VertexId> live;  // ascending
+
+  Vec3 point(VertexId v) const { return to_vec3(position[v]); }
+};
+
+// One quadric per vertex: the planes of its faces weighted by area, and at the boundary planes
+// through the border edges, at right angles to the face, so that rims do not erode.
+std::vector<Quadric> surface_quadrics(const Connectivity& mesh, const std::vector<Vec3i>& position);
+
+}  // namespace vitrine
