@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/config/options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <limits>
+
+namespace vitrine {
+namespace {
+
+Expected<std::uint64_t> parse_number(std::string_view text, std::uint64_t min, std::uint64_t max) {
+  std::uint64_t value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc{} || end != text.data() + text.size() || value < min || value > max) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is not a whole number from {} to {}", text, min, max));
+  }
+  return value;
+}
+
+Expected<Endpoint> parse_endpoint(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos || colon == 0) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is not HOST:PORT, for example 127.0.0.1:8080", text));
+  }
+  std::string_view host = text.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  if (host == "localhost") host = "127.0.0.1";
+  const auto port = parse_number(text.substr(colon + 1), 0, 65535);
+  if (!port) return Unexpected(port.error());
+  return Endpoint{std::string(host), static_cast<std::uint16_t>(*port)};
+}
+
+template <auto Member>
+Expected<void> endpoint(Settings& settings, std::string_view text) {
+  auto value = parse_endpoint(text);
+  if (!value) return Unexpected(value.error());
+  settings.*Member = std::move(*value);
+  return {};
+}
+
+template <auto Member>
+Expected<void> path(Settings& settings, std::string_view text) {
+  settings.*Member = std::filesystem::path(text);
+  return {};
+}
+
+template <auto Member, std::uint64_t Min, std::uint64_t Max>
+Expected<void> number(Settings& settings, std::string_view text) {
+  const auto value = parse_number(text, Min, Max);
+  if (!value) return Unexpected(value.error());
+  using Target = std::remove_reference_t<decltype(settings.*Member)>;
+  settings.*Member = static_cast<Target>(*value);
+  return {};
+}
+
+using S = Settings;
+using enum OptionType;
+
+constexpr std::array kOptions{
+    Option{"listen", kEndpoint, "127.0.0.1:8080",
+           "Where visitors connect. Port 0 takes any free port.", false, endpoint<&S::listen>},
+    Option{"data", kPath, "./data", "The folder of this installation: objects and catalogue.",
+           false, path<&S::data>},
+    Option{"port-file", kPath, "", "A file to write the port of 'listen' to once it is bound.",
+           false, path<&S::port_file>},
+    Option{"admin-listen", kEndpoint, "127.0.0.1:0",
+           "Where /livez, /readyz and /metrics are. Keep it off public networks.", false,
+           endpoint<&S::admin_listen>},
+    Option{"admin-port-file", kPath, "",
+           "A file to write the port of 'admin-listen' to once it is bound.", false,
+           path<&S::admin_port_file>},
+    Option{"access-log", kPath, "-", "One line per request. '-' is standard error; empty is none.",
+           false, path<&S::access_log>},
+    Option{"threads", kCount, "0", "Threads that serve connections. 0 is one per core.", false,
+           number<&S::threads, 0, 1024>},
+    Option{"max-connections", kCount, "20000", "Connections beyond this number are closed at once.",
+           false, number<&S::max_connections, 1, 1'000'000>},
+    Option{"idle-timeout", kSeconds, "30",
+           "How long a connection may take for a request's header, or to accept more bytes.", false,
+           number<&S::idle_timeout, 1, 3600>},
+    Option{"stop-timeout", kSeconds, "20",
+           "After SIGTERM, how long transfers may take to finish before they are cut.", false,
+           number<&S::stop_timeout, 0, 3600>},
+    Option{"export-cache", kBytes, "268435456", "Memory for exported files that are kept ready.",
+           false, number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>},
+};
+
+}  // namespace
+
+std::span<const Option> options() {
+  return kOptions;
+}
+
+const Option* find_option(std::string_view key) {
+  const auto found = std::ranges::find(kOptions, key, &Option::key);
+  return found == kOptions.end() ? nullptr : &*found;
+}
+
+std::string environment_name(const Option& option) {
+  std::string name = "VITRINE_";
+  for (const char c : option.key) {
+    name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+std::string_view type_name(OptionType type) {
+  switch (type) {
+    case kEndpoint:
+      return "HOST:PORT";
+    case kPath:
+      return "PATH";
+    case kCount:
+      return "N";
+    case kSeconds:
+      return "SECONDS";
+    case kBytes:
+      return "BYTES";
+  }
+  return "";
+}
+
+}  // namespace vitrine

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the daemon can be told, in the types that the code uses. The defaults are in the table of
+// options.h alone.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace vitrine {
+
+struct Endpoint {
+  std::string host;        // a numeric address
+  std::uint16_t port = 0;  // 0: any free port
+
+  bool operator==(const Endpoint&) const = default;
+};
+
+struct Settings {
+  Endpoint listen;
+  Endpoint admin_listen;
+  std::filesystem::path data;
+  std::filesystem::path port_file;        // empty: none is written
+  std::filesystem::path admin_port_file;  // empty: none is written
+  std::filesystem::path access_log;       // "-": standard error; empty: none
+  std::uint32_t threads = 0;              // 0: one per core
+  std::uint32_t max_connections = 0;
+  std::chrono::seconds idle_timeout{};  // for a whole request header, and for each write to advance
+  std::chrono::seconds stop_timeout{};  // from SIGTERM to the end
+  std::uint64_t export_cache_bytes = 0;
+};
+
+}  // namespace vitrine

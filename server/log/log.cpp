@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/log/log.h"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+namespace vitrine {
+namespace {
+
+using Line = fmt::memory_buffer;
+
+bool is_plain(char c) {
+  return c > ' ' && c < 0x7f && c != '"' && c != '=' && c != '\\';
+}
+
+template <class Out>
+void append_value(Out out, std::string_view value) {
+  if (!value.empty() && std::ranges::all_of(value, is_plain)) {
+    fmt::format_to(out, "{}", value);
+    return;
+  }
+  fmt::format_to(out, "\"");
+  for (const char c : value) {
+    if (c == '"' || c == '\\') {
+      fmt::format_to(out, "\\{}", c);
+    } else if (c >= ' ' && c < 0x7f) {
+      fmt::format_to(out, "{}", c);
+    } else {
+      fmt::format_to(out, "\\x{:02x}", static_cast<unsigned char>(c));
+    }
+  }
+  fmt::format_to(out, "\"");
+}
+
+void append(Line& line, std::string_view key, std::string_view value) {
+  fmt::format_to(std::back_inserter(line), " {}=", key);
+  append_value(std::back_inserter(line), value);
+}
+
+void append_time(Line& line) {
+  const auto now =
+      std::chrono::time_point_cast<std::chrono::milliseconds>(std::chrono::system_clock::now());
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
+  fmt::format_to(std::back_inserter(line), "time={:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                 fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)),
+                 (now - seconds).count());
+}
+
+std::string_view name(Severity severity) {
+  switch (severity) {
+    case Severity::kInfo:
+      return "info";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kError:
+      return "error";
+  }
+  return "";
+}
+
+void write_line(int descriptor, Line& line) {
+  line.push_back('\n');
+  // A log that cannot be written must not stop the service: the line is lost.
+  [[maybe_unused]] const auto written = ::write(descriptor, line.data(), line.size());
+}
+
+}  // namespace
+
+Expected<Log> Log::open(const std::filesystem::path& file) {
+  if (file.empty()) return Log(-1, false);
+  if (file == "-") return to_stderr();
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0640);
+  if (descriptor < 0) {
+    return fail(ErrorCode::kIo,
+                fmt::format("cannot open the access log {}: {}; choose another with "
+                            "--access-log",
+                            file.string(), std::strerror(errno)));
+  }
+  return Log(descriptor, true);
+}
+
+Log Log::to_stderr() {
+  return Log(STDERR_FILENO, false);
+}
+
+Log::Log(Log&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), owned_(other.owned_) {}
+
+Log& Log::operator=(Log&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(owned_, other.owned_);
+  return *this;
+}
+
+Log::~Log() {
+  if (owned_ && descriptor_ >= 0) ::close(descriptor_);
+}
+
+void Log::access(const AccessRecord& record) const {
+  if (descriptor_ < 0) return;
+  Line line;
+  append_time(line);
+  append(line, "event", "access");
+  append(line, "id", record.request_id);
+  append(line, "remote", record.remote);
+  append(line, "method", record.method);
+  append(line, "route", record.route);
+  append(line, "target", record.target);
+  fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={:.6f}", record.status,
+                 record.bytes, record.seconds);
+  write_line(descriptor_, line);
+}
+
+void Log::event(Severity severity, std::string_view message) const {
+  if (descriptor_ < 0) return;
+  Line line;
+  append_time(line);
+  append(line, "event", name(severity));
+  append(line, "message", message);
+  write_line(descriptor_, line);
+}
+
+std::string logfmt_value(std::string_view value) {
+  std::string text;
+  append_value(std::back_inserter(text), value);
+  return text;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structured log lines (logfmt: key=value, values quoted where needed), each written whole.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "codec/core/expected.h"
+
+namespace vitrine {
+
+// One answered request. The strings are borrowed for the call.
+struct AccessRecord {
+  std::string_view request_id;
+  std::string_view remote;  // address of the peer
+  std::string_view method;
+  std::string_view route;   // the route's template, "-" where none matched
+  std::string_view target;  // as sent: hostile text
+  unsigned status = 0;
+  std::uint64_t bytes = 0;  // of the body, as sent
+  double seconds = 0;
+};
+
+enum class Severity { kInfo, kWarning, kError };
+
+// Thread-safe: a line is one write(2) to a descriptor opened for appending, so that lines of
+// several threads and processes do not mix.
+class Log {
+ public:
+  // "-" is standard error; an empty path drops everything. Fails (kIo) where the file is refused.
+  static Expected<Log> open(const std::filesystem::path& file);
+  static Log to_stderr();
+  Log(Log&& other) noexcept;
+  Log& operator=(Log&& other) noexcept;
+  ~Log();
+
+  void access(const AccessRecord& record) const;
+  void event(Severity severity, std::string_view message) const;
+
+ private:
+  explicit Log(int descriptor, bool owned) : descriptor_(descriptor), owned_(owned) {}
+
+  int descriptor_;  // -1: none
+  bool owned_;
+};
+
+// `value` as logfmt: bare where it holds only unambiguous printable ASCII, else quoted with \"
+// and \\ escaped and every control or non-ASCII byte as \xNN, so that no request can forge a line.
+std::string logfmt_value(std::string_view value);
+
+}  // namespace vitrine

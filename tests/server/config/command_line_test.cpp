@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/config/command_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "server/config/options.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::HasSubstr;
+using Words = std::vector<std::string_view>;
+
+Expected<CommandLine> parse(const Words& arguments, const Words& environment = {},
+                            const std::string& file = "") {
+  return parse_command_line(arguments, environment,
+                            [&](const std::string&) -> Expected<std::string> { return file; });
+}
+
+TEST(CommandLine, StartsFromTheDefaultsOfTheTable) {
+  const auto line = parse({});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->settings.listen, (Endpoint{"127.0.0.1", 8080}));
+  EXPECT_EQ(line->settings.data, "./data");
+  EXPECT_EQ(line->settings.stop_timeout, std::chrono::seconds(20));
+}
+
+TEST(CommandLine, TheFileWinsOverDefaultsTheEnvironmentOverTheFileAndFlagsOverAll) {
+  const std::string file = "# a comment\nlisten = 127.0.0.1:1\n\nthreads=3\ndata = \"in file\"\r\n";
+  const Words environment = {"VITRINE_LISTEN=127.0.0.1:2", "VITRINE_THREADS=4", "HOME=/root"};
+  const auto line =
+      parse({"--config", "vitrine.conf", "--listen", "127.0.0.1:3"}, environment, file);
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->settings.listen.port, 3);
+  EXPECT_EQ(line->settings.threads, 4u);
+  EXPECT_EQ(line->settings.data, "in file");
+}
+
+TEST(CommandLine, AnUnknownFlagIsAnErrorWithASuggestion) {
+  const auto line = parse({"--lisen", "127.0.0.1:1"});
+  ASSERT_FALSE(line);
+  EXPECT_THAT(line.error().message, HasSubstr("'--lisen'; did you mean '--listen'?"));
+}
+
+TEST(CommandLine, AnUnknownKeyInTheFileNamesTheFileAndTheLine) {
+  const auto line = parse({"--config", "v.conf"}, {}, "data = x\n\ntreads = 4\n");
+  ASSERT_FALSE(line);
+  EXPECT_THAT(line.error().message,
+              HasSubstr("v.conf:3: unknown key 'treads'; did you mean 'threads'?"));
+}
+
+TEST(CommandLine, AnUnknownEnvironmentVariableIsAnErrorWithASuggestion) {
+  const auto line = parse({}, {"VITRINE_LISTNE=127.0.0.1:1"});
+  ASSERT_FALSE(line);
+  EXPECT_THAT(line.error().message, HasSubstr("did you mean 'VITRINE_LISTEN'?"));
+}
+
+TEST(CommandLine, VariablesThatKubernetesSetsForAServiceOfThisNameAreIgnored) {
+  EXPECT_TRUE(parse({}, {"VITRINE_PORT=tcp://10.0.0.1:80", "VITRINE_SERVICE_HOST=10.0.0.1",
+                         "VITRINE_PORT_80_TCP_ADDR=10.0.0.1"}));
+  EXPECT_FALSE(parse({}, {"VITRINE_PORT=8080"}));
+}
+
+TEST(CommandLine, RefusesValuesOutOfRangeAndSaysWhereTheyCameFrom) {
+  const auto port = parse({"--listen", "127.0.0.1:65536"});
+  ASSERT_FALSE(port);
+  EXPECT_THAT(port.error().message, HasSubstr("--listen: listen: '65536'"));
+  EXPECT_FALSE(parse({"--listen", "8080"}));
+  EXPECT_FALSE(parse({"--threads", "-1"}));
+  EXPECT_FALSE(parse({"--stop-timeout", "1s"}));
+  EXPECT_FALSE(parse({}, {"VITRINE_MAX_CONNECTIONS=0"}));
+}
+
+TEST(CommandLine, AFlagWithoutItsValueIsAnError) {
+  const auto line = parse({"--data"});
+  ASSERT_FALSE(line);
+  EXPECT_THAT(line.error().message, HasSubstr("--data needs a value"));
+}
+
+TEST(CommandLine, AValueMayFollowAnEqualsSign) {
+  const auto line = parse({"--data=here=there", "--listen=[::1]:90"});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->settings.data, "here=there");
+  EXPECT_EQ(line->settings.listen, (Endpoint{"::1", 90}));
+}
+
+TEST(CommandLine, ALineThatIsNoAssignmentIsAnError) {
+  EXPECT_FALSE(parse({"--config", "v.conf"}, {}, "[server]\n"));
+}
+
+TEST(CommandLine, AMissingConfigurationFileIsTheReadersError) {
+  const std::vector<std::string_view> arguments = {"--config", "none"};
+  const auto line =
+      parse_command_line(arguments, {}, [](const std::string& path) -> Expected<std::string> {
+        return fail(ErrorCode::kIo, path + ": no such file");
+      });
+  ASSERT_FALSE(line);
+  EXPECT_EQ(line.error().message, "none: no such file");
+}
+
+TEST(CommandLine, ThePrintedConfigurationGivesTheSameSettingsWhenRead) {
+  const auto line = parse({"--threads", "7", "--data", "a b"});
+  ASSERT_TRUE(line);
+  const auto again = parse({"--config", "x"}, {}, print_config(*line));
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->settings.threads, 7u);
+  EXPECT_EQ(again->settings.data, "a b");
+}
+
+TEST(CommandLine, TheReferenceNamesEveryOption) {
+  const std::string text = reference();
+  for (const Option& option : options()) {
+    EXPECT_THAT(text, HasSubstr("--" + std::string(option.key)));
+    EXPECT_THAT(text, HasSubstr(std::string(option.doc)));
+  }
+}
+
+TEST(CommandLine, KeysAndVariablesAreUnique) {
+  std::set<std::string> names;
+  for (const Option& option : options()) {
+    EXPECT_TRUE(names.insert(environment_name(option)).second) << option.key;
+  }
+}
+
+TEST(CommandLine, KnowsItsActions) {
+  EXPECT_EQ(parse({"--help"})->action, Action::kHelp);
+  EXPECT_EQ(parse({"--version"})->action, Action::kVersion);
+  EXPECT_EQ(parse({"--check-config"})->action, Action::kCheckConfig);
+  EXPECT_EQ(parse({"--print-config"})->action, Action::kPrintConfig);
+  EXPECT_FALSE(parse({"--check-config", "--listen", "nowhere"}));
+}
+
+}  // namespace
+}  // namespace vitrine
