@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+#include "subject.h"
+
+namespace vitrine::bench {
+
+namespace fs = std::filesystem;
+
+Bytes read_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + path.string());
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<Model> read_models(std::size_t max_faces) {
+  const char* folder = std::getenv("VITRINE_MODELS");
+  const std::set<std::string> meshes = {".ply", ".obj", ".stl", ".off", ".glb"};
+  std::vector<Model> models;
+  for (const auto& entry :
+       fs::directory_iterator(folder ? folder : VITRINE_SOURCE_DIR "/tests/models")) {
+    if (!meshes.contains(entry.path().extension().string())) continue;
+    Model model{entry.path().stem().string(), read_file(entry.path()), {}};
+    model.clean = read_clean(model.file);
+    if (model.clean.faces.size() <= max_faces) models.push_back(std::move(model));
+  }
+  if (models.empty()) throw std::runtime_error("no mesh file in the folder VITRINE_MODELS");
+  std::ranges::sort(models, {}, [](const Model& model) { return model.clean.faces.size(); });
+  return models;
+}
+
+}  // namespace vitrine::bench

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "peers.h"
+
+#include <draco/attributes/point_attribute.h>
+#include <draco/compression/decode.h>
+#include <draco/compression/encode.h>
+#include <draco/mesh/mesh.h>
+#include <meshoptimizer.h>
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+
+namespace vitrine::bench {
+namespace {
+
+template <class T>
+void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType data,
+                   const std::vector<std::array<T, 3>>& values) {
+  draco::GeometryAttribute attribute;
+  attribute.Init(type, nullptr, 3, data, data == draco::DT_UINT8, 3 * sizeof(T), 0);
+  const auto count = static_cast<std::uint32_t>(values.size());
+  const int id = mesh.AddAttribute(attribute, true, count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), values[i].data());
+  }
+}
+
+std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& source) {
+  auto mesh = std::make_unique<draco::Mesh>();
+  mesh->set_num_points(static_cast<std::uint32_t>(source.positions.size()));
+  mesh->SetNumFaces(source.faces.size());
+  for (std::uint32_t f = 0; f < source.faces.size(); ++f) {
+    const Triangle& face = source.faces[f];
+    mesh->SetFace(draco::FaceIndex(f), {draco::PointIndex(face[0]), draco::PointIndex(face[1]),
+                                        draco::PointIndex(face[2])});
+  }
+  std::vector<std::array<float, 3>> positions;
+  for (const Vec3& p : source.positions) {
+    positions.push_back(
+        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+  add_attribute(*mesh, draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, positions);
+  if (!source.colours.empty()) {
+    add_attribute(*mesh, draco::GeometryAttribute::COLOR, draco::DT_UINT8, source.colours);
+  }
+  // As draco_encoder's readers do.
+  mesh->DeduplicateAttributeValues();
+  mesh->DeduplicatePointIds();
+  return mesh;
+}
+
+}  // namespace
+
+Bytes draco_encode(const TriangleMesh& source, int bits) {
+  const auto mesh = to_draco(source);
+  draco::Encoder encoder;
+  encoder.SetSpeedOptions(0, 0);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
+  draco::EncoderBuffer buffer;
+  const draco::Status status = encoder.EncodeMeshToBuffer(*mesh, &buffer);
+  if (!status.ok()) throw std::runtime_error("Draco: " + status.error_msg_string());
+  return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+std::uint32_t draco_decode(std::span<const std::uint8_t> bytes) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  draco::Decoder decoder;
+  auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+  if (!mesh.ok()) throw std::runtime_error("Draco: " + mesh.status().error_msg_string());
+  return static_cast<std::uint32_t>(mesh.value()->num_faces());
+}
+
+MeshoptInput meshopt_input(const TriangleMesh& mesh) {
+  MeshoptInput input;
+  for (const Vec3& p : mesh.positions) {
+    for (const double x : {p.x, p.y, p.z})
+      input.positions.push_back(static_cast<float>(x));
+  }
+  for (const Triangle& face : mesh.faces) {
+    input.indices.insert(input.indices.end(), {face[0], face[1], face[2]});
+  }
+  return input;
+}
+
+std::size_t meshopt_simplify_to_one_percent(const MeshoptInput& mesh) {
+  std::vector<std::uint32_t> out(mesh.indices.size());
+  const std::size_t target = mesh.indices.size() / 300 * 3;
+  return meshopt_simplify(out.data(), mesh.indices.data(), mesh.indices.size(),
+                          mesh.positions.data(), mesh.positions.size() / 3, 3 * sizeof(float),
+                          target, 1.0f) /
+         3;
+}
+
+}  // namespace vitrine::bench

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The libraries that the codec is measured against, each behind one function.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine::bench {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// What `draco_encoder -qp BITS -cl 10` writes for the mesh; colours travel where the mesh has any.
+Bytes draco_encode(const TriangleMesh& mesh, int bits);
+
+// Decodes in process; the number of faces.
+std::uint32_t draco_decode(std::span<const std::uint8_t> bytes);
+
+// Flat arrays as meshoptimizer takes them, so that its time holds the simplification alone.
+struct MeshoptInput {
+  std::vector<float> positions;
+  std::vector<std::uint32_t> indices;
+};
+MeshoptInput meshopt_input(const TriangleMesh& mesh);
+
+// One meshopt_simplify to one per cent of the triangles; the number that is left.
+std::size_t meshopt_simplify_to_one_percent(const MeshoptInput& mesh);
+
+}  // namespace vitrine::bench

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The codec under measurement, each stage behind one function. Faults throw: a benchmark of
+// something broken has no figures.
+#pragma once
+
+#include "peers.h"
+
+namespace vitrine::bench {
+
+// Reads and cleans a mesh file: what the peers are given.
+TriangleMesh read_clean(std::span<const std::uint8_t> file);
+
+// The `.pmesh` of a mesh file, one thread.
+Bytes build(std::span<const std::uint8_t> file, int bits);
+
+// Decodes every chunk; the number of faces at full resolution.
+std::uint32_t decode(std::span<const std::uint8_t> pmesh);
+
+}  // namespace vitrine::bench
