@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points spread uniformly by area over a mesh, the same on every machine.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/core/vec.h"
+#include "codec/mesh/closest_point.h"
+
+namespace vitrine {
+
+// Stratified: sample i lies in the i-th of `count` equal shares of the area, in the order of
+// `triangles`. Empty where there is no triangle; on the first corners where there is no area.
+std::vector<Vec3> sample_surface(std::span<const Corners> triangles, std::size_t count,
+                                 std::uint64_t seed);
+
+}  // namespace vitrine

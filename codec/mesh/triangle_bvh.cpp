@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/mesh/triangle_bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace vitrine {
+namespace {
+
+float round_down(double v) {
+  const float f = static_cast<float>(v);
+  return f > v ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+
+float round_up(double v) {
+  return -round_down(-v);
+}
+
+double outside(double v, float low, float high) {
+  return std::max({static_cast<double>(low) - v, 0.0, v - static_cast<double>(high)});
+}
+
+double squared_distance(const TriangleBvh::Node& n, const Vec3& p) {
+  const double x = outside(p.x, n.low[0], n.high[0]), y = outside(p.y, n.low[1], n.high[1]),
+               z = outside(p.z, n.low[2], n.high[2]);
+  return x * x + y * y + z * z;
+}
+
+struct Centre {
+  std::array<float, 3> at;
+  std::uint32_t face;
+};
+
+// The axis along which the centres spread most.
+std::size_t widest_axis(std::span<const Centre> centres) {
+  std::array<float, 3> low = centres[0].at, high = low;
+  for (const Centre& c : centres) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], c.at[k]), high[k] = std::max(high[k], c.at[k]);
+    }
+  }
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+  }
+  return axis;
+}
+
+// Orders centres so that halving a range recursively halves it in space.
+void order(std::span<Centre> centres) {
+  if (centres.size() <= TriangleBvh::kLeafSize) return;
+  const std::size_t axis = widest_axis(centres), half = centres.size() / 2;
+  std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(half),
+                   centres.end(), [axis](const Centre& a, const Centre& b) {
+                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.face < b.face;
+                   });
+  order(centres.first(half));
+  order(centres.subspan(half));
+}
+
+std::vector<Centre> centres_of(const TriangleMesh& mesh) {
+  std::vector<Centre> centres;
+  centres.reserve(mesh.faces.size());
+  for (const Triangle& f : mesh.faces) {
+    const Vec3 sum = mesh.positions[f[0]] + mesh.positions[f[1]] + mesh.positions[f[2]];
+    centres.push_back(
+        {{static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)},
+         static_cast<std::uint32_t>(centres.size())});
+  }
+  return centres;
+}
+
+}  // namespace
+
+TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
+  if (mesh.faces.empty()) return;
+  std::vector<Centre> centres = centres_of(mesh);
+  order(centres);
+  triangles_.reserve(centres.size());
+  face_.reserve(centres.size());
+  for (const Centre& c : centres) {
+    const Triangle& f = mesh.faces[c.face];
+    triangles_.push_back({mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]]});
+    face_.push_back(c.face);
+  }
+  nodes_.reserve(centres.size());
+  nodes_.resize(1);
+  build(0, 0, static_cast<std::uint32_t>(centres.size()));
+}
+
+// Fills `node` for the triangles [first, first + count), children first: boxes come from below.
+void TriangleBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+  if (count <= kLeafSize) {
+    nodes_[node].first = first, nodes_[node].count = count;
+    bound_box(nodes_[node], first, count);
+    return;
+  }
+  const auto left = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.resize(left + 2);
+  build(left, first, count / 2);
+  build(left + 1, first + count / 2, count - count / 2);
+  Node& n = nodes_[node];
+  n.first = left, n.count = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    n.low[k] = std::min(nodes_[left].low[k], nodes_[left + 1].low[k]);
+    n.high[k] = std::max(nodes_[left].high[k], nodes_[left + 1].high[k]);
+  }
+}
+
+void TriangleBvh::bound_box(Node& node, std::uint32_t first, std::uint32_t count) const {
+  Vec3 low = triangles_[first].a, high = low;
+  for (const Corners& t : triangles().subspan(first, count)) {
+    for (const Vec3& p : {t.a, t.b, t.c}) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  node.low = {round_down(low.x), round_down(low.y), round_down(low.z)};
+  node.high = {round_up(high.x), round_up(high.y), round_up(high.z)};
+}
+
+SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
+  struct Entry {
+    std::uint32_t node;
+    double squared;
+  };
+  std::array<Entry, 64> stack;  // one entry per level of a balanced tree
+  std::size_t size = 0;
+  if (!empty()) stack[size++] = {0, squared_distance(nodes_[0], p)};
+  while (size > 0) {
+    const Entry top = stack[--size];
+    if (top.squared >= best.squared) continue;
+    const Node& node = nodes_[top.node];
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const double squared = squared_distance(triangles_[i], p);
+      if (squared < best.squared) best = {squared, i};
+    }
+    if (node.count > 0) continue;
+    Entry near{node.first, squared_distance(nodes_[node.first], p)};
+    Entry far{node.first + 1, squared_distance(nodes_[node.first + 1], p)};
+    if (far.squared < near.squared) std::swap(near, far);
+    if (far.squared < best.squared) stack[size++] = far;
+    if (near.squared < best.squared) stack[size++] = near;
+  }
+  return best;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closest-point queries on a triangle mesh: a bounding volume hierarchy in one flat array.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "codec/core/vec.h"
+#include "codec/mesh/closest_point.h"
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine {
+
+struct SurfacePoint {
+  double squared = std::numeric_limits<double>::infinity();  // distance to the query point
+  std::uint32_t triangle = 0xFFFF'FFFFu;                     // index into TriangleBvh::triangles()
+};
+
+class TriangleBvh {
+ public:
+  struct Node {
+    std::array<float, 3> low, high;  // rounded outwards
+    std::uint32_t first;             // a leaf's first triangle, or the left child (right is next)
+    std::uint32_t count;             // of triangles in a leaf; 0 in an inner node
+  };
+  static constexpr std::uint32_t kLeafSize = 4;
+
+  // Face indices are in range, positions finite.
+  explicit TriangleBvh(const TriangleMesh& mesh);
+
+  bool empty() const { return triangles_.empty(); }
+  std::span<const Node> nodes() const { return nodes_; }                        // [0] is the root
+  std::span<const Corners> triangles() const { return triangles_; }             // in leaf order
+  std::uint32_t face(std::uint32_t triangle) const { return face_[triangle]; }  // in the mesh
+
+  // The closest triangle, or `bound` as given where none is closer than it. A good bound, such as
+  // the distance to a triangle near by, makes the query several times faster.
+  SurfacePoint closest(const Vec3& p, SurfacePoint bound = {}) const;
+
+ private:
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  void bound_box(Node& node, std::uint32_t first, std::uint32_t count) const;
+
+  std::vector<Node> nodes_;
+  std::vector<Corners> triangles_;
+  std::vector<std::uint32_t> face_;
+};
+
+}  // namespace vitrine
