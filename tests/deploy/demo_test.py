@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The demo as a newcomer meets it: it serves the page that it names, and leaves when told."""
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import unittest
+import urllib.request
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DEMO = ROOT / "deploy" / "demo"
+
+
+class Demo(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def start(self, listen, *arguments):
+        """The running demo, all it said up to the URL, and the URL."""
+        environment = os.environ | {"VITRINE_LISTEN": listen, "VITRINE_DATA": self.folder + "/data"}
+        demo = subprocess.Popen([DEMO, *arguments], env=environment, text=True, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.addCleanup(demo.stdout.close)
+        self.addCleanup(demo.kill)
+        said = ""
+        for line in demo.stdout:
+            said += line
+            if url := re.search(r"http://\S+/models/\S+", line):
+                return demo, said, url.group()
+        self.fail("the demo ended without a URL:\n" + said)
+
+    def stop(self, demo):
+        demo.send_signal(signal.SIGINT)
+        demo.stdout.read()
+        self.assertEqual(demo.wait(timeout=60), 0)
+
+    def page(self, url):
+        with urllib.request.urlopen(url, timeout=60) as answer:
+            self.assertEqual(answer.status, 200)
+            return answer.read().decode()
+
+    def refused(self, *arguments):
+        done = subprocess.run([DEMO, *arguments], capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        return done.stderr
+
+    def test_serves_the_page_it_names_and_stops_cleanly_twice(self):
+        demo, _, url = self.start("127.0.0.1:0")
+        self.assertIn("<progressive-mesh", self.page(url))
+        self.stop(demo)
+        again, _, second = self.start("127.0.0.1:0")
+        self.assertEqual(second.rpartition("/")[2], url.rpartition("/")[2], "the model was published anew")
+        self.stop(again)
+
+    def test_takes_another_port_and_says_so_where_one_is_in_use(self):
+        with socket.create_server(("127.0.0.1", 0)) as holder:
+            port = holder.getsockname()[1]
+            demo, said, url = self.start(f"127.0.0.1:{port}")
+            self.assertIn(f"Port {port} is in use", said)
+            self.assertNotIn(f":{port}/", url)
+            self.page(url)
+            self.stop(demo)
+
+    def test_a_mesh_of_ones_own_is_shown(self):
+        mesh = Path(self.folder) / "own mesh.obj"
+        mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+        demo, _, url = self.start("127.0.0.1:0", str(mesh))
+        self.page(url)
+        self.stop(demo)
+
+    def test_a_missing_file_and_an_unknown_option_are_refused_in_one_line(self):
+        self.assertIn("cannot read", self.refused("missing.ply"))
+        self.assertIn("unknown option", self.refused("--fast"))
+
+
+if __name__ == "__main__":
+    unittest.main()
