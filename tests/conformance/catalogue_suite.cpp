@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/catalogue_suite.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace vitrine::test {
+namespace {
+
+Sha256 digest(std::uint8_t value) {
+  Sha256 sha256{};
+  sha256.fill(value);
+  return sha256;
+}
+
+ModelId id_of(std::uint8_t value) {
+  std::array<std::uint8_t, 16> bytes{};
+  bytes[0] = value;
+  return ModelId::from_bytes(bytes);
+}
+
+ModelRecord model(std::uint8_t value, const std::string& title = "A skull",
+                  ModelState state = ModelState::kPublished) {
+  return {.id = id_of(value),
+          .state = state,
+          .created = 1'700'000'000'000 + value,
+          .title = title,
+          .creator = "Anna Müller",
+          .rights = "free",
+          .licence = "CC0-1.0",
+          .unit = "mm",
+          .file = digest(value),
+          .file_bytes = 1'000,
+          .head_bytes = 100,
+          .faces = 20,
+          .vertices = 12};
+}
+
+class CatalogueSuite : public testing::Test {
+ protected:
+  std::unique_ptr<CatalogueBackend> backend_ = make_catalogue_backend();
+  std::unique_ptr<Catalogue> catalogue_ = backend_->connect();
+
+  void add(const ModelRecord& record, std::vector<ChunkPlace> chunks = {}) {
+    const auto added = catalogue_->add(record, chunks);
+    ASSERT_TRUE(added) << added.error().message;
+  }
+  std::vector<ModelId> search(const ModelQuery& query) {
+    std::vector<ModelId> ids;
+    const ModelPage page = catalogue_->search(query).value();
+    for (const auto& found : page.models)
+      ids.push_back(found.id);
+    return ids;
+  }
+};
+
+TEST_F(CatalogueSuite, a_model_is_found_as_it_was_added) {
+  const ModelRecord added = model(1, "L'Écorché \"no. 3\"; DROP TABLE model");
+  add(added);
+  const auto found = catalogue_->find(added.id).value();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->state, added.state);
+  EXPECT_EQ(found->created, added.created);
+  EXPECT_EQ(found->title, added.title);
+  EXPECT_EQ(found->creator, added.creator);
+  EXPECT_EQ(found->rights, added.rights);
+  EXPECT_EQ(found->licence, added.licence);
+  EXPECT_EQ(found->unit, added.unit);
+  EXPECT_EQ(found->file, added.file);
+  EXPECT_EQ(found->file_bytes, added.file_bytes);
+  EXPECT_EQ(found->head_bytes, added.head_bytes);
+  EXPECT_EQ(found->faces, added.faces);
+  EXPECT_EQ(found->vertices, added.vertices);
+}
+
+TEST_F(CatalogueSuite, an_absent_model_is_not_an_error) {
+  const auto found = catalogue_->find(id_of(1));
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(*found);
+}
+
+TEST_F(CatalogueSuite, an_id_is_taken_once_and_the_refused_model_leaves_no_chunk) {
+  add(model(1));
+  const std::vector<ChunkPlace> chunks{{digest(9), 0, 10}};
+  const auto again = catalogue_->add(model(1, "another"), chunks);
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, ErrorCode::kState);
+  EXPECT_EQ(catalogue_->find(id_of(1)).value()->title, "A skull");
+  EXPECT_FALSE(catalogue_->find_chunk(digest(9)).value());
+}
+
+TEST_F(CatalogueSuite, a_search_lists_the_newest_first_and_no_drafts) {
+  add(model(1));
+  add(model(3));
+  add(model(2, "hidden", ModelState::kDraft));
+  EXPECT_EQ(search({}), (std::vector{id_of(3), id_of(1)}));
+  EXPECT_EQ(search({.drafts = true}), (std::vector{id_of(3), id_of(2), id_of(1)}));
+}
+
+TEST_F(CatalogueSuite, every_word_must_occur_in_title_or_creator) {
+  add(model(1, "Head of Demosthenes"));
+  add(model(2, "Head of a girl"));
+  EXPECT_EQ(search({.text = "head demos"}), std::vector{id_of(1)});
+  EXPECT_EQ(search({.text = " anna  GIRL "}), std::vector{id_of(2)});
+  EXPECT_EQ(search({.text = "hand"}), std::vector<ModelId>{});
+}
+
+TEST_F(CatalogueSuite, wildcards_in_a_search_mean_themselves) {
+  add(model(1, "100 % marble"));
+  add(model(2, "100 parts of marble"));
+  EXPECT_EQ(search({.text = "%"}), std::vector{id_of(1)});
+  EXPECT_EQ(search({.text = "_"}), std::vector<ModelId>{});
+  EXPECT_EQ(search({.text = "\\"}), std::vector<ModelId>{});
+}
+
+TEST_F(CatalogueSuite, pages_follow_each_other_without_gap_or_repetition) {
+  for (std::uint8_t i = 1; i <= 7; ++i)
+    add(model(i));
+  std::vector<ModelId> seen;
+  ModelQuery query{.limit = 3};
+  do {
+    const ModelPage page = catalogue_->search(query).value();
+    EXPECT_LE(page.models.size(), 3u);
+    for (const auto& m : page.models)
+      seen.push_back(m.id);
+    add(model(static_cast<std::uint8_t>(100 + seen.size())));  // newer models do not shift pages
+    query.after = page.next;
+  } while (query.after);
+  std::vector<ModelId> expected;
+  for (std::uint8_t i = 7; i >= 1; --i)
+    expected.push_back(id_of(i));
+  EXPECT_EQ(seen, expected);
+}
+
+TEST_F(CatalogueSuite, a_last_page_that_is_just_full_names_no_next) {
+  for (std::uint8_t i = 1; i <= 3; ++i)
+    add(model(i));
+  EXPECT_FALSE(catalogue_->search({.limit = 3}).value().next);
+  EXPECT_TRUE(catalogue_->search({.limit = 2}).value().next);
+}
+
+TEST_F(CatalogueSuite, a_page_has_at_least_one_and_at_most_the_stated_number) {
+  for (std::uint8_t i = 0; i < kMaxPage + 2; ++i)
+    add(model(i));
+  EXPECT_EQ(search({.limit = 0}).size(), 1u);
+  EXPECT_EQ(search({.limit = UINT32_MAX}).size(), kMaxPage);
+}
+
+TEST_F(CatalogueSuite, hiding_and_publishing_is_one_step_for_model_and_chunks) {
+  add(model(1, "x", ModelState::kDraft), {{digest(7), 100, 50}});
+  EXPECT_FALSE(catalogue_->find_chunk(digest(7)).value());
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kPublished));
+  EXPECT_EQ(search({}).size(), 1u);
+  const auto location = catalogue_->find_chunk(digest(7)).value();
+  ASSERT_TRUE(location);
+  EXPECT_EQ(location->model, id_of(1));
+  EXPECT_EQ(location->place.offset, 100u);
+  EXPECT_EQ(location->place.length, 50u);
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kDraft));
+  EXPECT_TRUE(search({}).empty());
+  EXPECT_FALSE(catalogue_->find_chunk(digest(7)).value());
+}
+
+TEST_F(CatalogueSuite, the_state_of_an_absent_model_cannot_be_set) {
+  const auto result = catalogue_->set_state(id_of(1), ModelState::kPublished);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kState);
+}
+
+TEST_F(CatalogueSuite, a_chunk_that_two_models_share_is_found_while_one_is_published) {
+  add(model(1), {{digest(7), 100, 50}});
+  add(model(2), {{digest(7), 300, 50}});
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kDraft));
+  const auto location = catalogue_->find_chunk(digest(7)).value();
+  ASSERT_TRUE(location);
+  EXPECT_EQ(location->model, id_of(2));
+  EXPECT_EQ(location->place.offset, 300u);
+}
+
+TEST_F(CatalogueSuite, the_revision_changes_with_own_and_foreign_changes_only) {
+  const auto other = backend_->connect();
+  const auto start = catalogue_->revision().value();
+  EXPECT_FALSE(catalogue_->find(id_of(1)).value());
+  EXPECT_EQ(catalogue_->revision().value(), start);
+  add(model(1));
+  const auto own = catalogue_->revision().value();
+  EXPECT_NE(own, start);
+  ASSERT_TRUE(other->set_state(id_of(1), ModelState::kDraft));
+  EXPECT_NE(catalogue_->revision().value(), own);
+}
+
+TEST_F(CatalogueSuite, several_connections_write_at_once_and_lose_nothing) {
+  constexpr int kWriters = 4, kEach = 10;
+  std::vector<std::thread> writers;
+  for (int w = 0; w < kWriters; ++w) {
+    writers.emplace_back([this, w] {
+      const auto connection = backend_->connect();
+      for (int i = 0; i < kEach; ++i) {
+        EXPECT_TRUE(connection->add(model(static_cast<std::uint8_t>(w * kEach + i)), {}));
+      }
+    });
+  }
+  for (auto& writer : writers)
+    writer.join();
+  EXPECT_EQ(search({.limit = kMaxPage}).size(), static_cast<std::size_t>(kWriters * kEach));
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/object_store_suite.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace vitrine::test {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes some_bytes(std::size_t count, std::uint8_t seed) {
+  Bytes bytes(count);
+  std::uint32_t state = seed;
+  for (auto& byte : bytes)
+    byte = static_cast<std::uint8_t>((state = state * 1664525 + 7) >> 24);
+  return bytes;
+}
+
+class ObjectStoreSuite : public testing::Test {
+ protected:
+  std::unique_ptr<ObjectStoreBackend> backend_ = make_object_store_backend();
+  std::unique_ptr<ObjectStore> store_ = backend_->connect();
+
+  void put(const Bytes& bytes) { ASSERT_TRUE(store_->put(sha256(bytes), bytes)); }
+  std::unique_ptr<Object> open(const Bytes& bytes) { return store_->open(sha256(bytes)).value(); }
+};
+
+TEST_F(ObjectStoreSuite, what_was_put_is_read_back) {
+  const Bytes bytes = some_bytes(100'000, 1);
+  put(bytes);
+  const auto object = open(bytes);
+  ASSERT_TRUE(object);
+  EXPECT_EQ(object->size(), bytes.size());
+  EXPECT_EQ(object->read(0, bytes.size()).value(), bytes);
+}
+
+TEST_F(ObjectStoreSuite, any_range_can_be_read) {
+  const Bytes bytes = some_bytes(5'000, 2);
+  put(bytes);
+  const auto object = open(bytes);
+  ASSERT_TRUE(object);
+  EXPECT_EQ(object->read(1'234, 999).value(), Bytes(bytes.begin() + 1'234, bytes.begin() + 2'233));
+  EXPECT_EQ(object->read(5'000, 0).value(), Bytes{});
+}
+
+TEST_F(ObjectStoreSuite, a_range_beyond_the_end_is_refused) {
+  const Bytes bytes = some_bytes(100, 3);
+  put(bytes);
+  const auto object = open(bytes);
+  ASSERT_TRUE(object);
+  EXPECT_FALSE(object->read(0, 101));
+  EXPECT_FALSE(object->read(101, 0));
+  EXPECT_FALSE(object->read(1, UINT64_MAX));
+}
+
+TEST_F(ObjectStoreSuite, an_empty_object_is_an_object) {
+  put({});
+  const auto object = open({});
+  ASSERT_TRUE(object);
+  EXPECT_EQ(object->size(), 0u);
+}
+
+TEST_F(ObjectStoreSuite, an_absent_object_is_not_an_error) {
+  const auto object = store_->open(sha256(some_bytes(9, 4)));
+  ASSERT_TRUE(object);
+  EXPECT_EQ(*object, nullptr);
+}
+
+TEST_F(ObjectStoreSuite, bytes_under_a_wrong_name_are_refused_and_not_stored) {
+  const Bytes bytes = some_bytes(10, 5), others = some_bytes(10, 6);
+  const auto result = store_->put(sha256(others), bytes);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kBadInput);
+  EXPECT_EQ(open(others), nullptr);
+  EXPECT_EQ(open(bytes), nullptr);
+}
+
+TEST_F(ObjectStoreSuite, putting_again_changes_nothing) {
+  const Bytes bytes = some_bytes(1'000, 7);
+  put(bytes);
+  put(bytes);
+  EXPECT_EQ(open(bytes)->read(0, 1'000).value(), bytes);
+}
+
+TEST_F(ObjectStoreSuite, another_connection_sees_what_was_put) {
+  const Bytes bytes = some_bytes(1'000, 8);
+  put(bytes);
+  const auto object = backend_->connect()->open(sha256(bytes));
+  ASSERT_TRUE(object && *object);
+  EXPECT_EQ((*object)->read(0, 1'000).value(), bytes);
+}
+
+TEST_F(ObjectStoreSuite, several_writers_of_the_same_objects_all_succeed) {
+  std::vector<std::thread> writers;
+  for (int writer = 0; writer < 4; ++writer) {
+    writers.emplace_back([this] {
+      const auto connection = backend_->connect();
+      for (std::uint8_t seed = 0; seed < 8; ++seed) {
+        const Bytes bytes = some_bytes(20'000, seed);
+        EXPECT_TRUE(connection->put(sha256(bytes), bytes));
+      }
+    });
+  }
+  for (auto& writer : writers)
+    writer.join();
+  for (std::uint8_t seed = 0; seed < 8; ++seed) {
+    const Bytes bytes = some_bytes(20'000, seed);
+    const auto object = open(bytes);
+    ASSERT_TRUE(object);
+    EXPECT_EQ(object->read(0, bytes.size()).value(), bytes);
+  }
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/catalogue_suite.h"
+#include "server/catalogue/sqlite_catalogue.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine::test {
+namespace {
+
+class Sqlite final : public CatalogueBackend {
+ public:
+  std::unique_ptr<Catalogue> connect() override {
+    return open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+}  // namespace
+
+std::unique_ptr<CatalogueBackend> make_catalogue_backend() {
+  return std::make_unique<Sqlite>();
+}
+
+}  // namespace vitrine::test

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <fstream>
+
+#include "server/catalogue/sqlite_catalogue.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine {
+namespace {
+
+class Migrations : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "catalogue.sqlite";
+
+  void run(const char* sql) {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(database);
+  }
+};
+
+TEST_F(Migrations, opening_twice_keeps_what_is_there) {
+  ModelRecord model;
+  model.id = ModelId::generate();
+  ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
+  EXPECT_TRUE(open_sqlite_catalogue(file_).value()->find(model.id).value());
+}
+
+TEST_F(Migrations, a_catalogue_of_a_newer_version_is_refused_and_left_alone) {
+  ASSERT_TRUE(open_sqlite_catalogue(file_));
+  run("INSERT INTO migration(version) VALUES (1000)");
+  const auto opened = open_sqlite_catalogue(file_);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::kUnsupported);
+}
+
+TEST_F(Migrations, a_file_that_is_no_database_is_refused_by_name) {
+  std::ofstream(file_) << "this is a text and not a database, however long it may be";
+  const auto opened = open_sqlite_catalogue(file_);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::kIo);
+  EXPECT_NE(opened.error().message.find("catalogue.sqlite"), std::string::npos);
+}
+
+TEST_F(Migrations, a_missing_folder_is_refused) {
+  EXPECT_FALSE(open_sqlite_catalogue(folder_.path() / "absent" / "catalogue.sqlite"));
+}
+
+}  // namespace
+}  // namespace vitrine
