@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "server/store/published_model.h"
+#include "server/store/text.h"
 
 namespace vitrine {
 namespace {
@@ -41,6 +42,22 @@ std::vector<ChunkPlace> places(const Manifest& manifest) {
   return result;
 }
 
+Expected<void> check_text(const char* name, const std::string& text) {
+  constexpr std::size_t kMaxBytes = 4096;
+  if (text.size() <= kMaxBytes && is_plain_text(text)) return {};
+  return fail(ErrorCode::kBadInput, std::string("the ") + name +
+                                        " is not one line of UTF-8 of at most 4096 bytes; give "
+                                        "another");
+}
+
+Expected<void> check_texts(const ModelMetadata& metadata, const std::string& unit) {
+  if (auto good = check_text("title", metadata.title); !good) return good;
+  if (auto good = check_text("creator", metadata.creator); !good) return good;
+  if (auto good = check_text("rights statement", metadata.rights); !good) return good;
+  if (auto good = check_text("licence", metadata.licence); !good) return good;
+  return check_text("unit", unit);
+}
+
 Expected<void> check_size(const Manifest& manifest, std::uint64_t size) {
   if (manifest.file_bytes == size) return {};
   return fail(ErrorCode::kBadInput,
@@ -67,6 +84,7 @@ Expected<ModelId> publish(ObjectStore& store, Catalogue& catalogue,
                           std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata) {
   const auto manifest = parse_header(pmesh);
   if (!manifest) return tl::unexpected(manifest.error());
+  if (auto good = check_texts(metadata, manifest->unit); !good) return tl::unexpected(good.error());
   if (auto fits = check_size(*manifest, pmesh.size()); !fits) return tl::unexpected(fits.error());
   const Sha256 name = sha256(pmesh);
   if (auto stored = store.put(name, pmesh); !stored) return tl::unexpected(stored.error());

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "support/temporary_folder.h"
+
+namespace vitrine {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::vector<std::uint8_t>;
+
+// As on a full disk, a write stops part of the way: files may not grow beyond `bytes`.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    handler_ = ::signal(SIGXFSZ, SIG_IGN);  // write fails with EFBIG instead
+  }
+  ~SmallDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  sighandler_t handler_;
+};
+
+class AtomicFile : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+
+  Bytes contents(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return Bytes(std::istreambuf_iterator<char>(in), {});
+  }
+  std::ptrdiff_t files() {
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+  }
+};
+
+TEST_F(AtomicFile, the_file_holds_the_bytes_and_nothing_else_stays) {
+  const fs::path path = folder_.path() / "out";
+  ASSERT_TRUE(write_file_atomically(path, Bytes{1, 2, 3}));
+  EXPECT_EQ(contents(path), (Bytes{1, 2, 3}));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFile, an_older_file_is_replaced) {
+  const fs::path path = folder_.path() / "out";
+  ASSERT_TRUE(write_file_atomically(path, Bytes{1, 2, 3}));
+  ASSERT_TRUE(write_file_atomically(path, Bytes{4}));
+  EXPECT_EQ(contents(path), Bytes{4});
+}
+
+TEST_F(AtomicFile, where_the_write_stops_half_way_the_older_file_stays_and_no_other) {
+  const fs::path path = folder_.path() / "out";
+  ASSERT_TRUE(write_file_atomically(path, Bytes{1, 2, 3}));
+  {
+    const SmallDisk disk(1'000);
+    const auto result = write_file_atomically(path, Bytes(5'000));
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kIo);
+  }
+  EXPECT_EQ(contents(path), (Bytes{1, 2, 3}));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFile, a_missing_folder_is_named_with_the_next_step) {
+  const auto result = write_file_atomically(folder_.path() / "absent" / "out", Bytes{1});
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("absent/out"), std::string::npos);
+  EXPECT_NE(result.error().message.find("create the folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vitrine

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is particular to objects in files; the rest is the conformance suite.
+#include "server/store/file_store.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "support/temporary_folder.h"
+#include "support/tiny_pmesh.h"
+
+namespace vitrine {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileStoreTest : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+  FileStore store_ = FileStore::open(folder_.path() / "objects").value();
+  const std::vector<std::uint8_t> bytes_ = test::to_bytes("an object");
+  const Sha256 name_ = sha256(bytes_);
+
+  fs::path path() {
+    const std::string hex = to_hex(name_);
+    return folder_.path() / "objects" / hex.substr(0, 2) / hex.substr(2, 2) / hex;
+  }
+};
+
+TEST_F(FileStoreTest, an_object_is_one_file_named_by_its_hash) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  EXPECT_EQ(fs::file_size(path()), bytes_.size());
+  EXPECT_EQ(std::distance(fs::directory_iterator(path().parent_path()), fs::directory_iterator()),
+            1);
+}
+
+TEST_F(FileStoreTest, what_a_crash_left_half_written_is_not_an_object) {
+  fs::create_directories(path().parent_path());
+  std::ofstream(path().parent_path() / ("." + to_hex(name_) + ".0123456789abcdef.part")) << "an o";
+  EXPECT_EQ(store_.open(name_).value(), nullptr);
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+}
+
+TEST_F(FileStoreTest, an_object_stays_readable_after_its_file_is_gone) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  const auto object = store_.open(name_).value();
+  fs::remove(path());
+  EXPECT_EQ(object->read(0, bytes_.size()).value(), bytes_);
+}
+
+TEST_F(FileStoreTest, its_descriptor_serves_sendfile) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  const auto object = store_.open(name_).value();
+  ASSERT_TRUE(object->descriptor());
+  struct stat status {};
+  ASSERT_EQ(::fstat(*object->descriptor(), &status), 0);
+  EXPECT_EQ(static_cast<std::uint64_t>(status.st_size), bytes_.size());
+}
+
+TEST_F(FileStoreTest, a_folder_that_cannot_be_made_is_named) {
+  std::ofstream(folder_.path() / "file") << "x";
+  const auto store = FileStore::open(folder_.path() / "file" / "objects");
+  ASSERT_FALSE(store);
+  EXPECT_NE(store.error().message.find("file/objects"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vitrine

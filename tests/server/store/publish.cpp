@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/publish.h"
+
+#include <gtest/gtest.h>
+
+#include "server/catalogue/sqlite_catalogue.h"
+#include "server/store/file_store.h"
+#include "server/store/published_model.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_pmesh.h"
+
+namespace vitrine {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using std::chrono::milliseconds;
+
+class Publish : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+  FileStore store_ = FileStore::open(folder_.path() / "objects").value();
+  std::unique_ptr<Catalogue> catalogue_ =
+      open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
+  PublishedModels models_{store_, *catalogue_, milliseconds(0)};
+  test::TinyPmesh file_ = test::tiny_pmesh("the base", "a chunk");
+
+  Bytes served(const Sha256& chunk) {
+    const auto found = models_.find_chunk(chunk).value();
+    return found.model ? found.model->read(found.range).value() : Bytes{};
+  }
+  std::size_t model_count() { return catalogue_->search({.drafts = true}).value().models.size(); }
+};
+
+TEST_F(Publish, a_published_model_serves_its_head_its_chunks_and_its_file) {
+  const auto id = publish(store_, *catalogue_, file_.bytes, {.title = "A head"});
+  ASSERT_TRUE(id) << id.error().message;
+  const auto model = models_.find(*id).value();
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->record().title, "A head");
+  EXPECT_EQ(model->record().unit, "mm");
+  EXPECT_EQ(model->record().faces, 8u);
+  EXPECT_EQ(model->read(model->whole()).value(), file_.bytes);
+  EXPECT_EQ(model->read(model->base()).value(), test::to_bytes("the base"));
+  EXPECT_EQ(model->read(model->chunk(0)).value(), test::to_bytes("a chunk"));
+  EXPECT_EQ(model->head().length, file_.manifest.head_bytes());
+}
+
+TEST_F(Publish, base_and_chunks_are_found_by_hash_before_the_model_was_opened) {
+  ASSERT_TRUE(publish(store_, *catalogue_, file_.bytes, {}));
+  EXPECT_EQ(served(sha256(test::to_bytes("a chunk"))), test::to_bytes("a chunk"));
+  EXPECT_EQ(served(sha256(test::to_bytes("the base"))), test::to_bytes("the base"));
+  EXPECT_EQ(served(sha256(test::to_bytes("another"))), Bytes{});
+}
+
+TEST_F(Publish, a_damaged_chunk_is_refused_and_no_model_appears) {
+  file_.bytes.back() ^= 1;
+  const auto id = publish(store_, *catalogue_, file_.bytes, {});
+  ASSERT_FALSE(id);
+  EXPECT_EQ(id.error().code, ErrorCode::kBadInput);
+  EXPECT_EQ(model_count(), 0u);
+}
+
+TEST_F(Publish, a_file_that_is_cut_off_or_too_long_is_refused) {
+  file_.bytes.pop_back();
+  EXPECT_FALSE(publish(store_, *catalogue_, file_.bytes, {}));
+  file_.bytes.insert(file_.bytes.end(), 2, 'x');
+  EXPECT_FALSE(publish(store_, *catalogue_, file_.bytes, {}));
+  EXPECT_EQ(model_count(), 0u);
+}
+
+TEST_F(Publish, text_that_is_not_utf8_or_is_endless_is_refused) {
+  EXPECT_FALSE(publish(store_, *catalogue_, file_.bytes, {.title = "caf\xE9"}));
+  EXPECT_FALSE(publish(store_, *catalogue_, file_.bytes, {.title = "\xC0\xAF"}));
+  EXPECT_FALSE(publish(store_, *catalogue_, file_.bytes, {.creator = std::string(100'000, 'a')}));
+  EXPECT_TRUE(publish(store_, *catalogue_, file_.bytes, {.title = "café 🏺"}));
+  EXPECT_EQ(model_count(), 1u);
+}
+
+TEST_F(Publish, the_same_file_may_be_published_twice) {
+  const auto first = publish(store_, *catalogue_, file_.bytes, {.title = "one"});
+  const auto second = publish(store_, *catalogue_, file_.bytes, {.title = "two"});
+  ASSERT_TRUE(first && second);
+  EXPECT_NE(*first, *second);
+  EXPECT_EQ(models_.find(*second).value()->record().title, "two");
+}
+
+TEST_F(Publish, a_model_that_was_hidden_elsewhere_is_served_no_more) {
+  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value();
+  ASSERT_TRUE(models_.find(id).value());
+  const auto other = open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
+  ASSERT_TRUE(other->set_state(id, ModelState::kDraft));
+  EXPECT_FALSE(models_.find(id).value());
+  EXPECT_EQ(served(sha256(test::to_bytes("a chunk"))), Bytes{});
+}
+
+TEST_F(Publish, a_model_published_by_another_process_is_found_whatever_is_cached) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  EXPECT_FALSE(lazy.find(ModelId::generate()).value());
+  const auto other = open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
+  const ModelId id = publish(store_, *other, file_.bytes, {}).value();
+  EXPECT_TRUE(lazy.find(id).value());
+  EXPECT_TRUE(lazy.find_chunk(sha256(test::to_bytes("a chunk"))).value().model);
+}
+
+TEST_F(Publish, a_model_whose_object_is_lost_is_an_error_that_names_it) {
+  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value();
+  std::filesystem::remove_all(folder_.path() / "objects");
+  const auto model = models_.find(id);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, ErrorCode::kState);
+  EXPECT_NE(model.error().message.find(id.to_string()), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vitrine

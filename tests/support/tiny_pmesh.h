@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A .pmesh whose container is right and whose contents nobody decodes: base and chunk are text.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/progressive/manifest.h"
+
+namespace vitrine::test {
+
+struct TinyPmesh {
+  Manifest manifest;
+  std::vector<std::uint8_t> bytes;
+};
+
+inline std::vector<std::uint8_t> to_bytes(std::string_view text) {
+  return {text.begin(), text.end()};
+}
+
+inline TinyPmesh tiny_pmesh(std::string_view base_text, std::string_view chunk_text) {
+  const auto base = to_bytes(base_text), chunk = to_bytes(chunk_text);
+  TinyPmesh result;
+  Manifest& m = result.manifest;
+  m.unit = "mm";
+  m.levels = {{.vertices = 4, .faces = 4, .max_error = 0.5, .rms_error = 0.25},
+              {.vertices = 6, .faces = 8}};
+  m.fork_level = 2;
+  m.adjacency = {{}};
+  m.base_length = base.size();
+  m.base_sha256 = sha256(base);
+  m.chunks = {
+      {.level = 1, .region = 0, .length = chunk.size(), .splits = 2, .sha256 = sha256(chunk)}};
+  result.bytes = write_header(m);
+  result.bytes.insert(result.bytes.end(), base.begin(), base.end());
+  result.bytes.insert(result.bytes.end(), chunk.begin(), chunk.end());
+  return result;
+}
+
+}  // namespace vitrine::test
