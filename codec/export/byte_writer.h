@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Appends little-endian numbers and text to a byte vector.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "codec/core/vec.h"
+
+namespace vitrine {
+
+static_assert(std::endian::native == std::endian::little);
+
+class ByteWriter {
+ public:
+  explicit ByteWriter(std::size_t expected_size) { bytes_.reserve(expected_size); }
+
+  template <class T>
+  void put(T value) {
+    const auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
+    bytes_.insert(bytes_.end(), raw.begin(), raw.end());
+  }
+  void put_floats(const Vec3& v) {
+    put(static_cast<float>(v.x)), put(static_cast<float>(v.y)), put(static_cast<float>(v.z));
+  }
+  void text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
+
+  // The shortest digits that read back as the same number.
+  template <class T>
+  void number(T value) {
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    text({digits, static_cast<std::size_t>(end - digits)});
+  }
+  void numbers(const Vec3& v) {
+    number(static_cast<float>(v.x)), text(" ");
+    number(static_cast<float>(v.y)), text(" ");
+    number(static_cast<float>(v.z));
+  }
+
+  std::size_t size() const { return bytes_.size(); }
+  std::vector<std::uint8_t> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace vitrine

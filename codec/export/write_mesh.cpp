@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/export/write_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "codec/export/writers.h"
+
+namespace vitrine {
+namespace {
+
+struct Extension {
+  std::string_view name;
+  MeshFormat format;
+};
+
+constexpr std::array<Extension, 6> kExtensions{{{"ply", MeshFormat::kPly},
+                                                {"glb", MeshFormat::kGlb},
+                                                {"obj", MeshFormat::kObj},
+                                                {"stl", MeshFormat::kStl},
+                                                {"drc", MeshFormat::kDrc},
+                                                {"wrl", MeshFormat::kVrml}}};
+
+bool fits_float(const Vec3& p) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return std::abs(p.x) <= kMost && std::abs(p.y) <= kMost && std::abs(p.z) <= kMost;
+}
+
+Expected<void> check(const TriangleMesh& mesh) {
+  const std::size_t vertices = mesh.positions.size();
+  if (mesh.faces.empty()) return fail(ErrorCode::kBadInput, "there are no faces to write");
+  // GLB and STL count bytes in 32 bits; a face takes up to 50 of them.
+  if (mesh.faces.size() > 80'000'000 || vertices > 160'000'000) {
+    return fail(ErrorCode::kLimit, "the mesh is too large to export; ask for fewer triangles");
+  }
+  if (!mesh.colours.empty() && mesh.colours.size() != vertices) {
+    return fail(ErrorCode::kBadInput, "the mesh has not one colour per vertex");
+  }
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (!fits_float(mesh.positions[v])) {
+      return fail(ErrorCode::kBadInput, "the position of vertex " + std::to_string(v) +
+                                            " is too large for a single-precision number");
+    }
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (std::ranges::max(mesh.faces[f]) >= vertices) {
+      return fail(ErrorCode::kBadInput,
+                  "face " + std::to_string(f) + " has a vertex index out of range");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<MeshFormat> format_of_extension(std::string_view extension) {
+  if (extension.starts_with('.')) extension.remove_prefix(1);
+  std::string lower(extension);
+  for (char& c : lower)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const Extension& known : kExtensions) {
+    if (known.name == lower) return known.format;
+  }
+  return std::nullopt;
+}
+
+Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format) {
+  if (auto ok = check(mesh); !ok) return Unexpected(ok.error());
+  switch (format) {
+    case MeshFormat::kPly:
+      return write_ply(mesh);
+    default:
+      return fail(ErrorCode::kUnsupported, "this format is not written yet");
+  }
+}
+
+}  // namespace vitrine

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes a mesh as a file of one of the common formats, in memory.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine {
+
+// Positions keep single precision (OBJ and VRML: nine digits, which is the same), but in kDrc.
+enum class MeshFormat {
+  kPly,   // binary little-endian, uchar colours
+  kGlb,   // glTF 2.0, colours as normalised bytes, converted to linear light as glTF asks
+  kObj,   // colours as three numbers after the position
+  kStl,   // binary; has no colours and no shared vertices
+  kDrc,   // Draco edgebreaker, positions at 16 bits of the bounding box, colours exact; Draco
+          // reorders vertices and faces
+  kVrml,  // VRML 97, one IndexedFaceSet
+};
+
+// The format of "ply", "glb", "obj", "stl", "drc", "wrl", in either case, with or without a dot.
+std::optional<MeshFormat> format_of_extension(std::string_view extension);
+
+// Fails (kBadInput) on a mesh without faces and where a position does not fit a float, (kLimit)
+// where a format's 32-bit sizes do not suffice.
+Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format);
+
+}  // namespace vitrine

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/export/byte_writer.h"
+#include "codec/export/writers.h"
+
+namespace vitrine {
+
+FileBytes write_ply(const TriangleMesh& mesh) {
+  const bool coloured = !mesh.colours.empty();
+  ByteWriter out(300 + mesh.positions.size() * (coloured ? 15 : 12) + mesh.faces.size() * 13);
+  out.text("ply\nformat binary_little_endian 1.0\ncomment written by Vitrine\nelement vertex ");
+  out.number(mesh.positions.size());
+  out.text("\nproperty float x\nproperty float y\nproperty float z\n");
+  if (coloured) out.text("property uchar red\nproperty uchar green\nproperty uchar blue\n");
+  out.text("element face ");
+  out.number(mesh.faces.size());
+  out.text("\nproperty list uchar int vertex_indices\nend_header\n");
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    out.put_floats(mesh.positions[v]);
+    if (coloured) out.put(mesh.colours[v]);
+  }
+  for (const Triangle& face : mesh.faces) {
+    out.put(std::uint8_t{3});
+    out.put(face);
+  }
+  return out.take();
+}
+
+}  // namespace vitrine

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The writers behind write_mesh(), one file each. They trust the mesh that write_mesh() checked.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine {
+
+using FileBytes = std::vector<std::uint8_t>;
+
+FileBytes write_ply(const TriangleMesh& mesh);
+FileBytes write_obj(const TriangleMesh& mesh);
+FileBytes write_stl(const TriangleMesh& mesh);
+FileBytes write_glb(const TriangleMesh& mesh);
+FileBytes write_vrml(const TriangleMesh& mesh);
+Expected<FileBytes> write_drc(const TriangleMesh& mesh);
+
+}  // namespace vitrine

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The header of a PLY file: which elements with which properties follow, and how.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "codec/core/expected.h"
+
+namespace vitrine {
+
+enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
+enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+
+std::uint32_t byte_size(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type;  // of the value, or of each value of the list
+  bool is_list = false;
+  PlyType count_type = PlyType::kUint8;
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+  PlyFormat format = PlyFormat::kAscii;
+  std::vector<PlyElement> elements;
+  std::string texture;         // the file that a TextureFile comment names, or empty
+  std::size_t data_begin = 0;  // byte offset of the first element
+};
+
+// Fails unless the data after the header can hold all the elements that it claims.
+Expected<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes);
+
+}  // namespace vitrine

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/raw_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "codec/import/triangulate.h"
+
+namespace vitrine {
+namespace {
+
+constexpr double kLargestCoordinate = 1e30;  // squares and cross products stay finite
+
+std::vector<bool> used_vertices(std::size_t count, std::span<const Triangle> faces) {
+  std::vector<bool> used(count, false);
+  for (const Triangle& face : faces) {
+    for (const std::uint32_t v : face)
+      used[v] = true;
+  }
+  return used;
+}
+
+}  // namespace
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return std::to_string(count) + ' ' + std::string(noun) + (count == 1 ? "" : "s");
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text.substr(0, 60))
+    out += c >= ' ' && c <= '~' ? c : '?';
+  return out + '\'';
+}
+
+bool is_usable(const Vec3& p) {
+  return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate &&
+         std::abs(p.z) <= kLargestCoordinate;
+}
+
+std::uint8_t to_byte(double unit) {
+  if (!(unit > 0)) return 0;
+  return static_cast<std::uint8_t>(std::min(unit, 1.0) * 255 + 0.5);
+}
+
+Unexpected bad_input(std::string message) {
+  return fail(ErrorCode::kBadInput, std::move(message));
+}
+
+void RawMesh::note_index(std::uint32_t index) {
+  if (index <= max_index_) return;
+  max_index_ = index;
+  max_index_face_ = face_count_;
+}
+
+void RawMesh::add_triangle(const Triangle& face) {
+  for (const std::uint32_t v : face)
+    note_index(v);
+  triangles_.push_back(face);
+  ++face_count_;
+}
+
+void RawMesh::add_face(std::span<const std::uint32_t> corners) {
+  if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
+  if (corners.size() < 3) {
+    if (small_faces_++ == 0) first_small_face_ = face_count_;
+  } else {
+    for (const std::uint32_t v : corners)
+      note_index(v);
+    polygon_corners_.insert(polygon_corners_.end(), corners.begin(), corners.end());
+    polygon_ends_.push_back(polygon_corners_.size());
+  }
+  ++face_count_;
+}
+
+Expected<void> RawMesh::check_counts(const Limits& limits) const {
+  if (positions.empty()) return bad_input("the file has no vertices; export the surface again");
+  if (triangles_.empty() && polygon_ends_.empty()) {
+    return bad_input("the file has " + counted(positions.size(), "point") +
+                     " but no faces; Vitrine needs a surface, so mesh the points first");
+  }
+  if (max_index_ >= positions.size()) {
+    return bad_input("face " + std::to_string(max_index_face_) + " refers to vertex " +
+                     std::to_string(max_index_) + ", but the file has only " +
+                     std::to_string(positions.size()) + "; the file is damaged, export it again");
+  }
+  if (positions.size() > limits.vertices || triangles_.size() > limits.faces) {
+    return fail(ErrorCode::kLimit, "the mesh has " + std::to_string(positions.size()) +
+                                       " vertices and " + counted(face_count_, "face") +
+                                       ", more than this installation accepts; simplify it first");
+  }
+  return {};
+}
+
+void RawMesh::triangulate_polygons() {
+  std::size_t begin = 0;
+  const std::span<const std::uint32_t> corners = polygon_corners_;
+  for (const std::size_t end : polygon_ends_) {
+    triangulate(positions, corners.subspan(begin, end - begin), triangles_);
+    begin = end;
+  }
+  polygon_corners_ = {};
+  polygon_ends_ = {};
+}
+
+// Range scanners mark missing samples by NaN: harmless where no face uses them.
+Expected<void> RawMesh::drop_stray_positions() {
+  if (std::all_of(positions.begin(), positions.end(), is_usable)) return {};
+  const std::vector<bool> used = used_vertices(positions.size(), triangles_);
+  std::vector<std::uint32_t> renamed(positions.size());
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (!is_usable(positions[v])) {
+      if (!used[v]) continue;
+      return bad_input("vertex " + std::to_string(v) +
+                       " has a coordinate that is not a finite number (or beyond 1e30) and faces "
+                       "use it; remove it and export again");
+    }
+    positions[kept] = positions[v];
+    if (!colours.empty()) colours[kept] = colours[v];
+    renamed[v] = kept++;
+  }
+  repairs.push_back(std::to_string(positions.size() - kept) +
+                    " points without finite coordinates dropped, no face uses them");
+  positions.resize(kept);
+  if (!colours.empty()) colours.resize(kept);
+  for (Triangle& face : triangles_) {
+    for (std::uint32_t& v : face)
+      v = renamed[v];
+  }
+  return {};
+}
+
+Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
+  if (auto ok = check_counts(limits); !ok) return Unexpected(ok.error());
+  triangulate_polygons();
+  if (triangles_.size() > limits.faces) {
+    return fail(ErrorCode::kLimit, "the mesh has " + counted(triangles_.size(), "triangle") +
+                                       ", more than this installation accepts; simplify it first");
+  }
+  if (auto ok = drop_stray_positions(); !ok) return Unexpected(ok.error());
+  if (small_faces_ > 0) {
+    repairs.push_back(counted(small_faces_, "face") +
+                      " with fewer than three corners dropped, first at face " +
+                      std::to_string(first_small_face_));
+  }
+  return ImportedMesh{{std::move(positions), std::move(triangles_), std::move(colours)},
+                      std::move(repairs)};
+}
+
+}  // namespace vitrine

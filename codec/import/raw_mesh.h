@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readers fill in: vertices, and faces of any number of corners.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/core/vec.h"
+#include "codec/import/read_mesh.h"
+
+namespace vitrine {
+
+class RawMesh {
+ public:
+  std::vector<Vec3> positions;
+  std::vector<Colour> colours;  // empty, or as many as positions
+  std::vector<std::string> repairs;
+
+  // Faces are numbered from 0 in the order of these calls. Indices may refer to vertices to come.
+  void add_triangle(const Triangle& face);
+  void add_face(std::span<const std::uint32_t> corners);
+  void reserve_faces(std::size_t count) { triangles_.reserve(count); }
+  std::uint64_t face_count() const { return face_count_; }
+
+  // Checks the indices and coordinates and cuts the polygons.
+  Expected<ImportedMesh> finish(const Limits& limits) &&;
+
+ private:
+  void note_index(std::uint32_t index);
+  Expected<void> check_counts(const Limits& limits) const;
+  Expected<void> drop_stray_positions();
+  void triangulate_polygons();
+
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> polygon_corners_;  // of all faces with more than three corners
+  std::vector<std::size_t> polygon_ends_;       // into polygon_corners_
+  std::uint64_t face_count_ = 0;
+  std::uint64_t small_faces_ = 0, first_small_face_ = 0;  // with fewer than three corners
+  std::uint32_t max_index_ = 0;
+  std::uint64_t max_index_face_ = 0;
+};
+
+// "3 faces", "1 face": the number and the noun, plural by `s`.
+std::string counted(std::uint64_t count, std::string_view noun);
+
+// Text from a file made safe to print on one line: printable ASCII, at most 60 characters, quoted.
+std::string quoted(std::string_view text);
+
+// Whether a coordinate can be worked with: finite, and its square too.
+bool is_usable(const Vec3& position);
+
+// A colour component of 0..1 as 0..255, clamped; NaN becomes 0.
+std::uint8_t to_byte(double unit);
+
+Unexpected bad_input(std::string message);
+
+}  // namespace vitrine

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// PLY: the header says which elements and properties follow; those without a meaning here are
+// stepped over.
+#include <array>
+#include <cmath>
+
+#include "codec/import/byte_cursor.h"
+#include "codec/import/ply_header.h"
+#include "codec/import/readers.h"
+#include "codec/import/text_cursor.h"
+
+namespace vitrine {
+namespace {
+
+class AsciiValues {
+ public:
+  explicit AsciiValues(std::span<const std::uint8_t> bytes) : text_(bytes) {}
+
+  bool failed() const { return failed_; }
+  std::uint64_t most_values() const { return text_.left() / 2 + 1; }
+
+  double real(PlyType) {
+    double value = 0;
+    failed_ = failed_ || !text_.seek_word() || !text_.number(value);
+    return value;
+  }
+  // Counts and indices: out of range becomes the largest, which is refused later.
+  std::uint32_t index(PlyType) {
+    const double value = real(PlyType::kFloat64);
+    return value >= 0 && value < 4294967295.0 ? static_cast<std::uint32_t>(value) : 0xFFFF'FFFFu;
+  }
+  void skip(PlyType, std::uint64_t count) {
+    for (; count > 0 && !failed_; --count)
+      real(PlyType::kFloat64);
+  }
+
+ private:
+  TextCursor text_;
+  bool failed_ = false;
+};
+
+template <bool swap>
+class BinaryValues {
+ public:
+  explicit BinaryValues(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  bool failed() const { return bytes_.overrun(); }
+  std::uint64_t most_values() const { return bytes_.left(); }
+
+  double real(PlyType type) {
+    if (type == PlyType::kFloat32) return bytes_.read<float>(swap);
+    if (type == PlyType::kFloat64) return bytes_.read<double>(swap);
+    return static_cast<double>(integer(type));
+  }
+  std::uint32_t index(PlyType type) {
+    if (type == PlyType::kFloat32 || type == PlyType::kFloat64) {
+      const double value = real(type);
+      return value >= 0 && value < 4294967295.0 ? static_cast<std::uint32_t>(value) : 0xFFFF'FFFFu;
+    }
+    const std::int64_t value = integer(type);
+    return value < 0 ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(value);
+  }
+  void skip(PlyType type, std::uint64_t count) { bytes_.skip(count * byte_size(type)); }
+
+ private:
+  std::int64_t integer(PlyType type) {
+    switch (type) {
+      case PlyType::kInt8:
+        return bytes_.read<std::int8_t>();
+      case PlyType::kUint8:
+        return bytes_.read<std::uint8_t>();
+      case PlyType::kInt16:
+        return bytes_.read<std::int16_t>(swap);
+      case PlyType::kUint16:
+        return bytes_.read<std::uint16_t>(swap);
+      case PlyType::kInt32:
+        return bytes_.read<std::int32_t>(swap);
+      default:
+        return bytes_.read<std::uint32_t>(swap);
+    }
+  }
+
+  ByteCursor bytes_;
+};
+
+enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kNowhere };
+
+Slot slot_of(const std::string& name) {
+  if (name == "x") return kX;
+  if (name == "y") return kY;
+  if (name == "z") return kZ;
+  if (name == "red" || name == "r" || name == "diffuse_red") return kRed;
+  if (name == "green" || name == "g" || name == "diffuse_green") return kGreen;
+  if (name == "blue" || name == "b" || name == "diffuse_blue") return kBlue;
+  return kNowhere;
+}
+
+// Where each property of a vertex goes.
+struct VertexPlan {
+  std::vector<Slot> slots;
+  unsigned found = 0;       // bit per slot
+  double colour_scale = 1;  // to 0..1
+
+  explicit VertexPlan(const PlyElement& element) {
+    for (const PlyProperty& property : element.properties) {
+      const Slot slot = property.is_list ? kNowhere : slot_of(property.name);
+      slots.push_back(slot);
+      found |= 1u << slot;
+      if (slot == kRed && property.type == PlyType::kUint8) colour_scale = 1.0 / 255;
+      if (slot == kRed && property.type == PlyType::kUint16) colour_scale = 1.0 / 65535;
+    }
+  }
+  bool has_position() const { return (found & 7) == 7; }
+  bool has_colour() const { return (found >> kRed & 7) == 7; }
+};
+
+template <class Values>
+class BodyReader {
+ public:
+  BodyReader(const PlyHeader& header, std::span<const std::uint8_t> body)
+      : header_(header), values_(body) {}
+
+  Expected<RawMesh> read() {
+    for (const PlyElement& element : header_.elements) {
+      auto ok = read_element(element);
+      if (!ok) return Unexpected(ok.error());
+    }
+    if (!header_.texture.empty()) {
+      mesh_.repairs.push_back("texture map " + header_.texture + " not carried");
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  Expected<void> read_element(const PlyElement& element) {
+    if (element.properties.empty()) return {};
+    if (element.name == "vertex") return read_vertices(element);
+    if (element.name == "face") return read_faces(element, "vertex_ind", &BodyReader::face_of);
+    if (element.name == "tristrips") {
+      return read_faces(element, "vertex_ind", &BodyReader::strip_of);
+    }
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const PlyProperty& property : element.properties)
+        skip(property);
+      if (values_.failed()) return cut_short(element, i);
+    }
+    return {};
+  }
+
+  Expected<void> read_vertices(const PlyElement& element) {
+    const VertexPlan plan(element);
+    if (!plan.has_position()) return bad_input("the PLY vertices lack a property x, y or z");
+    if (!mesh_.positions.empty()) return bad_input("the PLY file has two vertex elements");
+    mesh_.positions.reserve(element.count);
+    if (plan.has_colour()) mesh_.colours.reserve(element.count);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      std::array<double, 7> row;
+      for (std::size_t p = 0; p < plan.slots.size(); ++p) {
+        const PlyProperty& property = element.properties[p];
+        if (property.is_list) {
+          skip(property);
+        } else {
+          row[plan.slots[p]] = values_.real(property.type);
+        }
+      }
+      if (values_.failed()) return cut_short(element, i);
+      mesh_.positions.push_back({row[kX], row[kY], row[kZ]});
+      if (plan.has_colour()) mesh_.colours.push_back(colour(row, plan.colour_scale));
+    }
+    return {};
+  }
+
+  static Colour colour(const std::array<double, 7>& row, double scale) {
+    return {to_byte(row[kRed] * scale), to_byte(row[kGreen] * scale), to_byte(row[kBlue] * scale)};
+  }
+
+  // Reads the elements' index lists (the property whose name starts with `list`).
+  Expected<void> read_faces(const PlyElement& element, std::string_view list,
+                            void (BodyReader::*add)(const std::vector<std::uint32_t>&)) {
+    if (element.name == "face") mesh_.reserve_faces(element.count);
+    bool has_list = false;
+    for (const PlyProperty& p : element.properties) {
+      has_list = has_list || (p.is_list && p.name.starts_with(list));
+      if (p.name == "texcoord") mesh_.repairs.push_back("texture coordinates not carried");
+    }
+    if (!has_list) return bad_input("the PLY faces have no list vertex_indices");
+    std::vector<std::uint32_t> corners;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const PlyProperty& property : element.properties) {
+        if (!property.is_list || !property.name.starts_with(list)) {
+          skip(property);
+        } else if (read_list(property, corners)) {
+          (this->*add)(corners);
+        }
+      }
+      if (values_.failed()) return cut_short(element, i);
+    }
+    return {};
+  }
+
+  bool read_list(const PlyProperty& property, std::vector<std::uint32_t>& corners) {
+    const std::uint32_t count = values_.index(property.count_type);
+    if (count > values_.most_values()) return values_.skip(property.type, ~0u), false;
+    corners.resize(count);
+    for (std::uint32_t& corner : corners)
+      corner = values_.index(property.type);
+    return !values_.failed();
+  }
+
+  void face_of(const std::vector<std::uint32_t>& corners) { mesh_.add_face(corners); }
+
+  // A strip of triangles that alternate in direction; -1 starts a new one.
+  void strip_of(const std::vector<std::uint32_t>& strip) {
+    std::size_t start = 0;
+    for (std::size_t i = 0; i < strip.size(); ++i) {
+      if (strip[i] == 0xFFFF'FFFFu) {
+        start = i + 1;
+      } else if (i >= start + 2) {
+        const bool odd = (i - start) % 2 == 1;
+        mesh_.add_triangle({strip[i - 2 + odd], strip[i - 1 - odd], strip[i]});
+      }
+    }
+  }
+
+  void skip(const PlyProperty& property) {
+    values_.skip(property.type, property.is_list ? values_.index(property.count_type) : 1);
+  }
+
+  static Unexpected cut_short(const PlyElement& element, std::uint64_t i) {
+    return bad_input("the PLY file ends or has no number in " + quoted(element.name) + ' ' +
+                     std::to_string(i) + " of " + std::to_string(element.count) +
+                     "; it is cut short or damaged, copy it again");
+  }
+
+  const PlyHeader& header_;
+  Values values_;
+  RawMesh mesh_;
+};
+
+}  // namespace
+
+Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes) {
+  const auto header = parse_ply_header(bytes);
+  if (!header) return Unexpected(header.error());
+  const auto body = bytes.subspan(header->data_begin);
+  switch (header->format) {
+    case PlyFormat::kAscii:
+      return BodyReader<AsciiValues>(*header, body).read();
+    case PlyFormat::kLittleEndian:
+      return BodyReader<BinaryValues<false>>(*header, body).read();
+    default:
+      return BodyReader<BinaryValues<true>>(*header, body).read();
+  }
+}
+
+}  // namespace vitrine

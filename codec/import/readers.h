@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The readers behind read_mesh(), one file each; all are safe for untrusted bytes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "codec/core/expected.h"
+#include "codec/core/limits.h"
+#include "codec/import/raw_mesh.h"
+
+namespace vitrine {
+
+Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes);
+Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes);
+Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes);
+Expected<RawMesh> read_off(std::span<const std::uint8_t> bytes);
+Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const Limits& limits);
+
+}  // namespace vitrine

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/repair.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "codec/import/edge_groups.h"
+#include "codec/import/edge_pairs.h"
+#include "codec/import/fan_splitter.h"
+#include "codec/import/orientation.h"
+#include "codec/import/raw_mesh.h"
+
+namespace vitrine {
+namespace {
+
+// How often one kind of repair was made, and where first.
+struct Tally {
+  std::uint64_t count = 0, first = 0;
+
+  void add(std::uint64_t face) { first = count++ == 0 ? face : std::min(first, face); }
+  void report(std::string_view noun, std::string_view deed, std::vector<std::string>& out) const {
+    if (count == 0) return;
+    out.push_back(counted(count, noun) + ' ' + std::string(deed) + ", first at face " +
+                  std::to_string(first));
+  }
+};
+
+bool repeats_vertex(const Triangle& f) {
+  return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
+}
+
+// Marks of the faces of one edge those that equal an earlier one, and counts opposed faces.
+void mark_copies(std::span<const Triangle> faces, std::span<const EdgeSide> sides,
+                 std::vector<bool>& marked, Tally& duplicates, Tally& opposed) {
+  std::vector<std::array<std::uint32_t, 3>> order;  // apex, direction, face
+  for (const EdgeSide& side : sides) {
+    order.push_back({apex(faces, side.corner), runs_upwards(faces, side.corner), side.corner / 3});
+  }
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const auto &before = order[i - 1], &here = order[i];
+    if (before[0] != here[0]) continue;
+    if (before[1] != here[1]) {
+      opposed.add(std::max(before[2], here[2]));
+    } else {
+      marked[here[2]] = true;
+      duplicates.add(here[2]);
+    }
+  }
+}
+
+using NamedSide = std::array<std::uint32_t, 3>;  // low end, high end, corner
+
+class Repairer {
+ public:
+  explicit Repairer(ImportedMesh imported)
+      : mesh_(std::move(imported.mesh)), repairs_(std::move(imported.repairs)) {}
+
+  Expected<RepairedMesh> run() {
+    if (auto ok = check(); !ok) return Unexpected(ok.error());
+    drop_degenerate();
+    drop_duplicates();
+    if (mesh_.faces.empty()) return bad_input("every face of the mesh repeats a vertex");
+    EdgeGroups groups(mesh_.positions.size(), mesh_.faces);
+    if (orient(groups)) groups = EdgeGroups(mesh_.positions.size(), mesh_.faces);
+    split(groups);
+    drop_unreferenced();
+    return finish();
+  }
+
+ private:
+  Expected<void> check() const {
+    if (mesh_.positions.size() >= 0x8000'0000u || mesh_.faces.size() >= 0x5555'5555u) {
+      return fail(ErrorCode::kLimit, "the mesh is too large for 32-bit indices; simplify it first");
+    }
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+      if (std::ranges::max(mesh_.faces[f]) >= mesh_.positions.size()) {
+        return bad_input("face " + std::to_string(f) + " has a vertex index out of range");
+      }
+    }
+    return {};
+  }
+
+  void drop_degenerate() {
+    Tally tally;
+    std::vector<bool> marked(mesh_.faces.size(), false);
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+      if (!repeats_vertex(mesh_.faces[f])) continue;
+      marked[f] = true;
+      tally.add(f);
+    }
+    if (tally.count > 0) erase(marked);
+    tally.report("degenerate face", "dropped", repairs_);
+  }
+
+  // Equal faces share the edge of their two smaller vertices.
+  void drop_duplicates() {
+    Tally duplicates, opposed;
+    std::vector<bool> marked(mesh_.faces.size(), false);
+    std::vector<EdgeSide> lowest;
+    EdgeGroups(mesh_.positions.size(), mesh_.faces)
+        .for_each([&](std::uint32_t low, std::span<const EdgeSide> sides) {
+          if (sides.size() < 2) return;
+          lowest.clear();
+          for (const EdgeSide& side : sides) {
+            const std::uint32_t tip = apex(mesh_.faces, side.corner);
+            if (tip > low && tip > side.high) lowest.push_back(side);
+          }
+          if (lowest.size() > 1) mark_copies(mesh_.faces, lowest, marked, duplicates, opposed);
+        });
+    duplicates.first = source(duplicates.first);
+    opposed.first = source(opposed.first);
+    if (duplicates.count > 0) erase(marked);
+    duplicates.report("duplicate face", "dropped", repairs_);
+    opposed.report("opposed face", "on the same vertices parted", repairs_);
+  }
+
+  bool orient(const EdgeGroups& groups) {
+    const Reversal reversal = orient_patches(mesh_.faces, groups);
+    Tally{reversal.faces, source(reversal.first_face)}.report(
+        "face", "reversed to agree with neighbours", repairs_);
+    return reversal.faces > 0;
+  }
+
+  void split(const EdgeGroups& groups) {
+    report_bad_edges(groups);
+    std::vector<std::uint32_t> across = pair_faces(mesh_.positions, mesh_.faces, groups);
+    std::vector<Triangle> faces;
+    std::vector<std::uint32_t> origins;
+    // Splitting by fans is enough but where a surface folds back onto its own edge: first such
+    // edges are cut, and where even that leaves them one, their faces are set apart.
+    for (const int corners_to_cut : {1, 3, 0}) {
+      faces = mesh_.faces;
+      origins = split_fans(vertex_count(), faces, across);
+      const auto tangled = tangled_corners(groups, faces);
+      if (tangled.empty()) break;
+      for (const std::uint32_t c : tangled)
+        cut(across, c, corners_to_cut);
+    }
+    report_split_vertices(origins);
+    mesh_.faces = std::move(faces);
+    for (const std::uint32_t v : origins) {
+      mesh_.positions.push_back(mesh_.positions[v]);
+      if (!mesh_.colours.empty()) mesh_.colours.push_back(mesh_.colours[v]);
+    }
+  }
+
+  static void cut(std::vector<std::uint32_t>& across, std::uint32_t corner, int count) {
+    const std::uint32_t base = corner - corner % 3;
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
+      std::uint32_t& partner = across[base + (corner + k - base) % 3];
+      if (partner == kNoPartner) continue;
+      across[partner] = kNoPartner;
+      partner = kNoPartner;
+    }
+  }
+
+  // The corners opposite to edges that, named after `faces`, still have more than two faces, or two
+  // that run the same way or equal each other.
+  std::vector<std::uint32_t> tangled_corners(const EdgeGroups& groups,
+                                             std::span<const Triangle> faces) const {
+    std::vector<std::uint32_t> tangled;
+    std::vector<NamedSide> named;
+    groups.for_each([&](std::uint32_t, std::span<const EdgeSide> sides) {
+      if (sides.size() < 2) return;
+      named.clear();
+      for (const EdgeSide& side : sides) {
+        const Triangle& face = faces[side.corner / 3];
+        const std::uint32_t a = face[(side.corner + 1) % 3], b = face[(side.corner + 2) % 3];
+        named.push_back({std::min(a, b), std::max(a, b), side.corner});
+      }
+      std::sort(named.begin(), named.end());
+      for (std::size_t i = 0, end; i < named.size(); i = end) {
+        for (end = i + 1; end < named.size() && same_ends(named[end], named[i]);)
+          ++end;
+        if (is_sound(std::span(named).subspan(i, end - i), faces)) continue;
+        for (; i < end; ++i)
+          tangled.push_back(named[i][2]);
+      }
+    });
+    return tangled;
+  }
+
+  static bool same_ends(const NamedSide& a, const NamedSide& b) {
+    return a[0] == b[0] && a[1] == b[1];
+  }
+
+  static bool is_sound(std::span<const NamedSide> sides, std::span<const Triangle> faces) {
+    if (sides.size() < 2) return true;
+    return sides.size() == 2 &&
+           runs_upwards(faces, sides[0][2]) != runs_upwards(faces, sides[1][2]) &&
+           apex(faces, sides[0][2]) != apex(faces, sides[1][2]);
+  }
+
+  void report_bad_edges(const EdgeGroups& groups) {
+    Tally crowded, one_sided;
+    groups.for_each([&](std::uint32_t, std::span<const EdgeSide> sides) {
+      if (sides.size() > 2) crowded.add(source(sides[0].corner / 3));
+      if (sides.size() != 2) return;
+      const std::uint32_t a = sides[0].corner, b = sides[1].corner;
+      if (runs_upwards(mesh_.faces, a) == runs_upwards(mesh_.faces, b)) {
+        one_sided.add(source(a / 3));
+      }
+    });
+    crowded.report("non-manifold edge", "split", repairs_);
+    one_sided.report("edge", "cut where the surface has only one side", repairs_);
+  }
+
+  void report_split_vertices(std::vector<std::uint32_t> origins) {
+    std::sort(origins.begin(), origins.end());
+    origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+    if (origins.empty()) return;
+    repairs_.push_back(std::to_string(origins.size()) +
+                       (origins.size() == 1 ? " vertex" : " vertices") +
+                       " split to part fans, first at vertex " + std::to_string(origins[0]));
+  }
+
+  void drop_unreferenced() {
+    std::vector<std::uint32_t> renamed(mesh_.positions.size(), kNoPartner);
+    for (const Triangle& face : mesh_.faces) {
+      for (const std::uint32_t v : face)
+        renamed[v] = 0;
+    }
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < renamed.size(); ++v) {
+      if (renamed[v] == kNoPartner) continue;
+      mesh_.positions[kept] = mesh_.positions[v];
+      if (!mesh_.colours.empty()) mesh_.colours[kept] = mesh_.colours[v];
+      renamed[v] = kept++;
+    }
+    if (kept == renamed.size()) return;
+    const std::size_t dropped = renamed.size() - kept;
+    repairs_.push_back(std::to_string(dropped) + " unreferenced " +
+                       (dropped == 1 ? "vertex" : "vertices") + " dropped");
+    mesh_.positions.resize(kept);
+    if (!mesh_.colours.empty()) mesh_.colours.resize(kept);
+    for (Triangle& face : mesh_.faces) {
+      for (std::uint32_t& v : face)
+        v = renamed[v];
+    }
+  }
+
+  std::uint64_t count_components() const {
+    std::vector<std::uint32_t> parent(mesh_.positions.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::uint32_t v) {
+      while (parent[v] != v)
+        v = parent[v] = parent[parent[v]];
+      return v;
+    };
+    std::uint64_t count = parent.size();
+    for (const auto& [a, b, c] : mesh_.faces) {
+      for (const std::uint32_t other : {b, c}) {
+        const std::uint32_t x = root(a), y = root(other);
+        if (x == y) continue;
+        parent[std::max(x, y)] = std::min(x, y);
+        --count;
+      }
+    }
+    return count;
+  }
+
+  std::uint64_t count_boundary_edges() const {
+    std::uint64_t count = 0;
+    EdgeGroups(mesh_.positions.size(), mesh_.faces)
+        .for_each(
+            [&](std::uint32_t, std::span<const EdgeSide> sides) { count += sides.size() == 1; });
+    return count;
+  }
+
+  RepairedMesh finish() {
+    RepairedMesh result;
+    result.boundary_edges = count_boundary_edges();
+    result.components = count_components();
+    result.mesh = std::move(mesh_);
+    result.repairs = std::move(repairs_);
+    return result;
+  }
+
+  void erase(const std::vector<bool>& marked) {
+    if (source_.empty()) {
+      source_.resize(mesh_.faces.size());
+      std::iota(source_.begin(), source_.end(), 0);
+    }
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < marked.size(); ++f) {
+      if (marked[f]) continue;
+      source_[kept] = source_[f];
+      mesh_.faces[kept++] = mesh_.faces[f];
+    }
+    source_.resize(kept);
+    mesh_.faces.resize(kept);
+  }
+
+  // The number that a face had in the input.
+  std::uint64_t source(std::size_t f) const { return source_.empty() ? f : source_[f]; }
+
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(mesh_.positions.size()); }
+
+  TriangleMesh mesh_;
+  std::vector<std::string> repairs_;
+  std::vector<std::uint32_t> source_;  // empty while no face was dropped
+};
+
+}  // namespace
+
+Expected<RepairedMesh> repair(ImportedMesh imported) {
+  return Repairer(std::move(imported)).run();
+}
+
+}  // namespace vitrine
