@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The colour difference of a vertex split, per YCoCg-R channel, predicted from the half rings.
+#pragma once
+
+#include <array>
+
+#include "codec/core/vec.h"
+#include "codec/progressive/residual_coder.h"
+
+namespace vitrine {
+
+class ColourModel {
+ public:
+  // `difference` is the mean colour around v minus that around the new vertex.
+  template <class Coder>
+  Vec3i code(Coder& coder, const Vec3& difference, Vec3i truth) {
+    return {channels_[0].code(coder, difference.x, truth.x),
+            channels_[1].code(coder, difference.y, truth.y),
+            channels_[2].code(coder, difference.z, truth.z)};
+  }
+
+ private:
+  struct Channel {
+    // The width follows the running mean square of the error, per size of the difference.
+    template <class Coder>
+    std::int32_t code(Coder& coder, double difference, std::int32_t truth) {
+      const double expected = product_ / square_ * difference;
+      double& energy = energy_[static_cast<std::size_t>(
+          std::clamp(exact::log2_bucket<0>(std::fabs(difference) + 0.25) + 2, 0, 7))];
+      const std::int32_t d = coder_.code(coder, truth, expected, std::sqrt(energy + 0.05));
+      const double error = d - expected;
+      energy += (std::min(error * error, 1e6) - energy) / 24;
+      product_ += difference * d;
+      square_ += difference * difference;
+      return d;
+    }
+
+    double product_ = 20, square_ = 40;
+    std::array<double, 8> energy_ = {1, 1, 2, 4, 8, 16, 64, 256};
+    ResidualCoder coder_;
+  };
+
+  std::array<Channel, 3> channels_;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/progressive/cut_model.h"
+
+namespace vitrine {
+namespace {
+
+// Sums over the real ring vertices before each position, twice round.
+struct Prefix {
+  std::array<Vec3, 2 * kMaxSplitValence + 1> sum{};
+  std::array<double, 2 * kMaxSplitValence + 1> squares{};
+  std::array<int, 2 * kMaxSplitValence + 1> count{};
+};
+
+Prefix prefix_of(const CutRing& ring) {
+  Prefix p;
+  for (std::uint32_t k = 0; k < 2 * ring.size; ++k) {
+    const std::uint32_t m = k < ring.size ? k : k - ring.size;
+    const bool real = !ring.is_virtual[m];
+    p.sum[k + 1] = real ? p.sum[k] + ring.at[m] : p.sum[k];
+    p.squares[k + 1] = p.squares[k] + (real ? dot(ring.at[m], ring.at[m]) : 0.0);
+    p.count[k + 1] = p.count[k] + (real ? 1 : 0);
+  }
+  return p;
+}
+
+struct Arc {
+  Vec3 mean, sum;
+  double squares = 0;
+  int count = 0;
+};
+
+Arc arc(const Prefix& p, std::uint32_t from, std::uint32_t to) {  // both ends included
+  Arc a;
+  a.count = p.count[to + 1] - p.count[from];
+  a.sum = p.sum[to + 1] - p.sum[from];
+  a.squares = p.squares[to + 1] - p.squares[from];
+  if (a.count > 0) a.mean = a.sum * (1.0 / a.count);
+  return a;
+}
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+const CutModel::Features CutModel::kTrainedWeights = {-1, -1, -1, -1, -1, -1, 0, -1, -2, 0, 0, 0};
+
+Vec3 CutModel::estimate(const CutRing& ring, const Cut& cut) {
+  const Prefix prefix = prefix_of(ring);
+  return (arc(prefix, cut.j, cut.i + ring.size).mean - arc(prefix, cut.i, cut.j).mean) * kArcToEdge;
+}
+
+void CutModel::evaluate(const CutRing& ring) {
+  const Prefix prefix = prefix_of(ring);
+  const std::uint32_t n = ring.size;
+  const double inverse = 1.0 / ring.scale;
+  count_ = 0;
+  double best = -1e300;
+  std::array<double, kMaxPairs> score;
+  for (std::uint32_t i = 0; i + 1 < n; ++i) {
+    for (std::uint32_t j = i + 1; j < n; ++j) {
+      Candidate& c = candidates_[count_];
+      c.cut = {i, j};
+      c.tried = false;
+      const Arc near = arc(prefix, i, j), far = arc(prefix, j, i + n);
+      const Vec3 d = (far.mean - near.mean) * (kArcToEdge * inverse);
+      const Vec3 l = ring.at[i] * inverse, r = ring.at[j] * inverse;
+      const Vec3 chord = r - l, centre = (l + r) * 0.5;
+      const double edge = length(d), chord_length = length(chord);
+      const double v_valence = static_cast<double>(n - (j - i) + 2) - 6;
+      const double w_valence = static_cast<double>(j - i + 2) - 6;
+      const double real = near.count + far.count;
+      // Squared edge lengths to both arcs once the two vertices stand at +-d/2.
+      const double squares = (near.squares + far.squares) * inverse * inverse +
+                             dot(d, near.sum - far.sum) * inverse + real * 0.25 * dot(d, d);
+      c.features = {(square(v_valence) + square(w_valence)) * 0.1,
+                    (ring.valence[i] + ring.valence[j] - 12) * 0.2,
+                    edge,
+                    edge * edge,
+                    chord_length,
+                    length(centre),
+                    length(l) + length(r),
+                    std::fabs(dot(chord, d)) / (chord_length * edge + 1e-3),
+                    real > 0 ? squares / real : 0.0,
+                    ring.is_virtual[i] || ring.is_virtual[j] ? 1.0 : 0.0,
+                    chord_length * chord_length,
+                    square(length(l) - length(r))};
+      double s = 0;
+      for (std::size_t k = 0; k < kFeatures; ++k) s += weights_[k] * c.features[k];
+      score[count_++] = s;
+      best = std::max(best, s);
+    }
+  }
+  double total = 0;
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    candidates_[k].probability = exact::exp(score[k] - best);
+    total += candidates_[k].probability;
+  }
+  for (std::uint32_t k = 0; k < count_; ++k) candidates_[k].probability /= total;
+}
+
+// One step of stochastic gradient ascent on the chosen candidate's log-probability.
+void CutModel::learn(std::uint32_t chosen) {
+  const double rate = 0.02 + 0.2 / (1 + learned_ * 0.02);
+  learned_ = std::min(learned_ + 1, 1u << 20);
+  Features mean{};
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    const Candidate& c = candidates_[k];
+    for (std::size_t f = 0; f < kFeatures; ++f) mean[f] += c.probability * c.features[f];
+  }
+  for (std::size_t f = 0; f < kFeatures; ++f) {
+    const double step = rate * (candidates_[chosen].features[f] - mean[f]);
+    weights_[f] = std::clamp(weights_[f] + std::clamp(step, -0.5, 0.5), -50.0, 50.0);
+  }
+}
+
+}  // namespace vitrine

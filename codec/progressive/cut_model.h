@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which two ring vertices a vertex split cuts along: all pairs are ranked by an online softmax
+// model of how a typical split looks, then coded as "is it this one?" from the likeliest on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "codec/core/exact_math.h"
+#include "codec/core/limits.h"
+#include "codec/core/range_coder.h"
+#include "codec/core/vec.h"
+
+namespace vitrine {
+
+// The one-ring of the vertex to split, in canonical order.
+struct CutRing {
+  std::uint32_t size = 0;
+  double scale = 1;                                       // mean distance of the real ring vertices
+  std::array<Vec3, kMaxSplitValence> at{};                // relative to the vertex
+  std::array<bool, kMaxSplitValence> is_virtual{};
+  std::array<std::int8_t, kMaxSplitValence> valence{};    // 6 where unknown
+};
+
+struct Cut {
+  std::uint32_t i = 0, j = 1;  // i < j: the new vertex takes the faces from ring i to ring j
+};
+
+class CutModel {
+ public:
+  // D / (mean of one arc - mean of the other) in a regular triangulation.
+  static constexpr double kArcToEdge = 0.7;
+
+  // D as the two arcs of the ring suggest it, lattice units.
+  static Vec3 estimate(const CutRing& ring, const Cut& cut);
+
+  template <class Coder>
+  Cut code(Coder& coder, const CutRing& ring, Cut truth) {
+    evaluate(ring);
+    std::uint32_t wanted = 0;
+    if constexpr (Coder::kEncodes) {
+      while (candidates_[wanted].cut.i != truth.i || candidates_[wanted].cut.j != truth.j) ++wanted;
+    }
+    const std::uint32_t chosen = pick(coder, wanted);
+    learn(chosen);
+    return candidates_[chosen].cut;
+  }
+
+ private:
+  static constexpr std::size_t kFeatures = 12;
+  static constexpr std::size_t kMaxPairs = kMaxSplitValence * (kMaxSplitValence - 1) / 2;
+  using Features = std::array<double, kFeatures>;
+
+  struct Candidate {
+    Cut cut;
+    double probability = 0;
+    bool tried = false;
+    Features features{};
+  };
+
+  void evaluate(const CutRing& ring);
+  void learn(std::uint32_t chosen);
+
+  template <class Coder>
+  std::uint32_t pick(Coder& coder, std::uint32_t wanted) {
+    double left = 1;
+    for (std::uint32_t rank = 0;; ++rank) {
+      const std::uint32_t best = likeliest();
+      if (rank + 1 == count_) return best;
+      candidates_[best].tried = true;
+      const double p = candidates_[best].probability;
+      const double others = std::max(left - p, 1e-9);
+      left = others;
+      const int odds = std::clamp(exact::log2_bucket<1>(p / others) + 14, 0, 27);
+      AdaptiveBit& bit = bits_[std::min(rank, 3u)][static_cast<std::size_t>(odds)];
+      if (coder.bit(bit, best == wanted ? 1 : 0) != 0) return best;
+    }
+  }
+
+  std::uint32_t likeliest() const {
+    std::uint32_t best = 0;
+    double p = -1;
+    for (std::uint32_t k = 0; k < count_; ++k) {
+      if (!candidates_[k].tried && candidates_[k].probability > p) {
+        best = k, p = candidates_[k].probability;
+      }
+    }
+    return best;
+  }
+
+  static const Features kTrainedWeights;
+
+  Features weights_ = kTrainedWeights;
+  std::uint32_t learned_ = 0;
+  std::uint32_t count_ = 0;
+  std::array<Candidate, kMaxPairs> candidates_;
+  std::array<std::array<AdaptiveBit, 28>, 4> bits_;
+};
+
+}  // namespace vitrine

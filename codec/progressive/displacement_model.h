@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// D = V1 - V2 of a vertex split: predicted as a combination of features of the fine one-rings whose
+// weights are learned online (recursive least squares), its error modelled as a Gaussian in the
+// frame (predicted direction, normal, across) and coded axis by axis, each conditional on the last.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "codec/core/vec.h"
+#include "codec/progressive/residual_coder.h"
+
+namespace vitrine {
+
+// What is known about a split once the fine connectivity is: all positions relative to v~.
+struct SplitSurroundings {
+  static constexpr std::size_t kFeatures = 6;
+  std::array<Vec3, kFeatures> features{};  // each turns into its negative when V1 and V2 swap
+  Vec3 normal;                             // unit, or zero where there is none
+  double scale = 1;                        // mean distance of the neighbours, lattice units, >= 0.5
+  int context = 0;                         // 0..kContexts-1: how far the features agree
+  static constexpr int kContexts = 16;
+};
+
+class DisplacementModel {
+ public:
+  DisplacementModel();
+
+  template <class Coder>
+  Vec3i code(Coder& coder, const SplitSurroundings& s, Vec3i truth) {
+    const Vec3 predicted = predict(s);
+    Spread spread = spread_of(s, predicted);
+    const Vec3i d = code_vector(coder, predicted, spread.covariance, truth);
+    learn(s, spread, to_vec3(d) - predicted, to_vec3(d));
+    return d;
+  }
+
+  Vec3 predict(const SplitSurroundings& s) const;
+
+ private:
+  static constexpr std::size_t kFeatures = SplitSurroundings::kFeatures;
+
+  struct Spread {
+    std::array<Vec3, 3> frame;            // unit: along the prediction, normal, across
+    std::array<double, 6> covariance{};   // xx, xy, xz, yy, yz, zz
+  };
+
+  Spread spread_of(const SplitSurroundings& s, const Vec3& predicted) const;
+  void learn(const SplitSurroundings& s, const Spread& spread, const Vec3& error, const Vec3& d);
+  void solve();
+
+  template <class Coder>
+  Vec3i code_vector(Coder& coder, const Vec3& mean, const std::array<double, 6>& c, Vec3i truth) {
+    const auto& [xx, xy, xz, yy, yz, zz] = c;
+    Vec3i d;
+    d.x = coder_[0].code(coder, truth.x, mean.x, std::sqrt(xx));
+    const double ex = (d.x - mean.x) / xx;
+    const double yy_x = std::max(yy - xy * xy / xx, kGrain);
+    const double yz_x = yz - xy * xz / xx;
+    const double mean_y = mean.y + xy * ex;
+    d.y = coder_[1].code(coder, truth.y, mean_y, std::sqrt(yy_x));
+    const double ey = (d.y - mean_y) / yy_x;
+    const double zz_xy = std::max(zz - xz * xz / xx - yz_x * yz_x / yy_x, kGrain);
+    d.z = coder_[2].code(coder, truth.z, mean.z + xz * ex + yz_x * ey, std::sqrt(zz_xy));
+    return d;
+  }
+
+  static constexpr double kGrain = 0.12;  // variance of rounding to the lattice, and a little
+
+  std::array<double, kFeatures> weights_;
+  std::array<std::array<double, kFeatures>, kFeatures> normal_matrix_{};
+  std::array<double, kFeatures> right_side_{};
+  std::uint32_t learned_ = 0;
+  std::array<std::array<double, 3>, SplitSurroundings::kContexts> energy_{};  // of error / scale
+  std::array<std::array<double, 3>, SplitSurroundings::kContexts> weight_{};
+  std::array<ResidualCoder, 3> coder_;
+};
+
+}  // namespace vitrine

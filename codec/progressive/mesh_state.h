@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mesh while it is refined, as encoder and decoder both hold it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/mesh/connectivity.h"
+#include "codec/progressive/manifest.h"
+
+namespace vitrine {
+
+inline constexpr std::uint16_t kNoRegion = 0xFFFF;  // of virtual vertices
+
+struct MeshState {
+  Connectivity connectivity;
+  std::vector<Vec3i> positions;
+  std::vector<Vec3i> colours;  // YCoCg-R, or empty
+
+  // (region, index) is a vertex' canonical id: it does not depend on the order in which regions
+  // were refined. members[region][index] is the vertex.
+  std::vector<std::uint16_t> region;
+  std::vector<std::uint32_t> index;
+  std::vector<std::vector<VertexId>> members;
+
+  std::vector<std::uint8_t> split_level;    // level of the vertex' last split
+  std::vector<std::uint8_t> visited_level;  // level in which the vertex was last visited
+  std::vector<std::uint8_t> valence;        // saturates at 255
+  std::vector<std::uint32_t> split_of;      // index of the vertex' split in the chunk that holds it
+  std::vector<std::uint8_t> border;         // 1 where a neighbour is of another region
+
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size()); }
+  std::uint16_t region_of(VertexId v) const { return is_virtual(v) ? kNoRegion : region[v]; }
+  std::uint64_t canonical(VertexId v) const {
+    return is_virtual(v) ? std::uint64_t{v} << 32 | v : std::uint64_t{region[v]} << 32 | index[v];
+  }
+
+  // Appends what the vertex that was split off `v` inherits from it.
+  void inherit(VertexId v);
+  // Sets `border` of a real vertex from its one-ring.
+  void mark_border(VertexId v);
+};
+
+}  // namespace vitrine
