@@ -22,6 +22,7 @@
 #include "codec/progressive/cut_model.h"
 #include "codec/progressive/displacement_model.h"
 #include "codec/progressive/flag_model.h"
+#include "codec/progressive/manifest.h"
 #include "codec/progressive/mesh_state.h"
 #include "codec/progressive/placement.h"
 #include "codec/progressive/surroundings.h"
@@ -42,8 +43,6 @@ struct ChunkFrame {
   Placement placement = Placement::kMidpoint;
   std::int32_t parity = 0;   // level_parity()
 };
-
-inline constexpr std::int32_t kCoordinateBound = 1 << 18;  // of every lattice coordinate, +-
 
 // `Truth` tells an encoder what happens; a decoder passes NoTruth.
 //   bool find(VertexId v, SplitTruth&)                 does v split, and how
@@ -189,7 +188,7 @@ class LayerPass {
     const SplitSurroundings around = split_surroundings(mesh_, splits_, s);
     const Vec3i d = displacements_.code(coder_, around, Coder::kEncodes ? told_[s].first : Vec3i{});
     const SplitPair pair = unmerge(split.merged, d, split.term);
-    if (!in_bound(pair.v1) || !in_bound(pair.v2)) return false;
+    if (!in_coordinate_bound(pair.v1) || !in_coordinate_bound(pair.v2)) return false;
     mesh_.positions[split.v] = pair.v1;
     mesh_.positions[split.w] = pair.v2;
     return mesh_.colours.empty() || place_colour(s);
@@ -200,15 +199,10 @@ class LayerPass {
     const Vec3i told = Coder::kEncodes ? told_[s].second : Vec3i{};
     const Vec3i d = colours_.code(coder_, colour_difference(mesh_, split), told);
     const SplitPair pair = unmerge(split.merged_colour, d, Vec3i{});
-    if (!in_bound(pair.v1) || !in_bound(pair.v2)) return false;
+    if (!in_coordinate_bound(pair.v1) || !in_coordinate_bound(pair.v2)) return false;
     mesh_.colours[split.v] = pair.v1;
     mesh_.colours[split.w] = pair.v2;
     return true;
-  }
-
-  static bool in_bound(const Vec3i& p) {
-    const auto ok = [](std::int32_t c) { return c >= -kCoordinateBound && c <= kCoordinateBound; };
-    return ok(p.x) && ok(p.y) && ok(p.z);
   }
 
   MeshState& mesh_;

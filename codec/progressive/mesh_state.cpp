@@ -1,7 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/mesh_state.h"
 
+#include "codec/progressive/colour.h"
+
 namespace vitrine {
+
+Expected<MeshState> MeshState::from_base(const BaseMesh& base) {
+  const auto n = static_cast<std::uint32_t>(base.positions.size());
+  auto closed = Connectivity::close(n, base.faces);
+  if (!closed) return tl::unexpected(closed.error());
+  for (const Vec3i& p : base.positions) {
+    if (!in_coordinate_bound(p)) return fail(ErrorCode::kBadInput, "the base leaves the lattice");
+  }
+  MeshState mesh{.connectivity = std::move(*closed), .positions = base.positions};
+  mesh.colours = base.colours;
+  mesh.region.assign(n, 0);
+  mesh.split_level.assign(n, 0);
+  mesh.visited_level.assign(n, 0);
+  mesh.border.assign(n, 0);
+  mesh.valence.assign(n, 0);
+  mesh.split_of.assign(n, 0xFFFF'FFFFu);
+  mesh.members.resize(1);
+  for (VertexId v = 0; v < n; ++v) {
+    mesh.index.push_back(v);
+    mesh.members[0].push_back(v);
+    mesh.count_valence(v);
+  }
+  return mesh;
+}
+
+void MeshState::count_valence(VertexId v) {
+  const Corner first = connectivity.corner_at(v);
+  Corner c = first;
+  valence[v] = 0;
+  do {
+    if (valence[v] < 255) ++valence[v];
+    c = connectivity.swing(c);
+  } while (c != first);
+}
 
 void MeshState::inherit(VertexId v) {
   const std::uint16_t k = region[v];
@@ -16,6 +52,37 @@ void MeshState::inherit(VertexId v) {
   border.push_back(border[v]);
   valence.push_back(0);
   split_of.push_back(split_of[v]);
+}
+
+void MeshState::disinherit() {
+  members[region.back()].pop_back();
+  positions.pop_back();
+  if (!colours.empty()) colours.pop_back();
+  region.pop_back();
+  index.pop_back();
+  split_level.pop_back();
+  visited_level.pop_back();
+  border.pop_back();
+  valence.pop_back();
+  split_of.pop_back();
+}
+
+std::vector<Triangle> MeshState::real_faces() const {
+  std::vector<Triangle> faces;
+  faces.reserve(connectivity.face_count());
+  for (std::uint32_t f = 0; f < connectivity.face_count(); ++f) {
+    if (!connectivity.is_real(f)) continue;
+    faces.push_back({connectivity.vertex(3 * f), connectivity.vertex(3 * f + 1),
+                     connectivity.vertex(3 * f + 2)});
+  }
+  return faces;
+}
+
+std::vector<Colour> MeshState::display_colours() const {
+  std::vector<Colour> out;
+  out.reserve(colours.size());
+  for (const Vec3i& c : colours) out.push_back(from_ycocg(c));
+  return out;
 }
 
 void MeshState::mark_border(VertexId v) {

@@ -6,13 +6,23 @@
 #include <vector>
 
 #include "codec/mesh/connectivity.h"
-#include "codec/progressive/manifest.h"
+#include "codec/progressive/base_mesh.h"
 
 namespace vitrine {
 
 inline constexpr std::uint16_t kNoRegion = 0xFFFF;  // of virtual vertices
 
+inline constexpr std::int32_t kCoordinateBound = 1 << 18;  // of every coordinate, +-
+
+constexpr bool in_coordinate_bound(const Vec3i& p) {
+  const auto ok = [](std::int32_t c) { return c >= -kCoordinateBound && c <= kCoordinateBound; };
+  return ok(p.x) && ok(p.y) && ok(p.z);
+}
+
 struct MeshState {
+  // One region, level 0. Fails where the base is not a manifold or leaves the bound.
+  static Expected<MeshState> from_base(const BaseMesh& base);
+
   Connectivity connectivity;
   std::vector<Vec3i> positions;
   std::vector<Vec3i> colours;  // YCoCg-R, or empty
@@ -35,10 +45,16 @@ struct MeshState {
     return is_virtual(v) ? std::uint64_t{v} << 32 | v : std::uint64_t{region[v]} << 32 | index[v];
   }
 
+  void count_valence(VertexId v);
   // Appends what the vertex that was split off `v` inherits from it.
   void inherit(VertexId v);
+  // Takes the newest vertex back (after Connectivity::unsplit).
+  void disinherit();
   // Sets `border` of a real vertex from its one-ring.
   void mark_border(VertexId v);
+
+  std::vector<Triangle> real_faces() const;
+  std::vector<Colour> display_colours() const;  // sRGB, or empty
 };
 
 }  // namespace vitrine

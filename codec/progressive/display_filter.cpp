@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/progressive/display_filter.h"
+
+namespace vitrine {
+namespace {
+
+struct RingShape {
+  Vec3 mean;
+  Vec3 area;  // of the fan, its direction is the normal
+  bool closed = true;
+};
+
+RingShape shape_of(const MeshState& mesh, VertexId v) {
+  RingShape shape;
+  const Connectivity& faces = mesh.connectivity;
+  const Corner first = faces.corner_at(v);
+  const Vec3i& origin = mesh.positions[v];
+  int count = 0;
+  Corner c = first;
+  do {
+    const VertexId a = faces.vertex(next(c)), b = faces.vertex(prev(c));
+    if (is_virtual(a) || is_virtual(b)) {
+      shape.closed = false;
+      return shape;
+    }
+    const Vec3 p = to_vec3(mesh.positions[a] - origin);
+    shape.mean += p;
+    shape.area += cross(p, to_vec3(mesh.positions[b] - origin));
+    ++count;
+    c = faces.swing(c);
+  } while (c != first);
+  shape.mean = shape.mean * (1.0 / count);
+  return shape;
+}
+
+Vec3 filtered(const MeshState& mesh, VertexId v, double strength) {
+  const Vec3 p = to_vec3(mesh.positions[v]);
+  if (strength == 0) return p;
+  const RingShape shape = shape_of(mesh, v);
+  const double size = dot(shape.area, shape.area);
+  if (!shape.closed || !(size > 0)) return p;
+  // p - mean = -shape.mean, which is relative to p.
+  return p + shape.area * (-strength * dot(shape.area, shape.mean) / size);
+}
+
+}  // namespace
+
+void filter_for_display(const MeshState& mesh, const std::function<double(VertexId)>& strength,
+                        std::vector<Vec3>& out) {
+  out.resize(mesh.vertex_count());
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) out[v] = filtered(mesh, v, strength(v));
+}
+
+}  // namespace vitrine

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/progressive/hierarchy.h"
+#include "codec/progressive/mesh_state.h"
+
+namespace vitrine {
+
+struct EncodedChunk {
+  std::uint16_t region = 0;
+  std::uint32_t splits = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+// Replays a hierarchy from the base up, level by level, and codes each chunk.
+class LayerEncoder {
+ public:
+  // `base` is the base mesh in the order in which its own buffer decodes; `fine_ids[v]` is the
+  // hierarchy's id of base vertex v.
+  static Expected<LayerEncoder> start(const Hierarchy& hierarchy, const BaseMesh& base,
+                                      std::vector<VertexId> fine_ids);
+
+  // Codes the next level, 1 first.
+  Expected<std::vector<EncodedChunk>> encode_level();
+
+  std::uint32_t level() const { return level_; }  // 0: the base
+  const MeshState& mesh() const { return mesh_; }
+
+ private:
+  LayerEncoder(const Hierarchy& hierarchy, MeshState mesh) :
+      hierarchy_(&hierarchy), mesh_(std::move(mesh)) {}
+
+  const Hierarchy* hierarchy_;
+  MeshState mesh_;
+  std::vector<VertexId> fine_;             // fine id of each vertex of the state
+  std::vector<VertexId> state_;            // and back; kNoCorner where not born yet
+  std::vector<std::uint32_t> collapse_of_; // per fine id: its collapse in the level being coded
+  std::uint32_t level_ = 0;
+};
+
+}  // namespace vitrine

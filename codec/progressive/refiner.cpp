@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/progressive/refiner.h"
+
+#include "codec/progressive/colour.h"
+#include "codec/progressive/display_filter.h"
+#include "codec/progressive/layer_decoder.h"
+#include "codec/progressive/mesh_state.h"
+
+namespace vitrine {
+
+struct Refiner::State {
+  Manifest manifest;
+  MeshState mesh;
+  std::vector<bool> applied;
+  std::vector<std::uint32_t> region_level;  // per region of mesh.members
+  std::vector<Split> newest;                // splits of the chunk applied last
+  std::uint32_t faces = 0;                  // real ones
+  bool usable = true;
+
+  std::uint32_t level_in(std::uint32_t region) const {
+    return region_level[region_level.size() == 1 ? 0 : region];
+  }
+  bool has_level(std::uint32_t region, std::uint32_t level) const {
+    return level_in(region) >= level;
+  }
+  ChunkFrame frame(const ChunkInfo& chunk) const;
+  void fork();
+};
+
+ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
+  const auto last = static_cast<std::uint32_t>(manifest.levels.size() - 1);
+  return {.level = chunk.level,
+          .region = static_cast<std::uint16_t>(chunk.region),
+          .splits = chunk.splits,
+          .placement = manifest.placement,
+          .parity = level_parity(chunk.level, last)};
+}
+
+void Refiner::State::fork() {
+  if (mesh.members.size() > region_level.size()) {
+    region_level.assign(mesh.members.size(), region_level[0]);
+  }
+}
+
+Refiner::Refiner(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Refiner::Refiner(Refiner&&) noexcept = default;
+Refiner& Refiner::operator=(Refiner&&) noexcept = default;
+Refiner::~Refiner() = default;
+
+Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) noexcept {
+  const LevelInfo& level = manifest.levels[0];
+  const std::size_t colours = manifest.coloured ? base.positions.size() : 0;
+  if (base.positions.size() != level.vertices || base.faces.size() != level.faces ||
+      base.colours.size() != colours) {
+    return fail(ErrorCode::kBadInput, "the base mesh does not have the counts of the header");
+  }
+  auto mesh = MeshState::from_base(base);
+  if (!mesh) return tl::unexpected(mesh.error());
+  if (mesh->connectivity.loop_count() != manifest.loops) {
+    return fail(ErrorCode::kBadInput, "the base mesh does not have the loops of the header");
+  }
+  auto state = std::make_unique<State>();
+  state->applied.assign(manifest.chunks.size(), false);
+  state->region_level.assign(1, 0);
+  state->faces = level.faces;
+  state->manifest = std::move(manifest);
+  state->mesh = std::move(*mesh);
+  return Refiner(std::move(state));
+}
+
+const Manifest& Refiner::manifest() const { return state_->manifest; }
+bool Refiner::applied(std::size_t chunk) const { return state_->applied[chunk]; }
+
+bool Refiner::ready(std::size_t chunk) const {
+  const ChunkInfo& info = state_->manifest.chunks[chunk];
+  if (!state_->usable || state_->applied[chunk]) return false;
+  if (!state_->has_level(info.region, info.level - 1)) return false;
+  if (info.level < state_->manifest.fork_level) return true;
+  for (const std::uint32_t k : state_->manifest.adjacency[info.region]) {
+    if (!state_->has_level(k, info.level - 1)) return false;
+  }
+  return true;
+}
+
+Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> bytes) noexcept {
+  State& s = *state_;
+  if (chunk >= s.applied.size() || !ready(chunk)) {
+    return fail(ErrorCode::kState, "this chunk cannot be applied in the present state");
+  }
+  const ChunkInfo& info = s.manifest.chunks[chunk];
+  s.usable = false;
+  const bool forks = s.manifest.regions > 1 && info.level + 1 == s.manifest.fork_level;
+  auto splits = decode_layer(s.mesh, s.frame(info),
+                             forks ? std::span<const RegionPlane>(s.manifest.planes)
+                                   : std::span<const RegionPlane>(),
+                             bytes);
+  if (!splits) return tl::unexpected(splits.error());
+  s.newest = std::move(*splits);
+  for (const Split& split : s.newest) {
+    s.faces += s.mesh.connectivity.is_real(split.new_face) ? 1 : 0;
+    s.faces += s.mesh.connectivity.is_real(split.new_face + 1) ? 1 : 0;
+  }
+  s.region_level[info.level < s.manifest.fork_level ? 0 : info.region] = info.level;
+  s.fork();
+  s.applied[chunk] = true;
+  s.usable = true;
+  return {};
+}
+
+void Refiner::undo_to_faces(std::uint32_t faces) noexcept {
+  State& s = *state_;
+  while (s.faces > faces && !s.newest.empty()) {
+    const Split split = s.newest.back();
+    s.newest.pop_back();
+    s.faces -= s.mesh.connectivity.is_real(split.new_face) ? 1 : 0;
+    s.faces -= s.mesh.connectivity.is_real(split.new_face + 1) ? 1 : 0;
+    s.mesh.connectivity.unsplit(split.v);
+    s.mesh.disinherit();
+    s.mesh.positions[split.v] = split.merged;
+    if (!s.mesh.colours.empty()) s.mesh.colours[split.v] = split.merged_colour;
+    s.usable = false;
+  }
+}
+
+std::uint32_t Refiner::vertex_count() const { return state_->mesh.vertex_count(); }
+std::uint32_t Refiner::face_count() const { return state_->faces; }
+std::uint32_t Refiner::level_of(VertexId v) const {
+  return state_->level_in(state_->mesh.region[v]);
+}
+const Connectivity& Refiner::connectivity() const { return state_->mesh.connectivity; }
+std::span<const Vec3i> Refiner::positions() const { return state_->mesh.positions; }
+std::span<const Vec3i> Refiner::colours() const { return state_->mesh.colours; }
+
+void Refiner::display_positions(std::vector<Vec3>& out) const {
+  filter_for_display(
+      state_->mesh,
+      [this](VertexId v) { return state_->manifest.levels[level_of(v)].display_filter; }, out);
+}
+
+LatticeMesh Refiner::lattice_mesh() const {
+  LatticeMesh out{.lattice = state_->manifest.lattice};
+  out.positions = state_->mesh.positions;
+  out.faces = state_->mesh.real_faces();
+  out.colours = state_->mesh.display_colours();
+  return out;
+}
+
+TriangleMesh Refiner::display_mesh() const {
+  TriangleMesh out;
+  display_positions(out.positions);
+  const Lattice& lattice = state_->manifest.lattice;
+  for (Vec3& p : out.positions) p = lattice.origin + p * lattice.step;
+  out.faces = state_->mesh.real_faces();
+  out.colours = state_->mesh.display_colours();
+  return out;
+}
+
+}  // namespace vitrine
