@@ -5,6 +5,7 @@
 
 #include "server/catalogue/sqlite_catalogue.h"
 #include "server/store/file_store.h"
+#include "server/store/installation.h"
 #include "server/store/published_model.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
@@ -74,6 +75,14 @@ TEST_F(Publish, text_that_is_not_utf8_or_is_endless_is_refused) {
   EXPECT_FALSE(publish(store_, *catalogue_, file_.bytes, {.creator = std::string(100'000, 'a')}));
   EXPECT_TRUE(publish(store_, *catalogue_, file_.bytes, {.title = "café 🏺"}));
   EXPECT_EQ(model_count(), 1u);
+}
+
+TEST_F(Publish, two_openings_of_a_data_folder_share_their_models) {
+  const auto first = open_installation(folder_.path() / "data").value();
+  const auto second = open_installation(folder_.path() / "data").value();
+  const ModelId id = publish(*first.store, *first.catalogue, file_.bytes, {}).value();
+  PublishedModels models(*second.store, *second.catalogue);
+  EXPECT_TRUE(models.find(id).value());
 }
 
 TEST_F(Publish, the_same_file_may_be_published_twice) {

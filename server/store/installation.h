@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layout of a data folder: objects/ and catalogue.sqlite.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "server/catalogue/catalogue.h"
+#include "server/store/object_store.h"
+
+namespace vitrine {
+
+struct Installation {
+  std::unique_ptr<ObjectStore> store;
+  std::unique_ptr<Catalogue> catalogue;
+};
+
+// Creates what is missing. Several processes may open the same folder.
+Expected<Installation> open_installation(const std::filesystem::path& folder);
+
+}  // namespace vitrine
