@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/simplify/convex_piece.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrine {
+
+Vec3 ConvexPiece::centre() const {
+  Vec3 sum;
+  for (const Vec3& p : corners())
+    sum += p;
+  return sum * (1.0 / size_);
+}
+
+double ConvexPiece::radius(const Vec3& centre) const {
+  double squared = 0;
+  for (const Vec3& p : corners())
+    squared = std::max(squared, dot(p - centre, p - centre));
+  return std::sqrt(squared);
+}
+
+ConvexPiece::Cut ConvexPiece::cut(const Vec3& p, const Vec3& normal, double slack) const {
+  Cut parts;
+  double most = 0, least = 0;
+  Vec3 a = corners_[size_ - 1];
+  double side_a = dot(a - p, normal);
+  for (const Vec3& b : corners()) {
+    const double side_b = dot(b - p, normal);
+    if ((side_a < 0 && side_b > 0) || (side_a > 0 && side_b < 0)) {
+      const Vec3 on_plane = a + (b - a) * (side_a / (side_a - side_b));
+      parts.front.add(on_plane);
+      parts.back.add(on_plane);
+    }
+    if (side_b >= 0) parts.front.add(b);
+    if (side_b <= 0) parts.back.add(b);
+    most = std::max(most, side_b), least = std::min(least, side_b);
+    a = b, side_a = side_b;
+  }
+  if (least >= -slack) return {*this, {}};
+  if (most <= slack) return {{}, *this};
+  return parts;
+}
+
+ConvexPiece::Cut ConvexPiece::halves() const {
+  if (full()) {
+    Cut parts;
+    for (std::uint32_t i = 0; i <= size_ / 2; ++i)
+      parts.front.add(corners_[i]);
+    for (std::uint32_t i = size_ / 2; i < size_; ++i)
+      parts.back.add(corners_[i]);
+    parts.back.add(corners_[0]);
+    return parts;
+  }
+  const Vec3 middle = centre();
+  Vec3 farthest = corners_[0] - middle;
+  for (const Vec3& p : corners()) {
+    if (dot(p - middle, p - middle) > dot(farthest, farthest)) farthest = p - middle;
+  }
+  return cut(middle, farthest, 0);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// A convex piece of a triangle, and its cuts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "codec/core/vec.h"
+#include "codec/mesh/closest_point.h"
+
+namespace vitrine {
+
+class ConvexPiece {
+ public:
+  static constexpr std::uint32_t kCapacity = 16;
+
+  ConvexPiece() = default;
+  explicit ConvexPiece(const Corners& t) : corners_{t.a, t.b, t.c}, size_(3) {}
+
+  std::span<const Vec3> corners() const { return {corners_.data(), size_}; }
+  bool empty() const { return size_ == 0; }
+  bool full() const { return size_ + 4 > kCapacity; }  // has no room for three more cuts
+
+  Vec3 centre() const;                      // mean of the corners
+  double radius(const Vec3& centre) const;  // farthest corner
+
+  struct Cut;
+  // Parts on either side of the plane through `p`; `front` is where the unit `normal` points. A
+  // part that reaches no farther than `slack` from the plane is empty, and the other one is all of
+  // the piece. The piece is not full.
+  Cut cut(const Vec3& p, const Vec3& normal, double slack) const;
+  // Two halves: across the longest extent, or along a diagonal where the piece is full.
+  Cut halves() const;
+
+ private:
+  void add(const Vec3& p) { corners_[size_++] = p; }
+
+  std::array<Vec3, kCapacity> corners_;
+  std::uint32_t size_ = 0;
+};
+
+struct ConvexPiece::Cut {
+  ConvexPiece front, back;
+};
+
+}  // namespace vitrine

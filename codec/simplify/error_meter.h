@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far each displayed level is from the original surface.
+#pragma once
+
+#include <vector>
+
+#include "codec/mesh/triangle_bvh.h"
+#include "codec/mesh/triangle_mesh.h"
+#include "codec/simplify/hausdorff_bound.h"
+
+namespace vitrine {
+
+struct LevelError {
+  double max_error = 0;  // model units; no point of either surface is farther from the other
+  double rms_error = 0;  // model units; the larger of the two directions, from samples
+};
+
+// Levels may be measured from several threads at once.
+class ErrorMeter {
+ public:
+  // `original` is the unquantised input with at least one face, finite and with valid indices.
+  explicit ErrorMeter(const TriangleMesh& original);
+
+  // `level` is what is displayed: at least one face, model units. max_error is at most a tenth
+  // above the true maximum (or 1e-9 of the diagonal above it).
+  LevelError measure(const TriangleMesh& level) const;
+
+ private:
+  TriangleBvh bvh_;
+  WitnessSurface surface_;
+  std::vector<Vec3> samples_;
+  double negligible_;
+};
+
+}  // namespace vitrine
