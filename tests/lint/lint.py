@@ -144,7 +144,7 @@ def rooms(root):
 def normal(name):
     """Library names as the table spells them."""
     return {"Threads::Threads": "threads", "nlohmann_json::nlohmann_json": "nlohmann-json", "OpenMeshCore": "OpenMesh",
-            "OpenMeshTools": "OpenMesh", "SQLite::SQLite3": "SQLite", "PkgConfig::SECCOMP": "seccomp"}.get(name, name)
+            "OpenMeshTools": "OpenMesh", "SQLite::SQLite3": "SQLite", "${VITRINE_SECCOMP}": "seccomp"}.get(name, name)
 
 
 def includes(root, table, reached):
