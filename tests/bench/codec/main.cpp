@@ -133,10 +133,10 @@ class TemporaryFile {
 
 // Seconds that the browser's decoder takes in Node for the same file.
 double wasm_seconds(const char* pmesh) {
-  const std::string command =
-      std::string("node '" VITRINE_SOURCE_DIR
-                  "/tests/bench/codec/decode_wasm.mjs' '" VITRINE_BIN_DIR "/../web' '") +
-      pmesh + "'";
+  const std::string command = std::string("node '" VITRINE_SOURCE_DIR
+                                          "/tests/bench/codec/decode_wasm.mjs' '" VITRINE_BIN_DIR
+                                          "/../wasm/progressive-mesh.wasm' '") +
+                              pmesh + "'";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   double value = 0;
   const bool read = pipe != nullptr && std::fscanf(pipe, "%lf", &value) == 1;

@@ -37,7 +37,9 @@ std::uint32_t decode(std::span<const std::uint8_t> pmesh) {
   Refiner refiner = value_of(Refiner::start(manifest, base));
   for (std::size_t i = 0; i < manifest.chunks.size(); ++i) {
     const ChunkInfo& chunk = manifest.chunks[i];
-    const auto applied = refiner.apply(i, pmesh.subspan(chunk.offset, chunk.length));
+    const auto bytes = pmesh.subspan(chunk.offset, chunk.length);
+    if (sha256(bytes) != chunk.sha256) throw std::runtime_error("a chunk is not what it was");
+    const auto applied = refiner.apply(i, bytes);
     if (!applied) throw std::runtime_error(applied.error().message);
   }
   return refiner.face_count();

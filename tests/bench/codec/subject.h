@@ -13,7 +13,7 @@ TriangleMesh read_clean(std::span<const std::uint8_t> file);
 // The `.pmesh` of a mesh file, one thread.
 Bytes build(std::span<const std::uint8_t> file, int bits);
 
-// Decodes every chunk; the number of faces at full resolution.
+// Checks and decodes every chunk; the number of faces at full resolution.
 std::uint32_t decode(std::span<const std::uint8_t> pmesh);
 
 }  // namespace vitrine::bench

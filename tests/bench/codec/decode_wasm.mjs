@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints the seconds that the browser's decoder takes for a whole file, once it is warm:
+// node decode_wasm.mjs DECODER.wasm FILE.pmesh
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+
+const web = new URL("../../../web/", import.meta.url);
+const require = createRequire(new URL("package.json", web));
+const { outputFiles } = await require("esbuild").build({
+  stdin: {
+    contents: 'export { Decoder } from "./decoder.ts"; export { decodeBase } from "./draco.ts";',
+    resolveDir: new URL("src/core", web).pathname,
+  },
+  bundle: true,
+  format: "esm",
+  target: "node18",
+  write: false,
+});
+const bundle = Buffer.from(outputFiles[0].contents).toString("base64");
+const { Decoder, decodeBase } = await import(`data:text/javascript;base64,${bundle}`);
+
+const [wasm, file] = await Promise.all(process.argv.slice(2, 4).map((path) => readFile(path)));
+const module = await WebAssembly.compile(wasm);
+const draco = await require("draco3d").createDecoderModule({});
+
+async function decode() {
+  const decoder = await Decoder.create(module);
+  const info = decoder.open(file.subarray(0, decoder.headerLength(file)));
+  decoder.start(decodeBase(draco, file.subarray(info.baseOffset, info.baseOffset + info.baseLength), info.levels[0]));
+  for (const [chunk, { offset, length }] of info.chunks.entries()) {
+    decoder.apply(chunk, file.subarray(offset, offset + length));
+  }
+}
+
+let seconds;
+for (let run = 0; run < 3; ++run) {
+  const start = process.hrtime.bigint();
+  await decode();
+  seconds = Number(process.hrtime.bigint() - start) / 1e9;
+}
+console.log(seconds.toFixed(6));
