@@ -22,15 +22,13 @@ bool is_edgebreaker_mesh(std::span<const std::uint8_t> bytes) {
          bytes[7] == 1 && bytes[8] == 1;
 }
 
-template <class T>
 bool read_attribute(const draco::Mesh& mesh, const draco::PointAttribute& attribute,
-                    std::int8_t components, std::vector<T>& out) {
+                    std::vector<Vec3i>& out) {
   out.resize(mesh.num_points());
   for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
     const auto value = attribute.mapped_index(draco::PointIndex(p));
     auto* to = reinterpret_cast<std::int32_t*>(&out[p]);
-    if (value.value() >= attribute.size() ||
-        !attribute.ConvertValue<std::int32_t>(value, components, to)) {
+    if (value.value() >= attribute.size() || !attribute.ConvertValue<std::int32_t>(value, 3, to)) {
       return false;
     }
   }
@@ -39,7 +37,7 @@ bool read_attribute(const draco::Mesh& mesh, const draco::PointAttribute& attrib
 
 }  // namespace
 
-Expected<DracoMesh> decode_draco(std::span<const std::uint8_t> bytes) {
+Expected<BaseMesh> decode_draco(std::span<const std::uint8_t> bytes) {
   if (!is_edgebreaker_mesh(bytes)) return bad("it is not a Draco edgebreaker mesh");
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -48,18 +46,16 @@ Expected<DracoMesh> decode_draco(std::span<const std::uint8_t> bytes) {
   if (!result.ok()) return bad(std::string("Draco says ") + result.status().error_msg());
   const draco::Mesh& mesh = *result.value();
 
-  DracoMesh out;
-  out.mesh.faces.reserve(mesh.num_faces());
+  BaseMesh out;
+  out.faces.reserve(mesh.num_faces());
   for (std::uint32_t f = 0; f < mesh.num_faces(); ++f) {
     const auto& face = mesh.face(draco::FaceIndex(f));
-    out.mesh.faces.push_back({face[0].value(), face[1].value(), face[2].value()});
+    out.faces.push_back({face[0].value(), face[1].value(), face[2].value()});
   }
   const auto* positions = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
   const auto* colours = mesh.GetNamedAttribute(draco::GeometryAttribute::COLOR);
-  const auto* numbers = mesh.GetNamedAttribute(draco::GeometryAttribute::GENERIC);
-  if (positions == nullptr || !read_attribute(mesh, *positions, 3, out.mesh.positions) ||
-      (colours != nullptr && !read_attribute(mesh, *colours, 3, out.mesh.colours)) ||
-      (numbers != nullptr && !read_attribute(mesh, *numbers, 1, out.numbers))) {
+  if (positions == nullptr || !read_attribute(mesh, *positions, out.positions) ||
+      (colours != nullptr && !read_attribute(mesh, *colours, out.colours))) {
     return bad("an attribute is missing or of another kind");
   }
   return out;
@@ -69,12 +65,11 @@ Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manife
   auto decoded = decode_draco(bytes);
   if (!decoded) return tl::unexpected(decoded.error());
   const LevelInfo& level = manifest.levels[0];
-  if (decoded->mesh.positions.size() != level.vertices ||
-      decoded->mesh.faces.size() != level.faces ||
-      decoded->mesh.colours.empty() == manifest.coloured) {
+  if (decoded->positions.size() != level.vertices || decoded->faces.size() != level.faces ||
+      decoded->colours.empty() == manifest.coloured) {
     return bad("its counts are not those of the header");
   }
-  return std::move(decoded->mesh);
+  return std::move(*decoded);
 }
 
 }  // namespace vitrine

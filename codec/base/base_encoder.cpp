@@ -7,16 +7,16 @@
 #include <string>
 
 #include "codec/base/draco_mesh.h"
+#include "codec/base/same_surface.h"
 
 namespace vitrine {
 namespace {
 
-template <class T>
-void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::int8_t components,
-                   const std::vector<T>& values) {
+void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type,
+                   const std::vector<Vec3i>& values) {
   draco::GeometryAttribute attribute;
-  attribute.Init(type, nullptr, components, draco::DT_INT32, false,
-                 static_cast<std::int64_t>(sizeof(std::int32_t)) * components, 0);
+  attribute.Init(type, nullptr, 3, draco::DT_INT32, false,
+                 static_cast<std::int64_t>(sizeof(std::int32_t)) * 3, 0);
   const int id = mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(values.size()));
   for (std::uint32_t v = 0; v < values.size(); ++v) {
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(v), &values[v]);
@@ -31,9 +31,9 @@ void fill(draco::Mesh& mesh, const BaseMesh& base) {
     mesh.SetFace(draco::FaceIndex(f),
                  {draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])});
   }
-  add_attribute(mesh, draco::GeometryAttribute::POSITION, 3, base.positions);
+  add_attribute(mesh, draco::GeometryAttribute::POSITION, base.positions);
   if (!base.colours.empty()) {
-    add_attribute(mesh, draco::GeometryAttribute::COLOR, 3, base.colours);
+    add_attribute(mesh, draco::GeometryAttribute::COLOR, base.colours);
   }
 }
 
@@ -59,23 +59,10 @@ Expected<EncodedBase> encode_base(const BaseMesh& base) {
   auto decoded = decode_draco(*bytes);
   if (!decoded) return tl::unexpected(decoded.error());
 
-  // The order of the vertices depends on the connectivity alone, so a second encoding with the
-  // vertices' numbers as one more attribute tells it.
-  std::vector<std::int32_t> numbers(base.positions.size());
-  for (std::size_t v = 0; v < numbers.size(); ++v) numbers[v] = static_cast<std::int32_t>(v);
-  add_attribute(mesh, draco::GeometryAttribute::GENERIC, 1, numbers);
-  const auto numbered_bytes = compress(mesh);
-  if (!numbered_bytes) return tl::unexpected(numbered_bytes.error());
-  const auto numbered = decode_draco(*numbered_bytes);
-  if (!numbered) return tl::unexpected(numbered.error());
-  if (numbered->mesh.positions != decoded->mesh.positions ||
-      numbered->mesh.faces != decoded->mesh.faces ||
-      decoded->mesh.positions.size() != base.positions.size() ||
-      decoded->mesh.faces.size() != base.faces.size()) {
-    return fail(ErrorCode::kBadInput, "Draco does not keep the base mesh as it is");
-  }
-  EncodedBase out{.bytes = std::move(*bytes), .decoded = std::move(decoded->mesh)};
-  out.original.assign(numbered->numbers.begin(), numbered->numbers.end());
+  auto original = correspond(base, *decoded);
+  if (!original) return tl::unexpected(original.error());
+  EncodedBase out{.bytes = std::move(*bytes), .decoded = std::move(*decoded)};
+  out.original = std::move(*original);
   return out;
 }
 

@@ -11,11 +11,6 @@
 
 namespace vitrine {
 
-struct DracoMesh {
-  BaseMesh mesh;
-  std::vector<std::int32_t> numbers;  // of a generic attribute with one component, or empty
-};
-
-Expected<DracoMesh> decode_draco(std::span<const std::uint8_t> bytes);
+Expected<BaseMesh> decode_draco(std::span<const std::uint8_t> bytes);
 
 }  // namespace vitrine

@@ -79,7 +79,8 @@ class ByteWriter {
   void u64(std::uint64_t v) { fixed(v, 8); }
   void f64(double v) { u64(std::bit_cast<std::uint64_t>(v)); }
   void varint(std::uint64_t v) {
-    for (; v >= 0x80; v >>= 7) u8(static_cast<std::uint8_t>(v | 0x80));
+    for (; v >= 0x80; v >>= 7)
+      u8(static_cast<std::uint8_t>(v | 0x80));
     u8(static_cast<std::uint8_t>(v));
   }
   void signed_varint(std::int64_t v) {
@@ -92,7 +93,8 @@ class ByteWriter {
 
  private:
   void fixed(std::uint64_t v, int count) {
-    for (int i = 0; i < count; ++i) out_.push_back(static_cast<std::uint8_t>(v >> (8 * i)));
+    for (int i = 0; i < count; ++i)
+      out_.push_back(static_cast<std::uint8_t>(v >> (8 * i)));
   }
 
   std::vector<std::uint8_t> out_;

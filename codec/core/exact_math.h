@@ -17,7 +17,9 @@ inline double exp(double x) {
   const double whole = std::floor(t + 0.5);
   const double f = (t - whole) * kLn2;  // |f| <= 0.35
   const double series =
-      1 + f * (1 + f * (1.0 / 2 + f * (1.0 / 6 + f * (1.0 / 24 + f * (1.0 / 120 + f * (1.0 / 720 + f / 5040))))));
+      1 +
+      f * (1 + f * (1.0 / 2 +
+                    f * (1.0 / 6 + f * (1.0 / 24 + f * (1.0 / 120 + f * (1.0 / 720 + f / 5040))))));
   const auto exponent = static_cast<std::uint64_t>(1023 + static_cast<std::int64_t>(whole));
   return series * std::bit_cast<double>(exponent << 52);
 }

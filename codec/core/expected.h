@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The result type of everything that can fail on data: a value, or an error that a person can act on.
+// The result type of everything that can fail on data: a value, or an error that a person can act
+// on.
 #pragma once
 
 #include <string>

@@ -27,7 +27,8 @@ struct AdaptiveBit {
  private:
   static constexpr std::array<std::int32_t, kLimit + 1> kStep = [] {
     std::array<std::int32_t, kLimit + 1> step{};
-    for (int n = 0; n <= kLimit; ++n) step[n] = 131072 / (2 * n + 3);
+    for (int n = 0; n <= kLimit; ++n)
+      step[n] = 131072 / (2 * n + 3);
     return step;
   }();
 };
@@ -53,7 +54,8 @@ class RangeEncoder {
       range_ -= bound;
     }
     model.update(value);
-    while (range_ < range_coder::kTop) range_ <<= 8, shift();
+    while (range_ < range_coder::kTop)
+      range_ <<= 8, shift();
     return value;
   }
 
@@ -62,15 +64,18 @@ class RangeEncoder {
     while (count-- > 0) {
       range_ >>= 1;
       if ((value >> count & 1u) == 0) low_ += range_;
-      while (range_ < range_coder::kTop) range_ <<= 8, shift();
+      while (range_ < range_coder::kTop)
+        range_ <<= 8, shift();
     }
     return value;
   }
 
   // Ends the stream. Trailing zero bytes are dropped: the decoder reads zeros beyond the end.
   std::vector<std::uint8_t> finish() {
-    for (int i = 0; i < 5; ++i) shift();
-    while (!out_.empty() && out_.back() == 0) out_.pop_back();
+    for (int i = 0; i < 5; ++i)
+      shift();
+    while (!out_.empty() && out_.back() == 0)
+      out_.pop_back();
     return std::move(out_);
   }
 
@@ -79,7 +84,8 @@ class RangeEncoder {
     if (low_ < 0xFF00'0000u || low_ > 0xFFFF'FFFFu) {
       const auto carry = static_cast<std::uint8_t>(low_ >> 32);
       if (started_) out_.push_back(static_cast<std::uint8_t>(pending_ + carry));
-      for (; run_ > 0; --run_) out_.push_back(static_cast<std::uint8_t>(0xFF + carry));
+      for (; run_ > 0; --run_)
+        out_.push_back(static_cast<std::uint8_t>(0xFF + carry));
       pending_ = static_cast<std::uint8_t>(low_ >> 24);
       started_ = true;
     } else {
@@ -101,7 +107,8 @@ class RangeDecoder {
   static constexpr bool kEncodes = false;
 
   explicit RangeDecoder(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {
-    for (int i = 0; i < 4; ++i) code_ = code_ << 8 | take();
+    for (int i = 0; i < 4; ++i)
+      code_ = code_ << 8 | take();
   }
 
   int bit(AdaptiveBit& model, int = 0) noexcept {
@@ -114,7 +121,8 @@ class RangeDecoder {
       range_ -= bound;
     }
     model.update(value);
-    while (range_ < range_coder::kTop) range_ <<= 8, code_ = code_ << 8 | take();
+    while (range_ < range_coder::kTop)
+      range_ <<= 8, code_ = code_ << 8 | take();
     return value;
   }
 
@@ -125,15 +133,14 @@ class RangeDecoder {
       const bool one = code_ < range_;
       if (!one) code_ -= range_;
       value = value << 1 | (one ? 1u : 0u);
-      while (range_ < range_coder::kTop) range_ <<= 8, code_ = code_ << 8 | take();
+      while (range_ < range_coder::kTop)
+        range_ <<= 8, code_ = code_ << 8 | take();
     }
     return value;
   }
 
  private:
-  std::uint8_t take() noexcept {
-    return position_ < bytes_.size() ? bytes_[position_++] : 0;
-  }
+  std::uint8_t take() noexcept { return position_ < bytes_.size() ? bytes_[position_++] : 0; }
 
   std::span<const std::uint8_t> bytes_;
   std::size_t position_ = 0;

@@ -49,7 +49,8 @@ void absorb(State& state, const std::uint8_t* block) noexcept {
     d = c, c = b, b = a, a = one + two;
   }
   const State add = {a, b, c, d, e, f, g, h};
-  for (std::size_t i = 0; i < 8; ++i) state[i] += add[i];
+  for (std::size_t i = 0; i < 8; ++i)
+    state[i] += add[i];
 }
 
 }  // namespace
@@ -57,7 +58,8 @@ void absorb(State& state, const std::uint8_t* block) noexcept {
 Sha256 sha256(std::span<const std::uint8_t> bytes) noexcept {
   State state = kInitial;
   std::size_t done = 0;
-  for (; bytes.size() - done >= 64; done += 64) absorb(state, bytes.data() + done);
+  for (; bytes.size() - done >= 64; done += 64)
+    absorb(state, bytes.data() + done);
 
   std::array<std::uint8_t, 128> tail{};
   const std::size_t left = bytes.size() - done;
@@ -68,7 +70,8 @@ Sha256 sha256(std::span<const std::uint8_t> bytes) noexcept {
   for (std::size_t i = 0; i < 8; ++i) {
     tail[64 * blocks - 1 - i] = static_cast<std::uint8_t>(bits >> (8 * i));
   }
-  for (std::size_t i = 0; i < blocks; ++i) absorb(state, tail.data() + 64 * i);
+  for (std::size_t i = 0; i < blocks; ++i)
+    absorb(state, tail.data() + 64 * i);
 
   Sha256 digest;
   for (std::size_t i = 0; i < 32; ++i) {

@@ -15,7 +15,7 @@ using Sha256 = std::array<std::uint8_t, 32>;
 
 Sha256 sha256(std::span<const std::uint8_t> bytes) noexcept;
 
-std::string to_hex(const Sha256& digest);                     // 64 lower-case digits
+std::string to_hex(const Sha256& digest);                       // 64 lower-case digits
 bool from_hex(std::string_view text, Sha256& digest) noexcept;  // false unless exactly that
 
 }  // namespace vitrine

@@ -38,7 +38,9 @@ Arc arc(const Prefix& p, std::uint32_t from, std::uint32_t to) {  // both ends i
   return a;
 }
 
-double square(double x) { return x * x; }
+double square(double x) {
+  return x * x;
+}
 
 }  // namespace
 
@@ -85,7 +87,8 @@ void CutModel::evaluate(const CutRing& ring) {
                     chord_length * chord_length,
                     square(length(l) - length(r))};
       double s = 0;
-      for (std::size_t k = 0; k < kFeatures; ++k) s += weights_[k] * c.features[k];
+      for (std::size_t k = 0; k < kFeatures; ++k)
+        s += weights_[k] * c.features[k];
       score[count_++] = s;
       best = std::max(best, s);
     }
@@ -95,7 +98,8 @@ void CutModel::evaluate(const CutRing& ring) {
     candidates_[k].probability = exact::exp(score[k] - best);
     total += candidates_[k].probability;
   }
-  for (std::uint32_t k = 0; k < count_; ++k) candidates_[k].probability /= total;
+  for (std::uint32_t k = 0; k < count_; ++k)
+    candidates_[k].probability /= total;
 }
 
 // One step of stochastic gradient ascent on the chosen candidate's log-probability.
@@ -105,7 +109,8 @@ void CutModel::learn(std::uint32_t chosen) {
   Features mean{};
   for (std::uint32_t k = 0; k < count_; ++k) {
     const Candidate& c = candidates_[k];
-    for (std::size_t f = 0; f < kFeatures; ++f) mean[f] += c.probability * c.features[f];
+    for (std::size_t f = 0; f < kFeatures; ++f)
+      mean[f] += c.probability * c.features[f];
   }
   for (std::size_t f = 0; f < kFeatures; ++f) {
     const double step = rate * (candidates_[chosen].features[f] - mean[f]);

@@ -16,10 +16,10 @@ namespace vitrine {
 // The one-ring of the vertex to split, in canonical order.
 struct CutRing {
   std::uint32_t size = 0;
-  double scale = 1;                                       // mean distance of the real ring vertices
-  std::array<Vec3, kMaxSplitValence> at{};                // relative to the vertex
+  double scale = 1;                         // mean distance of the real ring vertices
+  std::array<Vec3, kMaxSplitValence> at{};  // relative to the vertex
   std::array<bool, kMaxSplitValence> is_virtual{};
-  std::array<std::int8_t, kMaxSplitValence> valence{};    // 6 where unknown
+  std::array<std::int8_t, kMaxSplitValence> valence{};  // 6 where unknown
 };
 
 struct Cut {
@@ -39,7 +39,8 @@ class CutModel {
     evaluate(ring);
     std::uint32_t wanted = 0;
     if constexpr (Coder::kEncodes) {
-      while (candidates_[wanted].cut.i != truth.i || candidates_[wanted].cut.j != truth.j) ++wanted;
+      while (candidates_[wanted].cut.i != truth.i || candidates_[wanted].cut.j != truth.j)
+        ++wanted;
     }
     const std::uint32_t chosen = pick(coder, wanted);
     learn(chosen);

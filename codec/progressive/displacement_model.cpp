@@ -5,10 +5,10 @@ namespace vitrine {
 namespace {
 
 constexpr std::array<double, SplitSurroundings::kFeatures> kStartWeights = {0.35, 0.15, 0.25,
-                                                                           0.05, 0.1, 0.0};
-constexpr double kRidge = 4;              // how many splits the start weights count for
+                                                                            0.05, 0.1,  0.0};
+constexpr double kRidge = 4;  // how many splits the start weights count for
 constexpr std::uint32_t kSolveEvery = 16;
-constexpr double kMemory = 300;           // splits that an error energy remembers
+constexpr double kMemory = 300;  // splits that an error energy remembers
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double l = length(v);
@@ -27,13 +27,16 @@ DisplacementModel::DisplacementModel() : weights_(kStartWeights) {
     normal_matrix_[k][k] = kRidge;
     right_side_[k] = kRidge * kStartWeights[k];
   }
-  for (auto& e : energy_) e = {0.03, 0.01, 0.03};
-  for (auto& w : weight_) w = {4, 4, 4};
+  for (auto& e : energy_)
+    e = {0.03, 0.01, 0.03};
+  for (auto& w : weight_)
+    w = {4, 4, 4};
 }
 
 Vec3 DisplacementModel::predict(const SplitSurroundings& s) const {
   Vec3 d;
-  for (std::size_t k = 0; k < kFeatures; ++k) d += s.features[k] * weights_[k];
+  for (std::size_t k = 0; k < kFeatures; ++k)
+    d += s.features[k] * weights_[k];
   return d;
 }
 
@@ -87,19 +90,22 @@ void DisplacementModel::solve() {
   for (std::size_t i = 0; i < kFeatures; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = normal_matrix_[i][j];
-      for (std::size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+      for (std::size_t k = 0; k < j; ++k)
+        sum -= l[i][k] * l[j][k];
       l[i][j] = i == j ? std::sqrt(std::max(sum, 1e-6)) : sum / l[j][j];
     }
   }
   std::array<double, kFeatures> y{};
   for (std::size_t i = 0; i < kFeatures; ++i) {
     double sum = right_side_[i];
-    for (std::size_t k = 0; k < i; ++k) sum -= l[i][k] * y[k];
+    for (std::size_t k = 0; k < i; ++k)
+      sum -= l[i][k] * y[k];
     y[i] = sum / l[i][i];
   }
   for (std::size_t i = kFeatures; i-- > 0;) {
     double sum = y[i];
-    for (std::size_t k = i + 1; k < kFeatures; ++k) sum -= l[k][i] * weights_[k];
+    for (std::size_t k = i + 1; k < kFeatures; ++k)
+      sum -= l[k][i] * weights_[k];
     weights_[i] = sum / l[i][i];
   }
 }

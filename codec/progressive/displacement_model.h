@@ -41,8 +41,8 @@ class DisplacementModel {
   static constexpr std::size_t kFeatures = SplitSurroundings::kFeatures;
 
   struct Spread {
-    std::array<Vec3, 3> frame;            // unit: along the prediction, normal, across
-    std::array<double, 6> covariance{};   // xx, xy, xz, yy, yz, zz
+    std::array<Vec3, 3> frame;           // unit: along the prediction, normal, across
+    std::array<double, 6> covariance{};  // xx, xy, xz, yy, yz, zz
   };
 
   Spread spread_of(const SplitSurroundings& s, const Vec3& predicted) const;

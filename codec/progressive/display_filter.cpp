@@ -48,7 +48,8 @@ Vec3 filtered(const MeshState& mesh, VertexId v, double strength) {
 void filter_for_display(const MeshState& mesh, const std::function<double(VertexId)>& strength,
                         std::vector<Vec3>& out) {
   out.resize(mesh.vertex_count());
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v) out[v] = filtered(mesh, v, strength(v));
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+    out[v] = filtered(mesh, v, strength(v));
 }
 
 }  // namespace vitrine

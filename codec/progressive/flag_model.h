@@ -12,12 +12,12 @@
 namespace vitrine {
 
 struct FlagFeatures {
-  bool border = false;      // next to another region: only `age` may be used
-  int age = 1;              // levels since the vertex last split, >= 1
+  bool border = false;  // next to another region: only `age` may be used
+  int age = 1;          // levels since the vertex last split, >= 1
   int valence = 6;
-  int unsplit = 0;          // neighbours already visited in this level that did not split
-  int split = 0;            // neighbours already visited that did
-  double square_length = 0; // mean squared length of the edges to the real neighbours
+  int unsplit = 0;           // neighbours already visited in this level that did not split
+  int split = 0;             // neighbours already visited that did
+  double square_length = 0;  // mean squared length of the edges to the real neighbours
 };
 
 class FlagModel {

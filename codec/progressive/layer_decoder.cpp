@@ -13,8 +13,7 @@ Expected<std::vector<Split>> decode_layer(MeshState& mesh, const ChunkFrame& fra
   RangeDecoder coder(bytes);
   NoTruth truth;
   // On the heap: the models are larger than a WebAssembly stack likes.
-  const auto pass =
-      std::make_unique<LayerPass<RangeDecoder, NoTruth>>(mesh, frame, coder, truth);
+  const auto pass = std::make_unique<LayerPass<RangeDecoder, NoTruth>>(mesh, frame, coder, truth);
   auto splits = pass->run();
   if (!splits || planes.empty()) return splits;
   const auto none = [](VertexId) { return std::uint16_t{0}; };

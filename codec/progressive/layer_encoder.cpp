@@ -54,7 +54,8 @@ Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const Bas
   encoder.fine_ = std::move(fine_ids);
   encoder.state_.assign(hierarchy.region.size(), kNone);
   encoder.collapse_of_.assign(hierarchy.region.size(), kNone);
-  for (VertexId v = 0; v < encoder.fine_.size(); ++v) encoder.state_[encoder.fine_[v]] = v;
+  for (VertexId v = 0; v < encoder.fine_.size(); ++v)
+    encoder.state_[encoder.fine_[v]] = v;
   return encoder;
 }
 
@@ -89,7 +90,8 @@ Expected<std::vector<EncodedChunk>> LayerEncoder::encode_level() {
     chunks[k].region = static_cast<std::uint16_t>(k);
     chunks[k].bytes = coder.finish();
   }
-  for (const Collapse& c : collapses) collapse_of_[c.v1] = kNone;
+  for (const Collapse& c : collapses)
+    collapse_of_[c.v1] = kNone;
   return chunks;
 }
 

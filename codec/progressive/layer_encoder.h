@@ -31,14 +31,14 @@ class LayerEncoder {
   const MeshState& mesh() const { return mesh_; }
 
  private:
-  LayerEncoder(const Hierarchy& hierarchy, MeshState mesh) :
-      hierarchy_(&hierarchy), mesh_(std::move(mesh)) {}
+  LayerEncoder(const Hierarchy& hierarchy, MeshState mesh)
+      : hierarchy_(&hierarchy), mesh_(std::move(mesh)) {}
 
   const Hierarchy* hierarchy_;
   MeshState mesh_;
-  std::vector<VertexId> fine_;             // fine id of each vertex of the state
-  std::vector<VertexId> state_;            // and back; kNoCorner where not born yet
-  std::vector<std::uint32_t> collapse_of_; // per fine id: its collapse in the level being coded
+  std::vector<VertexId> fine_;              // fine id of each vertex of the state
+  std::vector<VertexId> state_;             // and back; kNoCorner where not born yet
+  std::vector<std::uint32_t> collapse_of_;  // per fine id: its collapse in the level being coded
   std::uint32_t level_ = 0;
 };
 

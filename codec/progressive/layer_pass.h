@@ -41,7 +41,7 @@ struct ChunkFrame {
   std::uint16_t region = 0;
   std::uint32_t splits = 0;  // stated by the header
   Placement placement = Placement::kMidpoint;
-  std::int32_t parity = 0;   // level_parity()
+  std::int32_t parity = 0;  // level_parity()
 };
 
 // `Truth` tells an encoder what happens; a decoder passes NoTruth.
@@ -73,19 +73,22 @@ class LayerPass {
  private:
   Unexpected damaged(const char* what) const {
     return fail(ErrorCode::kBadInput, "damaged chunk (level " + std::to_string(frame_.level) +
-                                          ", region " + std::to_string(frame_.region) + "): " + what);
+                                          ", region " + std::to_string(frame_.region) +
+                                          "): " + what);
   }
 
   std::vector<VertexId> visiting_order() const {
     const auto& members = mesh_.members[frame_.region];
     std::vector<std::pair<std::uint64_t, VertexId>> keyed;
     keyed.reserve(members.size());
-    for (const VertexId v : members) keyed.emplace_back(order_key(mesh_.positions[v]), v);
+    for (const VertexId v : members)
+      keyed.emplace_back(order_key(mesh_.positions[v]), v);
     std::stable_sort(keyed.begin(), keyed.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<VertexId> order;
     order.reserve(keyed.size());
-    for (const auto& [key, v] : keyed) order.push_back(v);
+    for (const auto& [key, v] : keyed)
+      order.push_back(v);
     return order;
   }
 
@@ -130,8 +133,8 @@ class LayerPass {
     Split split{.v = v, .merged = mesh_.positions[v], .new_face = mesh_.connectivity.face_count()};
     if (!mesh_.colours.empty()) split.merged_colour = mesh_.colours[v];
     split.term = term(ring, cut);
-    split.w = mesh_.connectivity.split(
-        v, std::span<const Corner>(ring.corners.data(), ring.size), cut.i, cut.j);
+    split.w = mesh_.connectivity.split(v, std::span<const Corner>(ring.corners.data(), ring.size),
+                                       cut.i, cut.j);
     mesh_.inherit(v);
     update_marks(split, ring, cut);
     estimate(split, CutModel::estimate(around, cut));

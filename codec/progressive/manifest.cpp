@@ -30,10 +30,16 @@ float round_up(double v) {  // a bound stays a bound when it is stored in single
   return static_cast<double>(f) < v ? std::nextafter(f, 3e38f) : f;
 }
 
-void write_float(ByteWriter& out, float v) { out.u32(std::bit_cast<std::uint32_t>(v)); }
-double read_float(ByteReader& in) { return std::bit_cast<float>(in.u32()); }
+void write_float(ByteWriter& out, float v) {
+  out.u32(std::bit_cast<std::uint32_t>(v));
+}
+double read_float(ByteReader& in) {
+  return std::bit_cast<float>(in.u32());
+}
 
-bool is_sane_error(double v) { return v >= 0 && v < 1e30; }
+bool is_sane_error(double v) {
+  return v >= 0 && v < 1e30;
+}
 
 void write_levels(ByteWriter& out, const Manifest& m) {
   out.varint(m.levels.size());
@@ -55,7 +61,8 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
   for (LevelInfo& level : m.levels) {
     const std::uint64_t vertices = in.varint(), faces = in.varint();
     if (vertices > limits.vertices || faces > limits.faces) {
-      return fail(ErrorCode::kLimit, "the model has more vertices or faces than this reader allows");
+      return fail(ErrorCode::kLimit,
+                  "the model has more vertices or faces than this reader allows");
     }
     level.vertices = static_cast<std::uint32_t>(vertices);
     level.faces = static_cast<std::uint32_t>(faces);
@@ -84,7 +91,8 @@ void write_regions(ByteWriter& out, const Manifest& m) {
   for (const auto& neighbours : m.adjacency) {
     out.varint(neighbours.size());
     std::uint32_t last = 0;
-    for (std::uint32_t n : neighbours) out.varint(n - last), last = n;
+    for (std::uint32_t n : neighbours)
+      out.varint(n - last), last = n;
   }
 }
 
@@ -269,9 +277,9 @@ Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes,
   Manifest m;
   const std::uint64_t features = in.varint();
   if ((features & ~kKnownFeatures) != 0) {
-    return fail(ErrorCode::kUnsupported,
-                "the file needs feature bits " + std::to_string(features & ~kKnownFeatures) +
-                    " that this program does not know; update it");
+    return fail(ErrorCode::kUnsupported, "the file needs feature bits " +
+                                             std::to_string(features & ~kKnownFeatures) +
+                                             " that this program does not know; update it");
   }
   m.placement = (features & kFeaturePyramid) != 0 ? Placement::kPyramid : Placement::kMidpoint;
   m.coloured = (features & kFeatureColours) != 0;
@@ -301,7 +309,8 @@ std::vector<std::uint8_t> write_header(Manifest& m) {
 
   m.base_offset = out.size();
   std::uint64_t offset = m.base_offset + m.base_length;
-  for (ChunkInfo& chunk : m.chunks) chunk.offset = offset, offset += chunk.length;
+  for (ChunkInfo& chunk : m.chunks)
+    chunk.offset = offset, offset += chunk.length;
   m.file_bytes = offset;
   return out.take();
 }

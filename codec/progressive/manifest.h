@@ -51,9 +51,10 @@ struct Manifest {
 
   std::vector<LevelInfo> levels;  // [0] is the base mesh
 
-  std::uint32_t regions = 1;       // leaves of the region tree
-  std::uint32_t fork_level = 0;    // the first level whose chunks are per region (levels.size() if none)
-  std::vector<RegionPlane> planes;  // regions - 1, in pre-order
+  std::uint32_t regions = 1;  // leaves of the region tree
+  std::uint32_t fork_level =
+      0;  // the first level whose chunks are per region (levels.size() if none)
+  std::vector<RegionPlane> planes;                    // regions - 1, in pre-order
   std::vector<std::vector<std::uint32_t>> adjacency;  // per region, ascending, without itself
 
   std::uint64_t base_offset = 0, base_length = 0;  // the base mesh: a Draco buffer
@@ -75,7 +76,8 @@ Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) noexc
 
 // Parses a header. Safe on hostile bytes: every count is checked against the bytes left and
 // `limits` before memory is reserved. `bytes` may go on beyond the header.
-Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limits& limits = {}) noexcept;
+Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes,
+                                const Limits& limits = {}) noexcept;
 
 // Writes the header. Offsets, lengths and file_bytes are laid out here (header, base, chunks
 // without gaps) and stored back into `manifest`.

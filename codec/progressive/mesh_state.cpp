@@ -81,7 +81,8 @@ std::vector<Triangle> MeshState::real_faces() const {
 std::vector<Colour> MeshState::display_colours() const {
   std::vector<Colour> out;
   out.reserve(colours.size());
-  for (const Vec3i& c : colours) out.push_back(from_ycocg(c));
+  for (const Vec3i& c : colours)
+    out.push_back(from_ycocg(c));
   return out;
 }
 

@@ -6,7 +6,9 @@ namespace vitrine {
 Planner::Planner(const Manifest& manifest)
     : manifest_(&manifest), want_(WantLevel{0}), have_(manifest.chunks.size(), false) {}
 
-void Planner::want(const Want& want) { want_ = want; }
+void Planner::want(const Want& want) {
+  want_ = want;
+}
 
 void Planner::have(std::size_t chunk) {
   if (chunk < have_.size()) have_[chunk] = true;
@@ -24,7 +26,8 @@ std::uint64_t Planner::faces_held() const {
   // A split adds two faces, or one at a boundary; a level's own average is exact once it is whole.
   double faces = manifest_->levels[0].faces;
   for (std::size_t i = 0; i < have_.size(); ++i) {
-    if (have_[i]) faces += manifest_->chunks[i].splits * faces_per_split(manifest_->chunks[i].level);
+    if (have_[i])
+      faces += manifest_->chunks[i].splits * faces_per_split(manifest_->chunks[i].level);
   }
   return static_cast<std::uint64_t>(faces + 0.5);
 }

@@ -14,10 +14,18 @@ namespace vitrine {
 
 // The finest state not above; the chunk that passes it is fetched whole and shown in part
 // (Refiner::undo_to_faces).
-struct WantTriangles { std::uint64_t triangles; };
-struct WantBytes { std::uint64_t bytes; };          // the finest state not above, header and base included
-struct WantError { double error; };                 // the coarsest with max_error at most this, model units
-struct WantLevel { std::uint32_t level; };          // this level everywhere
+struct WantTriangles {
+  std::uint64_t triangles;
+};
+struct WantBytes {
+  std::uint64_t bytes;
+};  // the finest state not above, header and base included
+struct WantError {
+  double error;
+};  // the coarsest with max_error at most this, model units
+struct WantLevel {
+  std::uint32_t level;
+};  // this level everywhere
 using Want = std::variant<WantTriangles, WantBytes, WantError, WantLevel>;
 
 class Planner {

@@ -10,8 +10,7 @@
 namespace vitrine {
 
 // Returns the bytes of manifest().chunks[chunk], already checked against its SHA-256.
-using ChunkReader =
-    std::function<Expected<std::span<const std::uint8_t>>(std::size_t chunk)>;
+using ChunkReader = std::function<Expected<std::span<const std::uint8_t>>(std::size_t chunk)>;
 
 Expected<void> refine(Refiner& refiner, const Want& want, const ChunkReader& read);
 

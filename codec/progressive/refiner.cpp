@@ -68,8 +68,12 @@ Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) noexce
   return Refiner(std::move(state));
 }
 
-const Manifest& Refiner::manifest() const { return state_->manifest; }
-bool Refiner::applied(std::size_t chunk) const { return state_->applied[chunk]; }
+const Manifest& Refiner::manifest() const {
+  return state_->manifest;
+}
+bool Refiner::applied(std::size_t chunk) const {
+  return state_->applied[chunk];
+}
 
 bool Refiner::ready(std::size_t chunk) const {
   const ChunkInfo& info = state_->manifest.chunks[chunk];
@@ -90,10 +94,10 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
   const ChunkInfo& info = s.manifest.chunks[chunk];
   s.usable = false;
   const bool forks = s.manifest.regions > 1 && info.level + 1 == s.manifest.fork_level;
-  auto splits = decode_layer(s.mesh, s.frame(info),
-                             forks ? std::span<const RegionPlane>(s.manifest.planes)
-                                   : std::span<const RegionPlane>(),
-                             bytes);
+  auto splits = decode_layer(
+      s.mesh, s.frame(info),
+      forks ? std::span<const RegionPlane>(s.manifest.planes) : std::span<const RegionPlane>(),
+      bytes);
   if (!splits) return tl::unexpected(splits.error());
   s.newest = std::move(*splits);
   for (const Split& split : s.newest) {
@@ -122,14 +126,24 @@ void Refiner::undo_to_faces(std::uint32_t faces) noexcept {
   }
 }
 
-std::uint32_t Refiner::vertex_count() const { return state_->mesh.vertex_count(); }
-std::uint32_t Refiner::face_count() const { return state_->faces; }
+std::uint32_t Refiner::vertex_count() const {
+  return state_->mesh.vertex_count();
+}
+std::uint32_t Refiner::face_count() const {
+  return state_->faces;
+}
 std::uint32_t Refiner::level_of(VertexId v) const {
   return state_->level_in(state_->mesh.region[v]);
 }
-const Connectivity& Refiner::connectivity() const { return state_->mesh.connectivity; }
-std::span<const Vec3i> Refiner::positions() const { return state_->mesh.positions; }
-std::span<const Vec3i> Refiner::colours() const { return state_->mesh.colours; }
+const Connectivity& Refiner::connectivity() const {
+  return state_->mesh.connectivity;
+}
+std::span<const Vec3i> Refiner::positions() const {
+  return state_->mesh.positions;
+}
+std::span<const Vec3i> Refiner::colours() const {
+  return state_->mesh.colours;
+}
 
 void Refiner::display_positions(std::vector<Vec3>& out) const {
   filter_for_display(
@@ -149,7 +163,8 @@ TriangleMesh Refiner::display_mesh() const {
   TriangleMesh out;
   display_positions(out.positions);
   const Lattice& lattice = state_->manifest.lattice;
-  for (Vec3& p : out.positions) p = lattice.origin + p * lattice.step;
+  for (Vec3& p : out.positions)
+    p = lattice.origin + p * lattice.step;
   out.faces = state_->mesh.real_faces();
   out.colours = state_->mesh.display_colours();
   return out;

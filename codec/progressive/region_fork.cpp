@@ -29,7 +29,8 @@ void assign_regions(MeshState& mesh, std::span<const std::uint16_t> label, std::
     mesh.index[v] = static_cast<std::uint32_t>(mesh.members[label[v]].size());
     mesh.members[label[v]].push_back(v);
   }
-  for (const VertexId v : all) mesh.mark_border(v);
+  for (const VertexId v : all)
+    mesh.mark_border(v);
 }
 
 }  // namespace vitrine

@@ -32,7 +32,7 @@ class ResidualCoder {
   }
 
  private:
-  static constexpr int kWidths = 48;      // width 2^-2 … 2^10 in quarter octaves
+  static constexpr int kWidths = 48;     // width 2^-2 … 2^10 in quarter octaves
   static constexpr int kExponents = 21;  // magnitudes below 2^21
 
   template <class Coder>
@@ -47,10 +47,11 @@ class ResidualCoder {
     for (int place = exponent - 1; place >= 0; --place) {
       const auto bit = static_cast<int>(magnitude >> place & 1u);
       const int depth = exponent - 1 - place;
-      coded = coded << 1 |
-              static_cast<std::uint32_t>(
-                  depth < 2 ? coder.bit(mantissa_[w / 2][exponent][depth * 2 + (coded & depth)], bit)
-                            : static_cast<int>(coder.raw(static_cast<std::uint32_t>(bit), 1)));
+      coded =
+          coded << 1 |
+          static_cast<std::uint32_t>(
+              depth < 2 ? coder.bit(mantissa_[w / 2][exponent][depth * 2 + (coded & depth)], bit)
+                        : static_cast<int>(coder.raw(static_cast<std::uint32_t>(bit), 1)));
     }
     return coded;
   }

@@ -203,10 +203,9 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
     }
   }
   const Vec3 across = unit(cross(out.normal, chord)) * out.scale;
-  const Vec3 neighbour_d = around.neighbour_d.count > 0 ? around.neighbour_d.value()
-                                                        : arcs * CutModel::kArcToEdge;
-  out.features = {arcs, inner_arcs, parallelograms, across, neighbour_d,
-                  cross(out.normal, chord)};
+  const Vec3 neighbour_d =
+      around.neighbour_d.count > 0 ? around.neighbour_d.value() : arcs * CutModel::kArcToEdge;
+  out.features = {arcs, inner_arcs, parallelograms, across, neighbour_d, cross(out.normal, chord)};
   const double disagreement = length(arcs * CutModel::kArcToEdge - parallelograms) / out.scale;
   const int bucket = std::clamp(exact::log2_bucket<1>(disagreement + 1e-6) + 7, 0, 7);
   out.context = bucket * 2 + (2 * around.pending > neighbours ? 1 : 0);
