@@ -29,9 +29,10 @@ struct Hierarchy {
   LatticeMesh base;                 // compacted: real faces, coarse positions, no colours
   std::vector<Vec3i> base_colours;  // YCoCg-R per base vertex; empty where there are none
   std::vector<VertexId> base_ids;   // fine id of each base vertex
-  std::uint32_t loops = 0;
-  std::vector<CollapseLevel> levels;  // [0] leads from the base to level 1 (coarse to fine)
-  std::vector<std::uint16_t> region;  // per fine vertex
+  std::uint32_t loops = 0;          // boundary loops; apexes name them in the fine mesh's order
+  std::vector<std::uint32_t> loop_member;  // per loop: a base vertex on it
+  std::vector<CollapseLevel> levels;       // [0] leads from the base to level 1 (coarse to fine)
+  std::vector<std::uint16_t> region;       // per fine vertex
   std::uint32_t regions = 1;
   std::uint32_t fork_level = 0;     // first level with chunks per region; levels.size()+1 if none
   std::vector<RegionPlane> planes;  // regions - 1, in pre-order

@@ -15,8 +15,9 @@ constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 class Replay {
  public:
   Replay(const CollapseLevel& collapses, const std::vector<std::uint32_t>& collapse_of,
-         std::vector<VertexId>& fine, std::vector<VertexId>& state)
-      : collapses_(collapses), collapse_of_(collapse_of), fine_(fine), state_(state) {}
+         std::vector<VertexId>& fine, std::vector<VertexId>& state,
+         const std::vector<VertexId>& loop)
+      : collapses_(collapses), collapse_of_(collapse_of), fine_(fine), state_(state), loop_(loop) {}
 
   bool find(VertexId v, SplitTruth& told) {
     const std::uint32_t k = collapse_of_[fine_[v]];
@@ -36,13 +37,23 @@ class Replay {
   }
 
  private:
-  VertexId to_state(VertexId fine) const { return is_virtual(fine) ? fine : state_[fine]; }
+  VertexId to_state(VertexId fine) const {
+    return is_virtual(fine) ? loop_[fine & ~kVirtualBit] : state_[fine];
+  }
 
   const CollapseLevel& collapses_;
   const std::vector<std::uint32_t>& collapse_of_;
   std::vector<VertexId>& fine_;
   std::vector<VertexId>& state_;
+  const std::vector<VertexId>& loop_;
 };
+
+VertexId virtual_neighbour(const Connectivity& mesh, VertexId v) {
+  Corner c = mesh.corner_at(v);
+  while (!is_virtual(mesh.vertex(next(c))))
+    c = mesh.swing(c);
+  return mesh.vertex(next(c));
+}
 
 }  // namespace
 
@@ -56,6 +67,10 @@ Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const Bas
   encoder.collapse_of_.assign(hierarchy.region.size(), kNone);
   for (VertexId v = 0; v < encoder.fine_.size(); ++v)
     encoder.state_[encoder.fine_[v]] = v;
+  for (const std::uint32_t member : hierarchy.loop_member) {
+    const VertexId v = encoder.state_[hierarchy.base_ids[member]];
+    encoder.loop_.push_back(virtual_neighbour(encoder.mesh_.connectivity, v));
+  }
   return encoder;
 }
 
@@ -69,7 +84,7 @@ Expected<std::vector<EncodedChunk>> LayerEncoder::encode_level() {
     collapse_of_[collapses[k].v1] = k;
     ++chunks[forked ? hierarchy_->region[collapses[k].v1] : 0].splits;
   }
-  Replay replay(collapses, collapse_of_, fine_, state_);
+  Replay replay(collapses, collapse_of_, fine_, state_, loop_);
   const auto last = static_cast<std::uint32_t>(hierarchy_->levels.size());
   for (std::uint32_t k = 0; k < regions; ++k) {
     const ChunkFrame frame{.level = level_,

@@ -38,6 +38,7 @@ class LayerEncoder {
   MeshState mesh_;
   std::vector<VertexId> fine_;              // fine id of each vertex of the state
   std::vector<VertexId> state_;             // and back; kNoCorner where not born yet
+  std::vector<VertexId> loop_;              // virtual vertex of the state per loop of the hierarchy
   std::vector<std::uint32_t> collapse_of_;  // per fine id: its collapse in the level being coded
   std::uint32_t level_ = 0;
 };

@@ -120,6 +120,15 @@ class Simplifier {
   std::uint32_t levels_by_region_ = 0;
 };
 
+// Remembers a base vertex of the boundary loop that `face` closes.
+void note_loop(const Connectivity& mesh, std::uint32_t face,
+               const std::vector<std::uint32_t>& index, std::vector<std::uint32_t>& loop_member) {
+  for (Corner c = 3 * face; c < 3 * face + 3; ++c) {
+    const VertexId v = mesh.vertex(c);
+    if (is_virtual(v)) loop_member[v & ~kVirtualBit] = index[mesh.vertex(next(c))];
+  }
+}
+
 void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out) {
   out.base.lattice = lattice;
   out.base_ids = surface.live;
@@ -131,8 +140,13 @@ void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out
     if (!surface.colour.empty()) out.base_colours.push_back(surface.colour[v]);
   }
   const Connectivity& mesh = surface.mesh;
+  out.loop_member.resize(out.loops);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.is_dead(f) || !mesh.is_real(f)) continue;
+    if (mesh.is_dead(f)) continue;
+    if (!mesh.is_real(f)) {
+      note_loop(mesh, f, index, out.loop_member);
+      continue;
+    }
     out.base.faces.push_back(
         {index[mesh.vertex(3 * f)], index[mesh.vertex(3 * f + 1)], index[mesh.vertex(3 * f + 2)]});
   }
