@@ -33,7 +33,7 @@ OneWayDistance one_way(const TriangleBvh& from, const TriangleBvh& to,
   squared.reserve(options.samples);
   double sum = 0;
   std::uint32_t last = 0;
-  for (const Vec3& p : sample_surface(from.triangles(), options.samples, options.seed)) {
+  for (const auto& [p, _] : sample_surface(from.triangles(), options.samples, options.seed)) {
     const SurfacePoint hit = to.closest(p, {squared_distance(to.triangles()[last], p), last});
     last = hit.triangle;
     squared.push_back(hit.squared);
@@ -55,7 +55,11 @@ double diagonal(const TriangleBvh::Node& n) {
 
 TriangleMesh moved(TriangleMesh mesh, const TriangleBvh& from, const TriangleBvh& onto,
                    std::uint64_t seed) {
-  const RigidMotion motion = align(sample_surface(from.triangles(), kAlignSamples, seed), onto);
+  std::vector<Vec3> points;
+  for (const SurfaceSample& s : sample_surface(from.triangles(), kAlignSamples, seed)) {
+    points.push_back(s.point);
+  }
+  const RigidMotion motion = align(points, onto);
   for (Vec3& p : mesh.positions)
     p = motion(p);
   return mesh;

@@ -31,9 +31,9 @@ Vec3 point_in(const Corners& t, SplitMix64& random) {
 
 }  // namespace
 
-std::vector<Vec3> sample_surface(std::span<const Corners> triangles, std::size_t count,
-                                 std::uint64_t seed) {
-  std::vector<Vec3> points;
+std::vector<SurfaceSample> sample_surface(std::span<const Corners> triangles, std::size_t count,
+                                          std::uint64_t seed) {
+  std::vector<SurfaceSample> points;
   if (triangles.empty()) return points;
   points.reserve(count);
   double total = 0;
@@ -47,7 +47,7 @@ std::vector<Vec3> sample_surface(std::span<const Corners> triangles, std::size_t
         total * ((static_cast<double>(k) + random.unit()) / static_cast<double>(count));
     while (up_to <= at && i + 1 < triangles.size())
       up_to += area(triangles[++i]);
-    points.push_back(point_in(triangles[i], random));
+    points.push_back({point_in(triangles[i], random), static_cast<std::uint32_t>(i)});
   }
   return points;
 }

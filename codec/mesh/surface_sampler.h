@@ -11,9 +11,14 @@
 
 namespace vitrine {
 
+struct SurfaceSample {
+  Vec3 point;
+  std::uint32_t triangle;  // index into the triangles given
+};
+
 // Stratified: sample i lies in the i-th of `count` equal shares of the area, in the order of
 // `triangles`. Empty where there is no triangle; on the first corners where there is no area.
-std::vector<Vec3> sample_surface(std::span<const Corners> triangles, std::size_t count,
-                                 std::uint64_t seed);
+std::vector<SurfaceSample> sample_surface(std::span<const Corners> triangles, std::size_t count,
+                                          std::uint64_t seed);
 
 }  // namespace vitrine

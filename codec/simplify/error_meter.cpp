@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
+#include <utility>
 
-#include "codec/mesh/surface_sampler.h"
+#include "codec/simplify/hausdorff_bound.h"
 
 namespace vitrine {
 namespace {
 
 constexpr std::size_t kSamples = 10'000;  // per direction
 constexpr std::uint64_t kSeed = 1;
-constexpr double kTolerance = 1.1;
+constexpr std::size_t kWorst = 32;  // samples per direction that are looked at first
+constexpr double kTolerance = 1.15;
 constexpr double kNegligible = 1e-9;  // of the diagonal
 
 double diagonal(const TriangleBvh& bvh) {
@@ -22,18 +25,35 @@ double diagonal(const TriangleBvh& bvh) {
 }
 
 struct Sampled {
-  double rms, max;
+  double rms = 0;
+  std::vector<std::pair<double, std::uint32_t>> worst;  // squared distance, triangle; descending
 };
 
-Sampled sample(std::span<const Vec3> points, const WitnessSurface& surface) {
-  double sum = 0, max = 0;
+Sampled sample(std::span<const SurfaceSample> samples, const WitnessSurface& surface) {
+  Sampled out;
+  double sum = 0;
   std::uint32_t last = 0;
-  for (const Vec3& p : points) {
-    const SurfacePoint hit = surface.closest(p, last);
+  for (const SurfaceSample& s : samples) {
+    const SurfacePoint hit = surface.closest(s.point, last);
     last = hit.triangle;
-    sum += hit.squared, max = std::max(max, hit.squared);
+    sum += hit.squared;
+    out.worst.emplace_back(hit.squared, s.triangle);
   }
-  return {std::sqrt(sum / static_cast<double>(points.size())), std::sqrt(max)};
+  out.rms = std::sqrt(sum / static_cast<double>(samples.size()));
+  const auto end =
+      out.worst.begin() + static_cast<std::ptrdiff_t>(std::min(kWorst, samples.size()));
+  std::partial_sort(out.worst.begin(), end, out.worst.end(), std::greater<>());
+  out.worst.erase(end, out.worst.end());
+  return out;
+}
+
+// The worst samples tell where to look first: a large distance known early spares work later.
+void add_worst(HausdorffBound& bound, const Sampled& sampled, const TriangleBvh& source,
+               const WitnessSurface& target) {
+  for (const auto& [squared, triangle] : sampled.worst) {
+    bound.know(std::sqrt(squared));
+    bound.add(source.triangles()[triangle], target);
+  }
 }
 
 }  // namespace
@@ -51,7 +71,8 @@ LevelError ErrorMeter::measure(const TriangleMesh& level) const {
   const Sampled back = sample(samples_, surface);
 
   HausdorffBound bound(kTolerance, negligible_);
-  bound.know(std::max(there.max, back.max));
+  add_worst(bound, there, bvh, surface_);
+  add_worst(bound, back, bvh_, surface);
   bound.add(bvh, surface_);
   bound.add(bvh_, surface);
   return {.max_error = bound.bound(), .rms_error = std::max(there.rms, back.rms)};

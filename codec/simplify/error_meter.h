@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "codec/mesh/surface_sampler.h"
 #include "codec/mesh/triangle_bvh.h"
 #include "codec/mesh/triangle_mesh.h"
-#include "codec/simplify/hausdorff_bound.h"
+#include "codec/simplify/witness_surface.h"
 
 namespace vitrine {
 
@@ -21,14 +22,14 @@ class ErrorMeter {
   // `original` is the unquantised input with at least one face, finite and with valid indices.
   explicit ErrorMeter(const TriangleMesh& original);
 
-  // `level` is what is displayed: at least one face, model units. max_error is at most a tenth
+  // `level` is what is displayed: at least one face, model units. max_error is at most a sixth
   // above the true maximum (or 1e-9 of the diagonal above it).
   LevelError measure(const TriangleMesh& level) const;
 
  private:
   TriangleBvh bvh_;
   WitnessSurface surface_;
-  std::vector<Vec3> samples_;
+  std::vector<SurfaceSample> samples_;
   double negligible_;
 };
 
