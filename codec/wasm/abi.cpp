@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// The decoder and planner as a WebAssembly module: a C ABI over Refiner and Planner. The caller
+// (web/src/core/decoder.ts) copies bytes in with `allocate` and reads arrays out through pointers,
+// which are valid until the next call on the same model. Sizes that may pass 2^32 are doubles.
+// Every function is safe on hostile bytes; 0 (or -1) means failure and `error_text` says why.
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include "codec/wasm/model.h"
+
+#define VITRINE_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
+
+namespace {
+
+using vitrine::Model;
+
+std::string& last_error() {
+  static std::string text;
+  return text;
+}
+
+template <class T>
+bool succeeded(const vitrine::Expected<T>& result) {
+  if (!result) last_error() = result.error().message;
+  return result.has_value();
+}
+
+std::span<const std::uint8_t> bytes_at(const std::uint8_t* data, std::uint32_t size) {
+  return {data, size};
+}
+
+}  // namespace
+
+VITRINE_EXPORT(allocate) void* allocate(std::uint32_t size) {
+  return std::malloc(size);
+}
+VITRINE_EXPORT(release) void release(void* pointer) {
+  std::free(pointer);
+}
+VITRINE_EXPORT(error_text) const char* error_text() {
+  return last_error().c_str();
+}
+
+// The length of the header that `data` (kHeaderPrefix bytes or more) begins, or -1.
+VITRINE_EXPORT(header_length) double header_length(const std::uint8_t* data, std::uint32_t size) {
+  const auto length = vitrine::header_bytes(bytes_at(data, size));
+  return succeeded(length) ? static_cast<double>(*length) : -1;
+}
+
+VITRINE_EXPORT(model_open) Model* model_open(const std::uint8_t* data, std::uint32_t size) {
+  auto model = Model::open(bytes_at(data, size));
+  return succeeded(model) ? new Model(std::move(*model)) : nullptr;
+}
+VITRINE_EXPORT(model_close) void model_close(Model* model) {
+  delete model;
+}
+
+// The manifest as numbers; see Model::summary for the layout.
+VITRINE_EXPORT(summary) const double* summary(Model* model) {
+  return model->summary().data();
+}
+VITRINE_EXPORT(summary_length) std::uint32_t summary_length(Model* model) {
+  return static_cast<std::uint32_t>(model->summary().size());
+}
+VITRINE_EXPORT(unit) const char* unit(Model* model) {
+  return model->manifest().unit.c_str();
+}
+
+// The SHA-256 of a chunk, 32 bytes, or null where there is no such chunk.
+VITRINE_EXPORT(chunk_hash) const std::uint8_t* chunk_hash(Model* model, std::uint32_t chunk) {
+  const auto& chunks = model->manifest().chunks;
+  return chunk < chunks.size() ? chunks[chunk].sha256.data() : nullptr;
+}
+
+VITRINE_EXPORT(check_base)
+int check_base(Model* model, const std::uint8_t* data, std::uint32_t size) {
+  return succeeded(model->check_base(bytes_at(data, size)));
+}
+
+// `positions` 3 lattice coordinates a vertex, `faces` 3 indices each, `colours` 3 bytes a vertex or
+// null.
+VITRINE_EXPORT(start)
+int start(Model* model, const std::int32_t* positions, std::uint32_t vertices,
+          const std::uint32_t* faces, std::uint32_t face_count, const std::uint8_t* colours) {
+  vitrine::LatticeMesh base;
+  base.positions.resize(vertices);
+  base.faces.resize(face_count);
+  if (vertices != 0)
+    std::memcpy(base.positions.data(), positions, sizeof(vitrine::Vec3i) * vertices);
+  if (face_count != 0)
+    std::memcpy(base.faces.data(), faces, sizeof(vitrine::Triangle) * face_count);
+  if (colours != nullptr && vertices != 0) {
+    base.colours.resize(vertices);
+    std::memcpy(base.colours.data(), colours, sizeof(vitrine::Colour) * vertices);
+  }
+  return succeeded(model->start(std::move(base)));
+}
+
+// kind: 0 triangles, 1 bytes, 2 error in model units, 3 level. Returns 1 where the surface went
+// back to the base mesh first, 0 where refinement goes on from the present state, -1 on failure.
+VITRINE_EXPORT(want) int want(Model* model, std::uint32_t kind, double value) {
+  const auto restarted = model->want(kind, value);
+  return succeeded(restarted) ? (*restarted ? 1 : 0) : -1;
+}
+
+// The next chunk to request, which then counts as requested; -1 where the want is met.
+VITRINE_EXPORT(next_chunk) int next_chunk(Model* model) {
+  return model->next_chunk();
+}
+
+// Checks the SHA-256 and applies. -1: damaged in transit, the model is as before; 0: failed.
+VITRINE_EXPORT(apply)
+int apply(Model* model, std::uint32_t chunk, const std::uint8_t* data, std::uint32_t size) {
+  const auto matches = model->check_chunk(chunk, bytes_at(data, size));
+  if (!succeeded(matches)) return -1;
+  return succeeded(model->apply(chunk, bytes_at(data, size)));
+}
+
+// Once all chunks of a want are applied: takes back what is beyond it. Returns the splits undone.
+VITRINE_EXPORT(trim) std::uint32_t trim(Model* model) {
+  return model->trim();
+}
+
+VITRINE_EXPORT(bytes_held) double bytes_held(Model* model) {
+  return model->bytes_held();
+}
+VITRINE_EXPORT(vertex_count) std::uint32_t vertex_count(Model* model) {
+  return model->refiner().vertex_count();
+}
+VITRINE_EXPORT(face_count) std::uint32_t face_count(Model* model) {
+  return model->refiner().face_count();
+}
+
+// The displayed surface: refreshes the three arrays below.
+VITRINE_EXPORT(display) void display(Model* model) {
+  model->display();
+}
+// 3 floats a vertex, model units from the centre of the base mesh's bounding box (see summary).
+VITRINE_EXPORT(positions) const float* positions(Model* model) {
+  return model->display_positions().data();
+}
+// 4 signed 16-bit a vertex: the normal times 32767, and 0.
+VITRINE_EXPORT(normals) const std::int16_t* normals(Model* model) {
+  return model->display_normals().data();
+}
+// 3 indices a real face.
+VITRINE_EXPORT(indices) const std::uint32_t* indices(Model* model) {
+  return model->display_indices().data();
+}
+// 3 bytes a vertex, sRGB, or null.
+VITRINE_EXPORT(colours) const std::uint8_t* colours(Model* model) {
+  const auto colours = model->refiner().colours();
+  return colours.empty() ? nullptr : colours[0].data();
+}
+// 3 lattice coordinates a vertex, exact.
+VITRINE_EXPORT(lattice_positions) const std::int32_t* lattice_positions(Model* model) {
+  const auto positions = model->refiner().positions();
+  return positions.empty() ? nullptr : &positions[0].x;
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The daemon's HTTP interface: one request for the head, one URL per chunk, no Range.
+import { readAll, unreachable, type ByteRange, type Source } from "./source.ts";
+import { ModelError } from "./types.ts";
+
+export class ApiSource implements Source {
+  readonly #life = new AbortController();
+
+  /** `api` is the address of /api/v1 without a slash at its end. */
+  constructor(
+    private readonly api: string,
+    private readonly id: string,
+  ) {}
+
+  head(signal: AbortSignal): Promise<Uint8Array> {
+    return this.#get(`${this.api}/models/${this.id}/head`, "the model", signal);
+  }
+
+  async getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
+    if (!range.sha256) throw new ModelError("the daemon sent an incomplete head: reload the page");
+    const bytes = await this.#get(`${this.api}/chunks/${range.sha256}`, "a part of the model", signal);
+    if (bytes.length === range.length) return bytes;
+    throw new ModelError(`a part of the model has ${bytes.length} bytes instead of ${range.length}`);
+  }
+
+  close(): void {
+    this.#life.abort();
+  }
+
+  async #get(url: string, what: string, signal: AbortSignal): Promise<Uint8Array> {
+    const either = anySignal(signal, this.#life.signal);
+    try {
+      return await readAll(await fetch(url, { signal: either }), what);
+    } catch (error) {
+      throw unreachable(error, what);
+    }
+  }
+}
+
+/** Aborts as soon as one of the two does. */
+export function anySignal(a: AbortSignal, b: AbortSignal): AbortSignal {
+  const both = new AbortController();
+  for (const signal of [a, b]) {
+    if (signal.aborted) both.abort();
+    else signal.addEventListener("abort", () => both.abort(), { once: true, signal: both.signal });
+  }
+  return both.signal;
+}

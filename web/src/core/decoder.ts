@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C++ decoder and planner (codec/wasm) behind a typed interface. Each model has an instance of
+// its own: closing it gives all its memory back, and a fault in one cannot reach another.
+import { linearColours } from "./colours.ts";
+import { ModelError, type ModelInfo, type Surface, type Want } from "./types.ts";
+
+type Pointer = number;
+
+interface Exports {
+  memory: WebAssembly.Memory;
+  _initialize(): void;
+  allocate(size: number): Pointer;
+  release(pointer: Pointer): void;
+  error_text(): Pointer;
+  header_length(data: Pointer, size: number): number;
+  model_open(data: Pointer, size: number): Pointer;
+  summary(model: Pointer): Pointer;
+  summary_length(model: Pointer): number;
+  unit(model: Pointer): Pointer;
+  chunk_hash(model: Pointer, chunk: number): Pointer;
+  check_base(model: Pointer, data: Pointer, size: number): number;
+  start(model: Pointer, positions: Pointer, vertices: number, faces: Pointer, count: number, colours: Pointer): number;
+  want(model: Pointer, kind: number, value: number): number;
+  next_chunk(model: Pointer): number;
+  apply(model: Pointer, chunk: number, data: Pointer, size: number): number;
+  trim(model: Pointer): number;
+  bytes_held(model: Pointer): number;
+  vertex_count(model: Pointer): number;
+  face_count(model: Pointer): number;
+  display(model: Pointer): void;
+  positions(model: Pointer): Pointer;
+  normals(model: Pointer): Pointer;
+  indices(model: Pointer): Pointer;
+  colours(model: Pointer): Pointer;
+  lattice_positions(model: Pointer): Pointer;
+}
+
+/** The base mesh as Draco gives it: lattice coordinates, indices, sRGB bytes; 3 each. */
+export interface BaseMesh {
+  positions: Int32Array;
+  faces: Uint32Array;
+  colours: Uint8Array | undefined;
+}
+
+/** The exact surface: lattice coordinates. */
+export interface LatticeSurface {
+  positions: Int32Array;
+  faces: Uint32Array;
+  colours: Uint8Array | undefined;
+}
+
+/** Bytes that differ from what their name says: worth a second try. */
+export class DamagedError extends ModelError {
+  override name = "DamagedError";
+}
+
+export class Decoder {
+  readonly #wasm: Exports;
+  #model: Pointer = 0;
+  #info: ModelInfo | undefined;
+
+  private constructor(instance: WebAssembly.Instance) {
+    this.#wasm = instance.exports as unknown as Exports;
+    this.#wasm._initialize();
+  }
+
+  static async create(module: WebAssembly.Module): Promise<Decoder> {
+    return new Decoder(await WebAssembly.instantiate(module, {}));
+  }
+
+  /** The length of the header that begins with `bytes`. */
+  headerLength(bytes: Uint8Array): number {
+    const length = this.#lend(bytes, (data, size) => this.#wasm.header_length(data, size));
+    if (length < 0) throw this.#error();
+    return length;
+  }
+
+  open(header: Uint8Array): ModelInfo {
+    this.#model = this.#lend(header, (data, size) => this.#wasm.model_open(data, size));
+    if (this.#model === 0) throw this.#error();
+    this.#info = this.#readInfo();
+    return this.#info;
+  }
+
+  checkBase(bytes: Uint8Array): void {
+    const fits = this.#lend(bytes, (data, size) => this.#wasm.check_base(this.#model, data, size));
+    if (!fits) throw new DamagedError(this.#error().message);
+  }
+
+  start(base: BaseMesh): void {
+    const { positions, faces, colours } = base;
+    const started = this.#lend(positions, (points) =>
+      this.#lend(faces, (corners) =>
+        this.#lend(colours ?? new Uint8Array(0), (tints) =>
+          this.#wasm.start(
+            this.#model, points, positions.length / 3, corners, faces.length / 3, colours ? tints : 0))));
+    if (!started) throw this.#error();
+    if (this.#info) this.#info.centre = this.#readInfo().centre;
+  }
+
+  /** Sets the goal. True where the surface went back to the base mesh to reach it. */
+  want(want: Want): boolean {
+    const [kind, value] =
+      "triangles" in want ? [0, want.triangles]
+      : "bytes" in want ? [1, want.bytes]
+      : "error" in want ? [2, want.error]
+      : [3, want.level];
+    const answer = this.#wasm.want(this.#model, kind, value);
+    if (answer < 0) throw this.#error();
+    return answer === 1;
+  }
+
+  /** The next chunk on the way to the goal; it then counts as requested. */
+  nextChunk(): number | undefined {
+    const chunk = this.#wasm.next_chunk(this.#model);
+    return chunk < 0 ? undefined : chunk;
+  }
+
+  /** Throws DamagedError, with the surface as it was, or ModelError: then want() starts over. */
+  apply(chunk: number, bytes: Uint8Array): void {
+    const answer = this.#lend(bytes, (data, size) => this.#wasm.apply(this.#model, chunk, data, size));
+    if (answer < 0) throw new DamagedError(this.#error().message);
+    if (answer === 0) throw this.#error();
+  }
+
+  /** At the goal: takes back the splits beyond it. */
+  trim(): void {
+    this.#wasm.trim(this.#model);
+  }
+
+  get bytesHeld(): number {
+    return this.#wasm.bytes_held(this.#model);
+  }
+
+  surface(): Surface {
+    const wasm = this.#wasm;
+    wasm.display(this.#model);
+    const vertices = wasm.vertex_count(this.#model);
+    const triangles = wasm.face_count(this.#model);
+    const { buffer } = wasm.memory;
+    const tints = wasm.colours(this.#model);
+    return {
+      triangles,
+      vertices,
+      bytes: this.bytesHeld,
+      positions: new Float32Array(buffer, wasm.positions(this.#model), 3 * vertices).slice(),
+      normals: new Int16Array(buffer, wasm.normals(this.#model), 4 * vertices).slice(),
+      colours: tints ? linearColours(new Uint8Array(buffer, tints, 3 * vertices)) : undefined,
+      indices: new Uint32Array(buffer, wasm.indices(this.#model), 3 * triangles).slice(),
+    };
+  }
+
+  latticeSurface(): LatticeSurface {
+    const wasm = this.#wasm;
+    wasm.display(this.#model);
+    const vertices = wasm.vertex_count(this.#model);
+    const { buffer } = wasm.memory;
+    const tints = wasm.colours(this.#model);
+    return {
+      positions: new Int32Array(buffer, wasm.lattice_positions(this.#model), 3 * vertices).slice(),
+      faces: new Uint32Array(buffer, wasm.indices(this.#model), 3 * wasm.face_count(this.#model)).slice(),
+      colours: tints ? new Uint8Array(buffer, tints, 3 * vertices).slice() : undefined,
+    };
+  }
+
+  #lend<T>(array: Uint8Array | Int32Array | Uint32Array, use: (data: Pointer, size: number) => T): T {
+    const data = this.#wasm.allocate(Math.max(array.byteLength, 1));
+    if (data === 0) throw new ModelError("the model is too large for this browser's memory");
+    try {
+      const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+      new Uint8Array(this.#wasm.memory.buffer).set(bytes, data);
+      return use(data, array.byteLength);
+    } finally {
+      this.#wasm.release(data);
+    }
+  }
+
+  #error(): ModelError {
+    return new ModelError(this.#text(this.#wasm.error_text()));
+  }
+
+  #text(pointer: Pointer): string {
+    const bytes = new Uint8Array(this.#wasm.memory.buffer);
+    return new TextDecoder().decode(bytes.slice(pointer, bytes.indexOf(0, pointer)));
+  }
+
+  /** Reads the layout that Model::summary (codec/wasm/model.h) describes. */
+  #readInfo(): ModelInfo {
+    const wasm = this.#wasm;
+    const pointer = wasm.summary(this.#model);
+    const numbers = new Float64Array(wasm.memory.buffer, pointer, wasm.summary_length(this.#model)).slice();
+    const at = (i: number) => numbers[i] ?? 0;
+    const kFixed = 11, kLevel = 5, kChunk = 4;
+    const levels = Array.from({ length: at(0) }, (_, i) => {
+      const k = kFixed + kLevel * i;
+      return { vertices: at(k), faces: at(k + 1), maxError: at(k + 2), rmsError: at(k + 3), cumulativeBytes: at(k + 4) };
+    });
+    const chunks = Array.from({ length: at(1) }, (_, i) => {
+      const k = kFixed + kLevel * levels.length + kChunk * i;
+      return { level: at(k), region: at(k + 1), offset: at(k + 2), length: at(k + 3), sha256: this.#hash(i) };
+    });
+    return {
+      levels,
+      chunks,
+      baseOffset: at(2),
+      baseLength: at(3),
+      fileBytes: at(4),
+      coloured: at(5) !== 0,
+      bits: at(6),
+      step: at(7),
+      unit: this.#text(wasm.unit(this.#model)),
+      centre: [at(8), at(9), at(10)],
+    };
+  }
+
+  #hash(chunk: number): string {
+    const pointer = this.#wasm.chunk_hash(this.#model, chunk);
+    const digest = new Uint8Array(this.#wasm.memory.buffer, pointer, 32);
+    return Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
+  }
+}

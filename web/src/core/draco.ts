@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The base mesh is a Draco buffer; npm's draco3d decodes it.
+import type { BaseMesh } from "./decoder.ts";
+import { ModelError, type Level } from "./types.ts";
+
+/** The part of draco3d that is used here. Pointers are numbers, objects are opaque. */
+export interface DracoModule {
+  Decoder: new () => DracoDecoder;
+  DecoderBuffer: new () => { Init(data: Int8Array, size: number): void };
+  Mesh: new () => DracoMesh;
+  DracoInt32Array: new () => DracoArray;
+  DracoUInt8Array: new () => DracoArray;
+  TRIANGULAR_MESH: number;
+  POSITION: number;
+  COLOR: number;
+  HEAPF32: Float32Array;
+  _malloc(size: number): number;
+  _free(pointer: number): void;
+  destroy(object: object): void;
+}
+interface DracoDecoder {
+  GetEncodedGeometryType(buffer: object): number;
+  DecodeBufferToMesh(buffer: object, mesh: DracoMesh): { ok(): boolean };
+  GetAttributeId(mesh: DracoMesh, kind: number): number;
+  GetAttribute(mesh: DracoMesh, id: number): { num_components(): number };
+  GetAttributeInt32ForAllPoints(mesh: DracoMesh, attribute: object, out: DracoArray): boolean;
+  GetAttributeUInt8ForAllPoints(mesh: DracoMesh, attribute: object, out: DracoArray): boolean;
+  GetTrianglesUInt32Array(mesh: DracoMesh, size: number, out: number): boolean;
+}
+interface DracoMesh {
+  num_points(): number;
+  num_faces(): number;
+}
+interface DracoArray {
+  size(): number;
+  GetValue(index: number): number;
+}
+
+/** Decodes a base mesh whose counts must be those of `level`. */
+export function decodeBase(draco: DracoModule, bytes: Uint8Array, level: Level): BaseMesh {
+  const decoder = new draco.Decoder();
+  const buffer = new draco.DecoderBuffer();
+  const mesh = new draco.Mesh();
+  try {
+    buffer.Init(new Int8Array(bytes.buffer, bytes.byteOffset, bytes.length), bytes.length);
+    if (decoder.GetEncodedGeometryType(buffer) !== draco.TRIANGULAR_MESH) throw damaged();
+    if (!decoder.DecodeBufferToMesh(buffer, mesh).ok()) throw damaged();
+    if (mesh.num_points() !== level.vertices || mesh.num_faces() !== level.faces) throw damaged();
+    return { positions: positions(draco, decoder, mesh), faces: faces(draco, decoder, mesh), colours: colours(draco, decoder, mesh) };
+  } finally {
+    for (const object of [mesh, buffer, decoder]) draco.destroy(object);
+  }
+}
+
+function damaged(): ModelError {
+  return new ModelError("the base mesh is damaged: publish the model again");
+}
+
+function positions(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh): Int32Array {
+  const id = decoder.GetAttributeId(mesh, draco.POSITION);
+  if (id < 0) throw damaged();
+  const values = new draco.DracoInt32Array();
+  try {
+    const attribute = decoder.GetAttribute(mesh, id);
+    if (!decoder.GetAttributeInt32ForAllPoints(mesh, attribute, values)) throw damaged();
+    if (values.size() !== 3 * mesh.num_points()) throw damaged();
+    return Int32Array.from({ length: values.size() }, (_, i) => values.GetValue(i));
+  } finally {
+    draco.destroy(values);
+  }
+}
+
+function colours(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh): Uint8Array | undefined {
+  const id = decoder.GetAttributeId(mesh, draco.COLOR);
+  if (id < 0) return undefined;
+  const values = new draco.DracoUInt8Array();
+  try {
+    const attribute = decoder.GetAttribute(mesh, id);
+    if (!decoder.GetAttributeUInt8ForAllPoints(mesh, attribute, values)) throw damaged();
+    if (values.size() !== 3 * mesh.num_points()) throw damaged();
+    return Uint8Array.from({ length: values.size() }, (_, i) => values.GetValue(i));
+  } finally {
+    draco.destroy(values);
+  }
+}
+
+function faces(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh): Uint32Array {
+  const count = 3 * mesh.num_faces();
+  const pointer = draco._malloc(4 * count);
+  try {
+    decoder.GetTrianglesUInt32Array(mesh, 4 * count, pointer);
+    return new Uint32Array(draco.HEAPF32.buffer, pointer, count).slice();
+  } finally {
+    draco._free(pointer);
+  }
+}

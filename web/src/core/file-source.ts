@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bare .pmesh on any static host. With Range each part is one request; a host that ignores Range
+// sends the whole file once, and its parts are taken as they arrive: a prefix is a coarser model.
+import { anySignal } from "./api-source.ts";
+import { refused, unreachable, type ByteRange, type Source } from "./source.ts";
+import { ModelError } from "./types.ts";
+
+/** Header and base mesh of most models, in one request. */
+const kHeadBytes = 32 * 1024;
+
+export class FileSource implements Source {
+  readonly #life = new AbortController();
+  #whole: Download | undefined;
+
+  constructor(private readonly url: string) {}
+
+  /** The file's first bytes, at most kHeadBytes. */
+  async head(signal: AbortSignal): Promise<Uint8Array> {
+    const response = await this.#request(0, kHeadBytes, this.#life.signal);
+    if (response.status === 206) return body(response);
+    this.#whole = new Download(response);
+    return this.#whole.slice(0, kHeadBytes, signal);
+  }
+
+  async getBytes({ offset, length }: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
+    const bytes = this.#whole
+      ? await this.#whole.slice(offset, offset + length, signal)
+      : await this.#range(offset, length, anySignal(signal, this.#life.signal));
+    if (bytes.length === length) return bytes;
+    throw new ModelError("the model file ends too early: upload it again");
+  }
+
+  close(): void {
+    this.#life.abort();
+  }
+
+  async #range(offset: number, length: number, signal: AbortSignal): Promise<Uint8Array> {
+    const response = await this.#request(offset, length, signal);
+    const bytes = await body(response);
+    return response.status === 206 ? bytes : bytes.slice(offset, offset + length);
+  }
+
+  async #request(offset: number, length: number, signal: AbortSignal): Promise<Response> {
+    const headers = { Range: `bytes=${offset}-${offset + length - 1}` };
+    let response;
+    try {
+      response = await fetch(this.url, { headers, signal });
+    } catch (error) {
+      throw unreachable(error, "the model file");
+    }
+    if (!response.ok) throw refused(response.status, "the model file");
+    return response;
+  }
+}
+
+async function body(response: Response): Promise<Uint8Array> {
+  try {
+    return new Uint8Array(await response.arrayBuffer());
+  } catch (error) {
+    throw unreachable(error, "the model file");
+  }
+}
+
+/** A whole file on its way in. */
+class Download {
+  #bytes = new Uint8Array(1 << 16);
+  #size = 0;
+  #ended = false;
+  #failure: unknown;
+  #wake: (() => void)[] = [];
+
+  constructor(response: Response) {
+    this.#read(response).catch((error) => (this.#failure = unreachable(error, "the model file"))).finally(() => {
+      this.#ended = true;
+      this.#notify();
+    });
+  }
+
+  /** The bytes [begin, end) once they are here; fewer where the file ends before. */
+  async slice(begin: number, end: number, signal: AbortSignal): Promise<Uint8Array> {
+    while (this.#size < end && !this.#ended) {
+      signal.throwIfAborted();
+      await new Promise<void>((resolve) => {
+        this.#wake.push(resolve);
+        signal.addEventListener("abort", () => resolve(), { once: true });
+      });
+    }
+    signal.throwIfAborted();
+    if (this.#size < end && this.#failure) throw this.#failure;
+    return this.#bytes.slice(begin, Math.min(end, this.#size));
+  }
+
+  async #read(response: Response): Promise<void> {
+    const reader = response.body?.getReader();
+    for (let part = await reader?.read(); part && !part.done; part = await reader?.read()) {
+      this.#append(part.value);
+      this.#notify();
+    }
+  }
+
+  #append(part: Uint8Array): void {
+    if (this.#size + part.length > this.#bytes.length) {
+      const larger = new Uint8Array(Math.max(2 * this.#bytes.length, this.#size + part.length));
+      larger.set(this.#bytes.subarray(0, this.#size));
+      this.#bytes = larger;
+    }
+    this.#bytes.set(part, this.#size);
+    this.#size += part.length;
+  }
+
+  #notify(): void {
+    for (const wake of this.#wake.splice(0)) wake();
+  }
+}

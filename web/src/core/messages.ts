@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page and the worker say to each other. `id` names a model, `turn` a want.
+import type { ModelInfo, Progress, Surface, Want } from "./types.ts";
+
+/** Absolute URLs of what the worker loads. */
+export interface Assets {
+  wasm: string;
+  dracoScript: string;
+  dracoWasm: string;
+}
+
+export type ToWorker =
+  | { type: "open"; id: number; url: string; assets: Assets }
+  | { type: "refine"; id: number; turn: number; want: Want }
+  | { type: "shown"; id: number }
+  | { type: "close"; id: number };
+
+export type FromWorker =
+  | { type: "opened"; id: number; info: ModelInfo }
+  | { type: "surface"; id: number; surface: Surface }
+  | { type: "progress"; id: number; progress: Progress }
+  | { type: "ready"; id: number }
+  | { type: "settled"; id: number; turn: number; reached: boolean }
+  | { type: "failed"; id: number; turn: number | undefined; message: string };

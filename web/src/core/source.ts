@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the bytes of a model come from: the daemon's interface, or a bare .pmesh on any host.
+import { FileSource } from "./file-source.ts";
+import { ApiSource } from "./api-source.ts";
+import { ModelError } from "./types.ts";
+
+export interface ByteRange {
+  /** From the start of the .pmesh file. */
+  offset: number;
+  length: number;
+  /** The content's name, where it has one: 64 hexadecimal digits. */
+  sha256?: string;
+}
+
+export interface Source {
+  /** The first bytes of the file: the header and, if that is one request, the base mesh. */
+  head(signal: AbortSignal): Promise<Uint8Array>;
+  /** Exactly `range.length` bytes. Rejects with ModelError, or AbortError when aborted. */
+  getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array>;
+  /** Ends what is under way. */
+  close(): void;
+}
+
+/** The source for the URL of a .pmesh file, of a model page or of an API model. */
+export function openSource(url: string): Source {
+  const address = new URL(url);
+  const model = /^(.*)\/(?:api\/v1\/)?models\/([^/]+)\/?$/.exec(address.pathname);
+  if (!model) return new FileSource(url);
+  return new ApiSource(`${address.origin}${model[1]}/api/v1`, model[2] ?? "");
+}
+
+export async function readAll(response: Response, what: string): Promise<Uint8Array> {
+  if (!response.ok) throw refused(response.status, what);
+  return new Uint8Array(await response.arrayBuffer());
+}
+
+export function refused(status: number, what: string): ModelError {
+  const reason = status === 404 ? "is not there (404): check the address" : `was refused with status ${status}`;
+  return new ModelError(`${what} ${reason}`);
+}
+
+export function unreachable(error: unknown, what: string): unknown {
+  if (error instanceof ModelError || (error as Error).name === "AbortError") return error;
+  return new ModelError(`${what} cannot be reached: check the connection and try again`);
+}

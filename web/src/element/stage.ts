@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene around one progressive mesh: camera, light, orbit controls. Draws only when something
+// has changed.
+import {
+  Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { ProgressiveMesh } from "../three/progressive-mesh.ts";
+import type { Assets } from "../core/messages.ts";
+
+const kFieldOfView = 35;
+/** Where the camera stands at first, seen from the model's centre. */
+const kViewpoint = new Vector3(0.35, 0.25, 1).normalize();
+
+export class Stage {
+  readonly mesh: ProgressiveMesh;
+  /** Called after each change of the camera. */
+  onCamera: () => void = () => undefined;
+
+  readonly #renderer: WebGLRenderer;
+  readonly #scene = new Scene();
+  readonly #camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 100);
+  readonly #controls: OrbitControls;
+  readonly #lamp = new DirectionalLight(0xfffaf2, 2.2);
+  readonly #wires: Mesh;
+  #frame = 0;
+  #drawn: (() => void)[] = [];
+
+  /** Throws where WebGL is missing. */
+  constructor(canvas: HTMLCanvasElement, url: string, assets: Assets) {
+    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#controls = new OrbitControls(this.#camera, canvas);
+    this.#controls.addEventListener("change", () => {
+      this.draw();
+      this.onCamera();
+    });
+    this.mesh = new ProgressiveMesh(url, assets);
+    this.mesh.addEventListener("refine", () => this.draw());
+    this.#wires = new Mesh(this.mesh.geometry, new MeshBasicMaterial({ color: 0x1f4e5f, wireframe: true, transparent: true, opacity: 0.45 }));
+    this.#wires.visible = false;
+    this.#light();
+    this.#scene.add(this.mesh, this.#wires, this.#camera);
+  }
+
+  /** Draws at the next frame; resolves when the picture has gone to the screen. */
+  draw(): Promise<void> {
+    const drawn = new Promise<void>((resolve) => this.#drawn.push(resolve));
+    this.#frame ||= requestAnimationFrame(() => this.#render());
+    return drawn;
+  }
+
+  resize(width: number, height: number): void {
+    if (width === 0 || height === 0) return;
+    this.#camera.aspect = width / height;
+    this.#camera.updateProjectionMatrix();
+    this.#renderer.setSize(width, height, false);
+    void this.draw();
+  }
+
+  /** The camera looks at the whole model. */
+  frame(): void {
+    const radius = this.mesh.geometry.boundingSphere?.radius ?? 1;
+    const half = Math.atan(Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, this.#camera.aspect));
+    const distance = (radius * 0.95) / Math.sin(half);
+    this.#camera.near = radius / 100;
+    this.#camera.far = distance + 20 * radius;
+    this.#camera.position.copy(kViewpoint).multiplyScalar(distance);
+    this.#camera.updateProjectionMatrix();
+    this.#controls.target.set(0, 0, 0);
+    this.#controls.minDistance = radius * 0.2;
+    this.#controls.maxDistance = 6 * distance;
+    this.#controls.update();
+    void this.draw();
+  }
+
+  set colours(on: boolean) {
+    const { material, info } = this.mesh;
+    material.vertexColors = on && info.coloured;
+    material.color.set(material.vertexColors ? 0xffffff : 0xd8d3cb);
+    material.needsUpdate = true;
+    void this.draw();
+  }
+
+  /** Each facet by its own normal, as the printed figures of scanned surfaces show it. */
+  set facets(on: boolean) {
+    this.mesh.material.flatShading = on;
+    this.mesh.material.needsUpdate = true;
+    void this.draw();
+  }
+
+  set wireframe(on: boolean) {
+    this.#wires.visible = on;
+    this.mesh.material.polygonOffset = on;
+    this.mesh.material.polygonOffsetFactor = this.mesh.material.polygonOffsetUnits = on ? 1 : 0;
+    void this.draw();
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.#frame);
+    this.#controls.dispose();
+    (this.#wires.material as MeshBasicMaterial).dispose();
+    this.mesh.dispose();
+    this.#renderer.dispose();
+    this.#renderer.forceContextLoss(); // browsers grant few contexts
+  }
+
+  #light(): void {
+    this.#lamp.position.set(-0.6, 0.9, 0.6);
+    this.#camera.add(this.#lamp); // the light follows the visitor
+    this.#scene.add(new HemisphereLight(new Color(0xffffff), new Color(0x8a8178), 1.1));
+  }
+
+  #render(): void {
+    this.#frame = 0;
+    this.#renderer.render(this.#scene, this.#camera);
+    const drawn = this.#drawn.splice(0);
+    if (drawn.length !== 0) requestAnimationFrame(() => drawn.forEach((resolve) => resolve()));
+  }
+}

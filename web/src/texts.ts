@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every text that a visitor reads.
+const number = new Intl.NumberFormat("en");
+const short = new Intl.NumberFormat("en", { maximumFractionDigits: 1 });
+
+export function count(value: number): string {
+  return number.format(Math.round(value));
+}
+
+export function size(bytes: number): string {
+  if (bytes < 1000) return `${bytes} B`;
+  return bytes < 1e6 ? `${short.format(bytes / 1000)} KB` : `${short.format(bytes / 1e6)} MB`;
+}
+
+export const texts = {
+  detail: "Level of detail",
+  triangles: (shown: number, total: number) => `${count(shown)} of ${count(total)} triangles`,
+  bytes: (held: number, total: number) => `${size(held)} of ${size(total)}`,
+  colours: "Colours",
+  facets: "Facets",
+  wireframe: "Wireframe",
+  resetView: "Reset view",
+  loading: "Loading",
+  viewOf: (title: string) => title || "Three-dimensional model",
+  noWebGl: "This browser cannot show three-dimensional content (WebGL 2 is missing).",
+  galleryTitle: "Collection",
+  galleryEmpty: "Nothing is on display yet.",
+  galleryHint: "Publish a scan with: vitrine publish scan.ply --data DIR",
+  galleryFailed: "The collection cannot be reached. Reload the page to try again.",
+  back: "Collection",
+  untitled: "Untitled",
+  modelFailed: "This object is not on display.",
+};

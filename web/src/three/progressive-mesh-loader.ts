@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Loader } from "three";
+import { assetsBeside } from "../core/client.ts";
+import type { Assets } from "../core/messages.ts";
+import { ProgressiveMesh } from "./progressive-mesh.ts";
+
+/**
+ * Loads like GLTFLoader: `load` and `loadAsync` give a ProgressiveMesh that shows its base mesh;
+ * `mesh.refine({ triangles: 50_000 })` sharpens it. The URL is that of a .pmesh file, of a model
+ * page or of an API model.
+ */
+export class ProgressiveMeshLoader extends Loader<ProgressiveMesh> {
+  #assets: Assets = assetsBeside(import.meta.url);
+
+  /** Where progressive-mesh.wasm and draco_decoder.{js,wasm} lie, if not beside this module. */
+  setAssets(assets: Assets): this {
+    this.#assets = assets;
+    return this;
+  }
+
+  override load(
+    url: string,
+    onLoad: (mesh: ProgressiveMesh) => void,
+    _onProgress?: (event: ProgressEvent) => void,
+    onError?: (error: unknown) => void,
+  ): void {
+    const address = this.manager.resolveURL(this.path + url);
+    const mesh = new ProgressiveMesh(address, this.#assets);
+    this.manager.itemStart(url);
+    mesh.ready
+      .then(() => onLoad(mesh))
+      .catch((error: unknown) => {
+        mesh.dispose();
+        this.manager.itemError(url);
+        onError?.(error);
+      })
+      .finally(() => this.manager.itemEnd(url));
+  }
+}

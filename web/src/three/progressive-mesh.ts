@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Box3, BufferGeometry, Mesh, MeshStandardMaterial, Sphere, Vector3, type Object3DEventMap } from "three";
+import { RemoteModel } from "../core/client.ts";
+import type { Assets } from "../core/messages.ts";
+import type { ModelError, ModelInfo, Progress, Surface, Want } from "../core/types.ts";
+import { SurfaceBuffers } from "./surface-buffers.ts";
+
+/** Milliseconds of a frame that a surface on its way into the buffers may take. */
+const kFrameBudget = 4;
+
+export interface ProgressiveMeshEventMap extends Object3DEventMap {
+  /** Another state of the surface is in the geometry: draw again. */
+  refine: { surface: Pick<Surface, "triangles" | "vertices" | "bytes"> };
+  progress: Progress;
+  error: { error: ModelError };
+}
+
+/**
+ * A mesh that sharpens in place. Its origin is the centre of the model's bounding box
+ * (`info.centre` in model coordinates). Add it to a scene, call `refine`, draw on `refine` events;
+ * `dispose` frees everything.
+ */
+export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, ProgressiveMeshEventMap> {
+  readonly #model: RemoteModel;
+  #buffers: SurfaceBuffers | undefined;
+  #info: ModelInfo | undefined;
+  #filling = 0;
+  #shown: (() => void) | undefined;
+  #base: { resolve(): void; reject(error: ModelError): void } | undefined;
+
+  /** Resolves when the base mesh is in the geometry. */
+  readonly ready: Promise<void>;
+
+  constructor(url: string, assets: Assets) {
+    super(new BufferGeometry(), new MeshStandardMaterial({ color: 0xd8d3cb, roughness: 0.85, metalness: 0 }));
+    this.ready = new Promise((resolve, reject) => (this.#base = { resolve, reject }));
+    this.#model = new RemoteModel(url, assets, {
+      opened: (info) => this.#open(info),
+      surface: (surface, shown) => this.#accept(surface, shown),
+      progress: (progress) => this.dispatchEvent({ type: "progress", ...progress }),
+      failed: (error) => this.#fail(error),
+    });
+  }
+
+  /** The manifest; known once `ready`. */
+  get info(): ModelInfo {
+    if (!this.#info) throw new Error("wait for `ready` first");
+    return this.#info;
+  }
+
+  /** True when `want` is reached and in the geometry, false when superseded. */
+  refine(want: Want): Promise<boolean> {
+    return this.#model.refine(want);
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.#filling);
+    this.#model.close();
+    this.geometry.dispose();
+    this.material.dispose();
+    this.removeFromParent();
+  }
+
+  #open(info: ModelInfo): void {
+    this.#info = info;
+    const finest = info.levels[info.levels.length - 1];
+    if (finest) this.#buffers = new SurfaceBuffers(this.geometry, finest);
+    if (info.coloured) {
+      this.material.vertexColors = true;
+      this.material.color.set(0xffffff);
+    }
+  }
+
+  #accept(surface: Surface, shown: () => void): void {
+    this.#bound(surface);
+    this.#shown = shown;
+    const steps = this.#buffers?.replace(surface);
+    if (steps) this.#fill(steps, surface);
+  }
+
+  /** Copies slices until the budget is spent, and goes on in the next frame. */
+  #fill(steps: Generator<void>, surface: Surface): void {
+    const end = performance.now() + kFrameBudget;
+    while (!steps.next().done) {
+      if (performance.now() < end) continue;
+      this.#filling = requestAnimationFrame(() => this.#fill(steps, surface));
+      return;
+    }
+    const { triangles, vertices, bytes } = surface;
+    this.dispatchEvent({ type: "refine", surface: { triangles, vertices, bytes } });
+    this.#base?.resolve();
+    this.#base = undefined;
+    this.#filling = requestAnimationFrame(() => this.#shown?.());
+  }
+
+  #fail(error: ModelError): void {
+    this.#base?.reject(error);
+    this.#base = undefined;
+    this.dispatchEvent({ type: "error", error });
+  }
+
+  /** The base mesh's box bounds all levels, but for what refinement adds: some slack. */
+  #bound(surface: Surface): void {
+    if (this.geometry.boundingSphere) return;
+    const box = new Box3().setFromArray(surface.positions);
+    const centre = box.getCenter(new Vector3());
+    this.geometry.boundingBox = box;
+    this.geometry.boundingSphere = new Sphere(centre, 0.55 * box.getSize(new Vector3()).length());
+  }
+}
