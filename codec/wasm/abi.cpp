@@ -4,7 +4,6 @@
 // which are valid until the next call on the same model. Sizes that may pass 2^32 are doubles.
 // Every function is safe on hostile bytes; 0 (or -1) means failure and `error_text` says why.
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <string>
 
@@ -79,22 +78,15 @@ int check_base(Model* model, const std::uint8_t* data, std::uint32_t size) {
   return succeeded(model->check_base(bytes_at(data, size)));
 }
 
-// `positions` 3 lattice coordinates a vertex, `faces` 3 indices each, `colours` 3 bytes a vertex or
-// null.
+// `positions` 3 lattice coordinates a vertex, `faces` 3 indices each, `colours` 3 YCoCg-R values a
+// vertex or null.
 VITRINE_EXPORT(start)
-int start(Model* model, const std::int32_t* positions, std::uint32_t vertices,
-          const std::uint32_t* faces, std::uint32_t face_count, const std::uint8_t* colours) {
-  vitrine::LatticeMesh base;
-  base.positions.resize(vertices);
-  base.faces.resize(face_count);
-  if (vertices != 0)
-    std::memcpy(base.positions.data(), positions, sizeof(vitrine::Vec3i) * vertices);
-  if (face_count != 0)
-    std::memcpy(base.faces.data(), faces, sizeof(vitrine::Triangle) * face_count);
-  if (colours != nullptr && vertices != 0) {
-    base.colours.resize(vertices);
-    std::memcpy(base.colours.data(), colours, sizeof(vitrine::Colour) * vertices);
-  }
+int start(Model* model, const vitrine::Vec3i* positions, std::uint32_t vertices,
+          const vitrine::Triangle* faces, std::uint32_t face_count, const vitrine::Vec3i* colours) {
+  vitrine::BaseMesh base;
+  base.positions.assign(positions, positions + vertices);
+  base.faces.assign(faces, faces + face_count);
+  if (colours != nullptr) base.colours.assign(colours, colours + vertices);
   return succeeded(model->start(std::move(base)));
 }
 
@@ -113,14 +105,13 @@ VITRINE_EXPORT(next_chunk) int next_chunk(Model* model) {
 // Checks the SHA-256 and applies. -1: damaged in transit, the model is as before; 0: failed.
 VITRINE_EXPORT(apply)
 int apply(Model* model, std::uint32_t chunk, const std::uint8_t* data, std::uint32_t size) {
-  const auto matches = model->check_chunk(chunk, bytes_at(data, size));
-  if (!succeeded(matches)) return -1;
+  if (!succeeded(model->check_chunk(chunk, bytes_at(data, size)))) return -1;
   return succeeded(model->apply(chunk, bytes_at(data, size)));
 }
 
-// Once all chunks of a want are applied: takes back what is beyond it. Returns the splits undone.
-VITRINE_EXPORT(trim) std::uint32_t trim(Model* model) {
-  return model->trim();
+// Once all chunks of a want are applied: takes back the splits beyond it.
+VITRINE_EXPORT(trim) void trim(Model* model) {
+  model->trim();
 }
 
 VITRINE_EXPORT(bytes_held) double bytes_held(Model* model) {
@@ -133,7 +124,7 @@ VITRINE_EXPORT(face_count) std::uint32_t face_count(Model* model) {
   return model->refiner().face_count();
 }
 
-// The displayed surface: refreshes the three arrays below.
+// The displayed surface: refreshes the arrays below.
 VITRINE_EXPORT(display) void display(Model* model) {
   model->display();
 }
@@ -149,9 +140,9 @@ VITRINE_EXPORT(normals) const std::int16_t* normals(Model* model) {
 VITRINE_EXPORT(indices) const std::uint32_t* indices(Model* model) {
   return model->display_indices().data();
 }
-// 3 bytes a vertex, sRGB, or null.
+// 3 sRGB bytes a vertex, or null.
 VITRINE_EXPORT(colours) const std::uint8_t* colours(Model* model) {
-  const auto colours = model->refiner().colours();
+  const auto& colours = model->display_colours();
   return colours.empty() ? nullptr : colours[0].data();
 }
 // 3 lattice coordinates a vertex, exact.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "codec/progressive/colour.h"
+
 namespace vitrine {
 namespace {
 
@@ -70,8 +72,7 @@ Expected<void> Model::check_chunk(std::size_t chunk, std::span<const std::uint8_
                bytes, info.sha256);
 }
 
-Expected<void> Model::start(LatticeMesh base) {
-  base.lattice = manifest_->lattice;
+Expected<void> Model::start(BaseMesh base) {
   base_ = std::move(base);
   centre_ = box_centre(base_.positions);
   return restart();
@@ -104,7 +105,12 @@ Expected<bool> Model::want(std::uint32_t kind, double value) {
     if (auto done = restart(); !done) return Unexpected(done.error());
   }
   planner_.emplace(*manifest_);
-  planner_->want(to_want(kind, value));
+  const Want goal = to_want(kind, value);
+  planner_->want(goal);
+  triangles_.reset();
+  if (const auto* w = std::get_if<WantTriangles>(&goal)) {
+    triangles_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(w->triangles, 0xFFFF'FFFFu));
+  }
   for (std::size_t i = 0; i < applied_.size(); ++i) {
     if (applied_[i]) planner_->have(i);
   }
@@ -122,17 +128,16 @@ int Model::next_chunk() {
 Expected<void> Model::apply(std::size_t chunk, std::span<const std::uint8_t> bytes) {
   if (!refiner_ || trimmed_) return fail(ErrorCode::kState, "the base mesh must come first");
   auto done = refiner_->apply(chunk, bytes);
-  if (done) applied_[chunk] = true;
+  applied_[chunk] = done.has_value();
+  trimmed_ = !done;
   return done;
 }
 
-std::uint32_t Model::trim() {
-  if (!planner_ || trimmed_ || planner_->next()) return 0;
-  const std::uint32_t splits = planner_->splits_to_undo();
-  if (splits == 0) return 0;
-  refiner_->undo_splits(splits);
-  trimmed_ = true;
-  return splits;
+void Model::trim() {
+  if (!refiner_ || trimmed_ || !triangles_) return;
+  const std::uint32_t before = refiner_->face_count();
+  refiner_->undo_to_faces(*triangles_);
+  trimmed_ = refiner_->face_count() != before;
 }
 
 double Model::bytes_held() const {
@@ -149,6 +154,7 @@ void Model::display() {
   fill_positions(displayed);
   fill_indices();
   fill_normals(displayed);
+  fill_colours();
 }
 
 void Model::fill_positions(const std::vector<Vec3>& displayed) {
@@ -170,6 +176,12 @@ void Model::fill_indices() {
     for (Corner c = 3 * face; c < 3 * face + 3; ++c)
       indices_.push_back(mesh.vertex(c));
   }
+}
+
+void Model::fill_colours() {
+  const auto colours = refiner_->colours();
+  colours_.resize(colours.size());
+  std::transform(colours.begin(), colours.end(), colours_.begin(), from_ycocg);
 }
 
 void Model::fill_normals(const std::vector<Vec3>& displayed) {

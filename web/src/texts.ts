@@ -16,6 +16,7 @@ export const texts = {
   detail: "Level of detail",
   triangles: (shown: number, total: number) => `${count(shown)} of ${count(total)} triangles`,
   bytes: (held: number, total: number) => `${size(held)} of ${size(total)}`,
+  amount: (triangles: string, bytes: string) => `${triangles} triangles, ${bytes}`,
   colours: "Colours",
   facets: "Facets",
   wireframe: "Wireframe",

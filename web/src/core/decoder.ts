@@ -35,14 +35,14 @@ interface Exports {
   lattice_positions(model: Pointer): Pointer;
 }
 
-/** The base mesh as Draco gives it: lattice coordinates, indices, sRGB bytes; 3 each. */
+/** The base mesh as Draco gives it: lattice coordinates, indices, YCoCg-R colours; 3 each. */
 export interface BaseMesh {
   positions: Int32Array;
   faces: Uint32Array;
-  colours: Uint8Array | undefined;
+  colours: Int32Array | undefined;
 }
 
-/** The exact surface: lattice coordinates. */
+/** The exact surface: lattice coordinates, indices, sRGB bytes; 3 each. */
 export interface LatticeSurface {
   positions: Int32Array;
   faces: Uint32Array;
@@ -91,7 +91,7 @@ export class Decoder {
     const { positions, faces, colours } = base;
     const started = this.#lend(positions, (points) =>
       this.#lend(faces, (corners) =>
-        this.#lend(colours ?? new Uint8Array(0), (tints) =>
+        this.#lend(colours ?? new Int32Array(0), (tints) =>
           this.#wasm.start(
             this.#model, points, positions.length / 3, corners, faces.length / 3, colours ? tints : 0))));
     if (!started) throw this.#error();

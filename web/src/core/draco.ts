@@ -9,7 +9,6 @@ export interface DracoModule {
   DecoderBuffer: new () => { Init(data: Int8Array, size: number): void };
   Mesh: new () => DracoMesh;
   DracoInt32Array: new () => DracoArray;
-  DracoUInt8Array: new () => DracoArray;
   TRIANGULAR_MESH: number;
   POSITION: number;
   COLOR: number;
@@ -24,7 +23,6 @@ interface DracoDecoder {
   GetAttributeId(mesh: DracoMesh, kind: number): number;
   GetAttribute(mesh: DracoMesh, id: number): { num_components(): number };
   GetAttributeInt32ForAllPoints(mesh: DracoMesh, attribute: object, out: DracoArray): boolean;
-  GetAttributeUInt8ForAllPoints(mesh: DracoMesh, attribute: object, out: DracoArray): boolean;
   GetTrianglesUInt32Array(mesh: DracoMesh, size: number, out: number): boolean;
 }
 interface DracoMesh {
@@ -46,7 +44,9 @@ export function decodeBase(draco: DracoModule, bytes: Uint8Array, level: Level):
     if (decoder.GetEncodedGeometryType(buffer) !== draco.TRIANGULAR_MESH) throw damaged();
     if (!decoder.DecodeBufferToMesh(buffer, mesh).ok()) throw damaged();
     if (mesh.num_points() !== level.vertices || mesh.num_faces() !== level.faces) throw damaged();
-    return { positions: positions(draco, decoder, mesh), faces: faces(draco, decoder, mesh), colours: colours(draco, decoder, mesh) };
+    const positions = integers(draco, decoder, mesh, draco.POSITION);
+    if (!positions) throw damaged();
+    return { positions, faces: faces(draco, decoder, mesh), colours: integers(draco, decoder, mesh, draco.COLOR) };
   } finally {
     for (const object of [mesh, buffer, decoder]) draco.destroy(object);
   }
@@ -56,29 +56,16 @@ function damaged(): ModelError {
   return new ModelError("the base mesh is damaged: publish the model again");
 }
 
-function positions(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh): Int32Array {
-  const id = decoder.GetAttributeId(mesh, draco.POSITION);
-  if (id < 0) throw damaged();
+/** An attribute's three integers a vertex; undefined where the mesh has none of that kind. */
+function integers(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh, kind: number): Int32Array | undefined {
+  const id = decoder.GetAttributeId(mesh, kind);
+  if (id < 0) return undefined;
   const values = new draco.DracoInt32Array();
   try {
     const attribute = decoder.GetAttribute(mesh, id);
     if (!decoder.GetAttributeInt32ForAllPoints(mesh, attribute, values)) throw damaged();
     if (values.size() !== 3 * mesh.num_points()) throw damaged();
     return Int32Array.from({ length: values.size() }, (_, i) => values.GetValue(i));
-  } finally {
-    draco.destroy(values);
-  }
-}
-
-function colours(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh): Uint8Array | undefined {
-  const id = decoder.GetAttributeId(mesh, draco.COLOR);
-  if (id < 0) return undefined;
-  const values = new draco.DracoUInt8Array();
-  try {
-    const attribute = decoder.GetAttribute(mesh, id);
-    if (!decoder.GetAttributeUInt8ForAllPoints(mesh, attribute, values)) throw damaged();
-    if (values.size() !== 3 * mesh.num_points()) throw damaged();
-    return Uint8Array.from({ length: values.size() }, (_, i) => values.GetValue(i));
   } finally {
     draco.destroy(values);
   }
