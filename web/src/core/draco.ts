@@ -9,7 +9,6 @@ export interface DracoModule {
   DecoderBuffer: new () => { Init(data: Int8Array, size: number): void };
   Mesh: new () => DracoMesh;
   DracoInt32Array: new () => DracoArray;
-  TRIANGULAR_MESH: number;
   POSITION: number;
   COLOR: number;
   HEAPF32: Float32Array;
@@ -18,7 +17,6 @@ export interface DracoModule {
   destroy(object: object): void;
 }
 interface DracoDecoder {
-  GetEncodedGeometryType(buffer: object): number;
   DecodeBufferToMesh(buffer: object, mesh: DracoMesh): { ok(): boolean };
   GetAttributeId(mesh: DracoMesh, kind: number): number;
   GetAttribute(mesh: DracoMesh, id: number): { num_components(): number };
@@ -40,8 +38,9 @@ export function decodeBase(draco: DracoModule, bytes: Uint8Array, level: Level):
   const buffer = new draco.DecoderBuffer();
   const mesh = new draco.Mesh();
   try {
+    // Byte 7 is the geometry (1: mesh), byte 8 the method (1: edgebreaker).
+    if (bytes[7] !== 1 || bytes[8] !== 1) throw damaged();
     buffer.Init(new Int8Array(bytes.buffer, bytes.byteOffset, bytes.length), bytes.length);
-    if (decoder.GetEncodedGeometryType(buffer) !== draco.TRIANGULAR_MESH) throw damaged();
     if (!decoder.DecodeBufferToMesh(buffer, mesh).ok()) throw damaged();
     if (mesh.num_points() !== level.vertices || mesh.num_faces() !== level.faces) throw damaged();
     const positions = integers(draco, decoder, mesh, draco.POSITION);
