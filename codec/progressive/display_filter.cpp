@@ -33,23 +33,23 @@ RingShape shape_of(const MeshState& mesh, VertexId v) {
   return shape;
 }
 
-Vec3 filtered(const MeshState& mesh, VertexId v, double strength) {
-  const Vec3 p = to_vec3(mesh.positions[v]);
-  if (strength == 0) return p;
+}  // namespace
+
+Vec3 display_shift(const MeshState& mesh, VertexId v) {
   const RingShape shape = shape_of(mesh, v);
   const double size = dot(shape.area, shape.area);
-  if (!shape.closed || !(size > 0)) return p;
-  // p - mean = -shape.mean, which is relative to p.
-  return p + shape.area * (-strength * dot(shape.area, shape.mean) / size);
+  if (!shape.closed || !(size > 0)) return {};
+  return shape.area * (-dot(shape.area, shape.mean) / size);  // the mean is relative to p
 }
-
-}  // namespace
 
 void filter_for_display(const MeshState& mesh, const std::function<double(VertexId)>& strength,
                         std::vector<Vec3>& out) {
   out.resize(mesh.vertex_count());
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
-    out[v] = filtered(mesh, v, strength(v));
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    out[v] = to_vec3(mesh.positions[v]);
+    const double a = strength(v);
+    if (a != 0) out[v] += display_shift(mesh, v) * a;
+  }
 }
 
 }  // namespace vitrine

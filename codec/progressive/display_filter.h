@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display filter of coarse levels (DESIGN section 2): p' = p - a n (n . (p - mean of the
-// ring)), which takes back the shrinkage of midpoint placement for no bytes.
+// The display filter of coarse levels: p' = p + a n (n . (p - mean of the ring)), which takes back the
+// shrinkage of midpoint placement for no bytes.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,10 @@
 
 namespace vitrine {
 
-// One filtered position per vertex, lattice units. `strength(v)` is `a` at v. Vertices on a
-// boundary stay where they are.
+// The shift of v for a = 1, lattice units. Vertices on a boundary stay where they are.
+Vec3 display_shift(const MeshState& mesh, VertexId v);
+
+// One filtered position per vertex, lattice units. `strength(v)` is `a` at v.
 void filter_for_display(const MeshState& mesh, const std::function<double(VertexId)>& strength,
                         std::vector<Vec3>& out);
 

@@ -26,6 +26,8 @@ class ErrorMeter {
   // above the true maximum (or 1e-9 of the diagonal above it).
   LevelError measure(const TriangleMesh& level) const;
 
+  const TriangleBvh& original() const { return bvh_; }
+
  private:
   TriangleBvh bvh_;
   WitnessSurface surface_;
