@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// By Voronoi regions: Ericson, Real-Time Collision Detection, section 5.1.5.
 #include "codec/mesh/closest_point.h"
 
 #include <algorithm>
@@ -13,35 +12,14 @@ Vec3 on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
   return size > 0 ? a + ab * std::clamp(dot(p - a, ab) / size, 0.0, 1.0) : a;
 }
 
-Vec3 on_degenerate(const Corners& t, const Vec3& p) {
+}  // namespace
+
+Vec3 closest_point_of_edges(const Corners& t, const Vec3& p) noexcept {
   Vec3 best = on_segment(t.a, t.b, p);
   for (const Vec3& q : {on_segment(t.b, t.c, p), on_segment(t.c, t.a, p)}) {
     if (dot(p - q, p - q) < dot(p - best, p - best)) best = q;
   }
   return best;
-}
-
-}  // namespace
-
-Vec3 closest_point(const Corners& t, const Vec3& p) noexcept {
-  const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return t.a;
-  const Vec3 bp = p - t.b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return t.b;
-  const Vec3 cp = p - t.c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return t.c;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 > 0 && d3 < 0) return t.a + ab * (d1 / (d1 - d3));
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 > 0 && d6 < 0) return t.a + ac * (d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4, e = d4 - d3, f = d5 - d6;
-  if (va <= 0 && e > 0 && f > 0) return t.b + (t.c - t.b) * (e / (e + f));
-  const double area = va + vb + vc;
-  if (!(area > 0)) return on_degenerate(t, p);
-  return t.a + ab * (vb / area) + ac * (vc / area);
 }
 
 }  // namespace vitrine

@@ -60,7 +60,7 @@ void HausdorffBound::visit(const TriangleBvh& source, std::uint32_t index) {
     return;
   }
   const auto triangles = source.triangles().subspan(node.first, node.count);
-  last_ = target_->closest(centre_of(triangles[0]), last_).triangle;
+  approach(centre_of(triangles[0]));
   for (const Corners& t : triangles) {
     if (!settle(std::array{t.a, t.b, t.c}, last_)) cover(ConvexPiece(t), last_);
   }
@@ -70,12 +70,18 @@ void HausdorffBound::visit(const TriangleBvh& source, std::uint32_t index) {
 bool HausdorffBound::settle_box(const TriangleBvh::Node& n) {
   const Vec3 low{n.low[0], n.low[1], n.low[2]}, high{n.high[0], n.high[1], n.high[2]};
   if (length(high - low) > limit()) return false;
-  last_ = target_->closest((low + high) * 0.5, last_).triangle;
+  approach((low + high) * 0.5);
   std::array<Vec3, 8> corners;
   for (unsigned k = 0; k < 8; ++k) {
     corners[k] = {k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z};
   }
   return settle(corners, last_);
+}
+
+// Moves the newest witness near p: by a walk, unless that ends too far away.
+void HausdorffBound::approach(const Vec3& p) {
+  last_ = target_->walk(p, last_);
+  if (target_->distance(p, last_) > limit()) last_ = target_->closest(p, last_).triangle;
 }
 
 bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness) {
@@ -93,8 +99,9 @@ void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
   const Vec3 centre = piece.centre();
   const std::uint32_t witness = last_ = target_->walk(centre, start);
   if (settle(piece.corners(), witness)) return;
-  const bool many = much_larger(piece.radius(centre), target_->triangle(witness));
-  many ? halve(piece, witness) : cut(piece, witness, kCuts);
+  const double radius = piece.radius(centre);
+  if (!much_larger(radius, target_->triangle(witness))) return cut(piece, witness, kCuts);
+  radius > limit() / 2 ? halve(piece, witness) : examine(piece, witness);
 }
 
 void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cuts) {

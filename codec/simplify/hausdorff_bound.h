@@ -40,6 +40,7 @@ class HausdorffBound {
   double limit() const { return std::max(tolerance_ * known_, negligible_); }
   void visit(const TriangleBvh& source, std::uint32_t node);
   bool settle_box(const TriangleBvh::Node& node);
+  void approach(const Vec3& p);
   bool settle(std::span<const Vec3> corners, std::uint32_t witness);
   void cover(const ConvexPiece& piece, std::uint32_t start);
   void cut(const ConvexPiece& piece, std::uint32_t witness, int cuts);
