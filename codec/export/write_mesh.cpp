@@ -72,9 +72,18 @@ Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFor
   switch (format) {
     case MeshFormat::kPly:
       return write_ply(mesh);
-    default:
-      return fail(ErrorCode::kUnsupported, "this format is not written yet");
+    case MeshFormat::kGlb:
+      return write_glb(mesh);
+    case MeshFormat::kObj:
+      return write_obj(mesh);
+    case MeshFormat::kStl:
+      return write_stl(mesh);
+    case MeshFormat::kDrc:
+      return write_drc(mesh);
+    case MeshFormat::kVrml:
+      return write_vrml(mesh);
   }
+  return fail(ErrorCode::kUnsupported, "unknown mesh format");
 }
 
 }  // namespace vitrine

@@ -97,7 +97,7 @@ Expected<void> HeaderParser::format(std::string_view line) {
     return header_.format = PlyFormat::kLittleEndian, Expected<void>{};
   }
   if (name == "binary_big_endian") return header_.format = PlyFormat::kBigEndian, Expected<void>{};
-  return bad("unknown format " + quoted(name));
+  return bad("unknown format " + in_quotes(name));
 }
 
 Expected<void> HeaderParser::element(std::string_view line) {
@@ -107,7 +107,7 @@ Expected<void> HeaderParser::element(std::string_view line) {
   const auto [end, error] =
       std::from_chars(count.data(), count.data() + count.size(), element.count);
   if (error != std::errc{} || end != count.data() + count.size()) {
-    return bad("the count " + quoted(count) + " of element " + quoted(element.name) +
+    return bad("the count " + in_quotes(count) + " of element " + in_quotes(element.name) +
                " is not a number");
   }
   header_.elements.push_back(std::move(element));
@@ -122,13 +122,13 @@ Expected<void> HeaderParser::property(std::string_view line) {
   if (type == "list") {
     const std::string_view count_type = take_word(line);
     const auto known = type_of(count_type);
-    if (!known) return bad("unknown type " + quoted(count_type));
+    if (!known) return bad("unknown type " + in_quotes(count_type));
     property.is_list = true;
     property.count_type = *known;
     type = take_word(line);
   }
   const auto known = type_of(type);
-  if (!known) return bad("unknown type " + quoted(type));
+  if (!known) return bad("unknown type " + in_quotes(type));
   property.type = *known;
   property.name = take_word(line);
   header_.elements.back().properties.push_back(std::move(property));
@@ -136,7 +136,7 @@ Expected<void> HeaderParser::property(std::string_view line) {
 }
 
 void HeaderParser::comment(std::string_view line) {
-  if (take_word(line) == "TextureFile") header_.texture = quoted(take_word(line));
+  if (take_word(line) == "TextureFile") header_.texture = in_quotes(take_word(line));
 }
 
 Expected<void> HeaderParser::statement(std::string_view line) {
@@ -146,7 +146,7 @@ Expected<void> HeaderParser::statement(std::string_view line) {
   if (keyword == "property") return property(line);
   if (keyword == "comment") comment(line);
   if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return {};
-  return bad("unknown keyword " + quoted(keyword));
+  return bad("unknown keyword " + in_quotes(keyword));
 }
 
 Expected<PlyHeader> HeaderParser::parse() {
@@ -174,7 +174,7 @@ Expected<void> check_size(const PlyHeader& header, std::size_t bytes_left) {
     }
     if (bytes > 0 && element.count > (bytes_left + 1) / bytes) {
       return bad_input("the PLY header claims " + std::to_string(element.count) + " of element " +
-                       quoted(element.name) + ", but only " + counted(bytes_left, "byte") +
+                       in_quotes(element.name) + ", but only " + counted(bytes_left, "byte") +
                        " are left for it; the file is cut short or damaged, copy it again");
     }
     bytes_left -= std::min<std::uint64_t>(bytes_left, bytes * element.count);

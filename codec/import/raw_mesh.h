@@ -47,7 +47,7 @@ class RawMesh {
 std::string counted(std::uint64_t count, std::string_view noun);
 
 // Text from a file made safe to print on one line: printable ASCII, at most 60 characters, quoted.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 // Whether a coordinate can be worked with: finite, and its square too.
 bool is_usable(const Vec3& position);

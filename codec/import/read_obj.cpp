@@ -19,7 +19,7 @@ class ObjReader {
       if (keyword == "v") ok = vertex();
       if (keyword == "f") ok = face();
       if (keyword == "vt") has_texture_coordinates_ = true;
-      if (keyword == "mtllib") library_ = quoted(text_.rest_of_line());
+      if (keyword == "mtllib") library_ = in_quotes(text_.rest_of_line());
       if (!ok) return bad_line(keyword);
       text_.next_line();
     }

@@ -227,7 +227,7 @@ class BodyReader {
   }
 
   static Unexpected cut_short(const PlyElement& element, std::uint64_t i) {
-    return bad_input("the PLY file ends or has no number in " + quoted(element.name) + ' ' +
+    return bad_input("the PLY file ends or has no number in " + in_quotes(element.name) + ' ' +
                      std::to_string(i) + " of " + std::to_string(element.count) +
                      "; it is cut short or damaged, copy it again");
   }

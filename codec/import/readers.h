@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "codec/core/expected.h"
 #include "codec/core/limits.h"
@@ -16,5 +17,9 @@ Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes);
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes);
 Expected<RawMesh> read_off(std::span<const std::uint8_t> bytes);
 Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const Limits& limits);
+
+// How the formats without a magic number are told.
+bool is_binary_stl(std::span<const std::uint8_t> bytes);
+bool is_off(std::string_view first_word);
 
 }  // namespace vitrine

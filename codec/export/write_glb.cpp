@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binary glTF 2.0: one mesh of one primitive. Colours are linear light in 16 bits, which is enough
+// to give every sRGB byte back.
+#include <algorithm>
+
+#include "codec/core/srgb.h"
+#include "codec/export/byte_writer.h"
+#include "codec/export/writers.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::size_t kPositionBytes = 12, kColourBytes = 8;
+
+struct Box {
+  Vec3 low, high;
+};
+
+Box bounding_box(const std::vector<Vec3>& positions) {
+  Box box{positions[0], positions[0]};
+  for (const Vec3& p : positions) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+void put_vector(ByteWriter& json, const Vec3& v) {
+  json.text("["), json.number(static_cast<float>(v.x));
+  json.text(","), json.number(static_cast<float>(v.y));
+  json.text(","), json.number(static_cast<float>(v.z)), json.text("]");
+}
+
+class JsonPart {
+ public:
+  explicit JsonPart(const TriangleMesh& mesh)
+      : mesh_(mesh), coloured_(!mesh.colours.empty()), out_(1024) {}
+
+  FileBytes write() {
+    out_.text(
+        R"({"asset":{"version":"2.0","generator":"Vitrine"},"scene":0,"scenes":[{"nodes":[0]}],)"
+        R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0)");
+    if (coloured_) out_.text(R"(,"COLOR_0":2)");
+    out_.text(R"(},"indices":1,"material":0}]}],"materials":[{"doubleSided":true,)"
+              R"("pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.8}}],)");
+    accessors();
+    views();
+    while (out_.size() % 4 != 0)
+      out_.text(" ");
+    return out_.take();
+  }
+
+ private:
+  void accessors() {
+    const Box box = bounding_box(mesh_.positions);
+    out_.text(R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)");
+    out_.number(mesh_.positions.size());
+    out_.text(R"(,"min":)"), put_vector(out_, box.low);
+    out_.text(R"(,"max":)"), put_vector(out_, box.high);
+    out_.text(R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)");
+    out_.number(mesh_.faces.size() * 3);
+    if (coloured_) {
+      out_.text(
+          R"(},{"bufferView":2,"componentType":5123,"normalized":true,"type":"VEC4","count":)");
+      out_.number(mesh_.colours.size());
+    }
+    out_.text("}],");
+  }
+
+  void view(std::size_t size, std::string_view target) {
+    out_.text(at_ == 0 ? "{" : ",{");
+    out_.text(R"("buffer":0,"byteOffset":)"), out_.number(at_);
+    out_.text(R"(,"byteLength":)"), out_.number(size);
+    out_.text(R"(,"target":)"), out_.text(target), out_.text("}");
+    at_ += size;
+  }
+
+  void views() {
+    out_.text(R"("bufferViews":[)");
+    view(mesh_.positions.size() * kPositionBytes, "34962");
+    view(mesh_.faces.size() * sizeof(Triangle), "34963");
+    if (coloured_) view(mesh_.colours.size() * kColourBytes, "34962");
+    out_.text(R"(],"buffers":[{"byteLength":)"), out_.number(at_), out_.text("}]}");
+  }
+
+  const TriangleMesh& mesh_;
+  const bool coloured_;
+  ByteWriter out_;
+  std::size_t at_ = 0;
+};
+
+std::uint16_t linear_light(std::uint8_t part) {
+  return static_cast<std::uint16_t>(srgb_to_linear(part / 255.0) * 65535 + 0.5);
+}
+
+}  // namespace
+
+FileBytes write_glb(const TriangleMesh& mesh) {
+  const FileBytes json = JsonPart(mesh).write();
+  const std::size_t binary = mesh.positions.size() * kPositionBytes +
+                             mesh.faces.size() * sizeof(Triangle) +
+                             mesh.colours.size() * kColourBytes;
+  const std::size_t total = 12 + 8 + json.size() + 8 + binary;
+  ByteWriter out(total);
+  out.text("glTF");
+  out.put(std::uint32_t{2});
+  out.put(static_cast<std::uint32_t>(total));
+  out.put(static_cast<std::uint32_t>(json.size()));
+  out.text("JSON");
+  out.text({reinterpret_cast<const char*>(json.data()), json.size()});
+  out.put(static_cast<std::uint32_t>(binary));
+  out.text({"BIN\0", 4});
+  for (const Vec3& p : mesh.positions)
+    out.put_floats(p);
+  for (const Triangle& face : mesh.faces)
+    out.put(face);
+  for (const auto& [r, g, b] : mesh.colours) {
+    out.put(std::array<std::uint16_t, 4>{linear_light(r), linear_light(g), linear_light(b), 65535});
+  }
+  return out.take();
+}
+
+}  // namespace vitrine

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/export/byte_writer.h"
+#include "codec/export/writers.h"
+
+namespace vitrine {
+
+FileBytes write_obj(const TriangleMesh& mesh) {
+  ByteWriter out(64 + mesh.positions.size() * 32 + mesh.faces.size() * 24);
+  out.text("# written by Vitrine\n");
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    out.text("v ");
+    out.numbers(mesh.positions[v]);
+    if (!mesh.colours.empty()) {
+      const auto [r, g, b] = mesh.colours[v];
+      out.text(" ");
+      out.numbers(Vec3{r / 255.0, g / 255.0, b / 255.0});
+    }
+    out.text("\n");
+  }
+  for (const Triangle& face : mesh.faces) {
+    out.text("f");
+    for (const std::uint32_t v : face)
+      out.text(" "), out.number(v + 1);
+    out.text("\n");
+  }
+  return out.take();
+}
+
+}  // namespace vitrine

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "codec/export/byte_writer.h"
+#include "codec/export/writers.h"
+
+namespace vitrine {
+
+FileBytes write_stl(const TriangleMesh& mesh) {
+  ByteWriter out(84 + mesh.faces.size() * 50);
+  std::array<char, 80> title{};  // must not start with "solid", which is for the text format
+  constexpr std::string_view kTitle = "binary STL written by Vitrine";
+  kTitle.copy(title.data(), title.size());
+  out.put(title);
+  out.put(static_cast<std::uint32_t>(mesh.faces.size()));
+  for (const auto& [a, b, c] : mesh.faces) {
+    const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
+    const Vec3 normal = cross(q - p, r - p);
+    const double size = length(normal);
+    const bool flat = size > 0 && std::isfinite(size);
+    out.put_floats(flat ? normal * (1 / size) : Vec3{});
+    out.put_floats(p), out.put_floats(q), out.put_floats(r);
+    out.put(std::uint16_t{0});
+  }
+  return out.take();
+}
+
+}  // namespace vitrine

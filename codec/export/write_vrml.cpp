@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// VRML 97 (ISO/IEC 14772-1): one shape, an IndexedFaceSet.
+#include "codec/export/byte_writer.h"
+#include "codec/export/writers.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::string_view kOpening =
+    "#VRML V2.0 utf8\n"
+    "# written by Vitrine\n"
+    "Shape {\n"
+    "  appearance Appearance { material Material { } }\n"
+    "  geometry IndexedFaceSet {\n"
+    "    solid FALSE\n"        // open surfaces are seen from both sides
+    "    creaseAngle 0.785\n"  // 45 degrees: smooth but at sharp edges
+    "    coord Coordinate {\n"
+    "      point [\n";
+
+}  // namespace
+
+FileBytes write_vrml(const TriangleMesh& mesh) {
+  ByteWriter out(512 + mesh.positions.size() * 44 + mesh.faces.size() * 28);
+  out.text(kOpening);
+  for (const Vec3& p : mesh.positions)
+    out.numbers(p), out.text(",\n");
+  out.text("      ]\n    }\n    coordIndex [\n");
+  for (const Triangle& face : mesh.faces) {
+    for (const std::uint32_t v : face)
+      out.number(v), out.text(" ");
+    out.text("-1\n");
+  }
+  out.text("    ]\n");
+  if (!mesh.colours.empty()) {
+    out.text("    colorPerVertex TRUE\n    color Color {\n      color [\n");
+    for (const auto& [r, g, b] : mesh.colours) {
+      out.numbers(Vec3{r / 255.0, g / 255.0, b / 255.0}), out.text(",\n");
+    }
+    out.text("      ]\n    }\n");
+  }
+  out.text("  }\n}\n");
+  return out.take();
+}
+
+}  // namespace vitrine

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// STL, text or binary: triangles that do not share vertices, welded where positions are equal.
+#include <algorithm>
+
+#include "codec/import/byte_cursor.h"
+#include "codec/import/readers.h"
+#include "codec/import/text_cursor.h"
+#include "codec/import/weld.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84;  // 80 of free text, then the count
+constexpr std::size_t kFacetBytes = 50;
+
+// Every three positions are a facet.
+Expected<RawMesh> weld_facets(std::vector<Vec3> positions) {
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (is_usable(positions[i])) continue;
+    return bad_input("STL facet " + std::to_string(i / 3) +
+                     " has a coordinate that is not a finite number (or beyond 1e30); remove it "
+                     "and export again");
+  }
+  RawMesh mesh;
+  const std::vector<std::uint32_t> index = weld(positions, mesh.colours);
+  mesh.positions = std::move(positions);
+  mesh.reserve_faces(index.size() / 3);
+  for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
+    mesh.add_triangle({index[i], index[i + 1], index[i + 2]});
+  }
+  return mesh;
+}
+
+Expected<RawMesh> read_binary(std::span<const std::uint8_t> bytes, std::uint32_t count) {
+  std::vector<Vec3> positions;
+  positions.reserve(3 * std::size_t{count});
+  ByteCursor facets(bytes.subspan(kHeaderBytes));
+  for (std::uint32_t f = 0; f < count; ++f) {
+    facets.skip(12);  // the normal follows from the corners
+    for (int k = 0; k < 3; ++k) {
+      const double x = facets.read<float>(), y = facets.read<float>(), z = facets.read<float>();
+      positions.push_back({x, y, z});
+    }
+    facets.skip(2);
+  }
+  return weld_facets(std::move(positions));
+}
+
+class AsciiStl {
+ public:
+  explicit AsciiStl(std::span<const std::uint8_t> bytes) : text_(bytes) {}
+
+  Expected<RawMesh> read() {
+    while (text_.seek_word()) {
+      const std::string word = lower_word();
+      if (!take(word)) {
+        return bad_input("STL line " + std::to_string(text_.line()) + ": " + in_quotes(word) +
+                         " is out of place or lacks numbers; the file is damaged, export it again");
+      }
+    }
+    if (inside_) return bad_input("the STL file has no endsolid; it is cut short, copy it again");
+    return weld_facets(std::move(positions_));
+  }
+
+ private:
+  std::string lower_word() {
+    std::string word(text_.word().substr(0, 12));
+    for (char& c : word)
+      c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return word;
+  }
+
+  bool take(std::string_view word) {
+    if (word == "solid" || word == "endsolid") {
+      const bool fits = inside_ == (word == "endsolid") && corners_ == 0;
+      inside_ = !inside_;
+      text_.next_line();
+      return fits;
+    }
+    if (!inside_) return false;
+    if (word == "vertex") return vertex();
+    if (word == "facet") return lower_word() == "normal" && numbers();
+    if (word == "endloop") return std::exchange(corners_, 0) == 3;
+    return word == "outer" ? lower_word() == "loop" : word == "endfacet";
+  }
+
+  bool numbers() {
+    for (double& part : values_) {
+      if (!text_.seek_word() || !text_.number(part)) return false;
+    }
+    return true;
+  }
+
+  bool vertex() {
+    if (corners_++ == 3 || !numbers()) return false;
+    positions_.push_back({values_[0], values_[1], values_[2]});
+    return true;
+  }
+
+  TextCursor text_;
+  std::vector<Vec3> positions_;
+  std::array<double, 3> values_{};
+  int corners_ = 0;  // of the loop so far
+  bool inside_ = false;
+};
+
+}  // namespace
+
+bool is_binary_stl(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kHeaderBytes) return false;
+  const std::size_t size = kHeaderBytes + kFacetBytes * load<std::uint32_t>(&bytes[80]);
+  const bool says_solid = std::equal(bytes.begin(), bytes.begin() + 5, "solid");
+  return size == bytes.size() || (!says_solid && size > kHeaderBytes && size < bytes.size());
+}
+
+Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes) {
+  if (is_binary_stl(bytes)) return read_binary(bytes, load<std::uint32_t>(&bytes[80]));
+  return AsciiStl(bytes).read();
+}
+
+}  // namespace vitrine

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/core/vec.h"
+
+namespace vitrine {
+
+// Merges vertices of exactly the same position and colour (`colours` may be empty); those that
+// remain keep the order of their first appearance. Returns the new index of each old vertex. The
+// positions must be finite.
+std::vector<std::uint32_t> weld(std::vector<Vec3>& positions, std::vector<Colour>& colours);
+
+}  // namespace vitrine

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/reading.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using vitrine::testing::bytes_of;
+using vitrine::testing::read_text;
+using vitrine::testing::refusal;
+
+std::string glb(std::string json, std::string binary) {
+  while (json.size() % 4 != 0)
+    json += ' ';
+  while (binary.size() % 4 != 0)
+    binary += '\0';
+  const auto u32 = [](std::size_t n) {
+    return bytes_of<std::uint32_t>({static_cast<std::uint32_t>(n)});
+  };
+  return "glTF" + u32(2) + u32(28 + json.size() + binary.size()) + u32(json.size()) + "JSON" +
+         json + u32(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+// Three corners of a triangle at byte 0, then whatever a test adds at byte 36.
+const std::string kCorners = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+constexpr char kViews[] =
+    R"("buffers":[{"byteLength":99}],"bufferViews":[{"buffer":0,"byteLength":36},)";
+constexpr char kPositions[] = R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":3})";
+constexpr char kOneMesh[] = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])";
+
+std::string plain(std::string extra) {
+  return glb(std::string("{") + kViews + R"({}],"accessors":[)" + kPositions + "]," + kOneMesh +
+                 extra + "}",
+             kCorners);
+}
+
+TEST(ReadGlb, TrianglesWithoutIndices) {
+  const auto result = read_text(plain(""));
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_EQ(result.mesh.positions[1], (Vec3{1, 0, 0}));
+}
+
+TEST(ReadGlb, IndicesOfEveryType) {
+  const std::pair<int, std::string> kinds[] = {{5121, bytes_of<std::uint8_t>({2, 0, 1})},
+                                               {5123, bytes_of<std::uint16_t>({2, 0, 1})},
+                                               {5125, bytes_of<std::uint32_t>({2, 0, 1})}};
+  for (const auto& [type, indices] : kinds) {
+    const auto result = read_text(
+        glb(std::string("{") + kViews + R"({"buffer":0,"byteOffset":36,"byteLength":)" +
+                std::to_string(indices.size()) + R"(}],"accessors":[)" + kPositions +
+                R"(,{"bufferView":1,"componentType":)" + std::to_string(type) +
+                R"(,"type":"SCALAR","count":3}],)"
+                R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}]})",
+            kCorners + indices));
+    EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{2, 0, 1})) << type;
+  }
+}
+
+TEST(ReadGlb, ColoursAreLinearLightInAnyTypeAndStride) {
+  const std::string colours = bytes_of<std::uint8_t>({0,   0,  0, 255, 9, 9, 9, 9,  //
+                                                      255, 55, 0, 255, 9, 9, 9, 9, 0, 0, 255, 255});
+  const auto result = read_text(glb(
+      std::string("{") + kViews +
+          R"({"buffer":0,"byteOffset":36,"byteLength":20,"byteStride":8}],"accessors":[)" +
+          kPositions +
+          R"(,{"bufferView":1,"componentType":5121,"normalized":true,"type":"VEC4","count":3}],)"
+          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}]})",
+      kCorners + colours));
+  EXPECT_THAT(result.mesh.colours,
+              ElementsAre(Colour{0, 0, 0}, Colour{255, 128, 0}, Colour{0, 0, 255}));
+}
+
+TEST(ReadGlb, NodesPlaceTheirMeshesAndAMirrorKeepsTheOutside) {
+  const auto result = read_text(
+      plain(R"(,"scenes":[{"nodes":[0]}],"nodes":[{"translation":[10,0,0],"children":[1,2]},)"
+            R"({"mesh":0,"rotation":[0,0,0.7071067811865476,0.7071067811865476]},)"
+            R"({"mesh":0,"scale":[1,1,-2]}])"));
+  ASSERT_EQ(result.mesh.faces.size(), 2u);
+  std::vector<double> ups;
+  for (const auto& [a, b, c] : result.mesh.faces) {
+    const auto& p = result.mesh.positions;
+    ups.push_back(cross(p[b] - p[a], p[c] - p[a]).z);
+  }
+  EXPECT_THAT(ups, ::testing::UnorderedElementsAre(::testing::DoubleNear(1, 1e-12), -1));
+}
+
+TEST(ReadGlb, SharesVerticesBetweenPrimitivesAndWeldsSeams) {
+  const auto result = read_text(glb(
+      std::string("{") + kViews + R"({"buffer":0,"byteLength":72}],"accessors":[)" + kPositions +
+          R"(,{"bufferView":1,"componentType":5126,"type":"VEC3","count":6}],"images":[{},{}],)"
+          R"("meshes":[{"primitives":[{"attributes":{"POSITION":1,"NORMAL":1}}]}]})",
+      kCorners + bytes_of<float>({1, 0, 0, 1, 1, 0, 0, 1, 0})));
+  EXPECT_EQ(result.mesh.positions.size(), 4u);
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{1, 3, 2}));
+  EXPECT_THAT(result.repairs, Contains("2 texture maps not carried"));
+  EXPECT_THAT(result.repairs, Contains(HasSubstr("2 repeated vertices welded")));
+}
+
+TEST(ReadGlb, RefusesByName) {
+  EXPECT_THAT(refusal(plain(R"(,"extensionsRequired":["KHR_draco_mesh_compression"])")),
+              HasSubstr("'KHR_draco_mesh_compression'"));
+  EXPECT_THAT(refusal(plain(R"(,"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}])")),
+              HasSubstr("two parents"));
+  EXPECT_THAT(refusal(glb("{}", "")), HasSubstr("no vertices"));
+  EXPECT_THAT(refusal(glb("[[[", "")), HasSubstr("not JSON"));
+  EXPECT_THAT(refusal(glb(std::string(100'000, '['), "")), HasSubstr("nested too deeply"));
+  EXPECT_THAT(refusal(plain("").substr(0, 40)), HasSubstr("claims"));
+  std::string sparse = plain("");
+  sparse.replace(sparse.find("\"count\":3"), 9, "\"sparse\":3");
+  EXPECT_THAT(refusal(sparse), ::testing::Not(::testing::IsEmpty()));
+}
+
+TEST(ReadGlb, RefusesAnAccessorBeyondTheBuffer) {
+  std::string file = plain("");
+  file.replace(file.find("\"count\":3"), 9, "\"count\":4");
+  EXPECT_THAT(refusal(file), HasSubstr("accessor 0 does not fit its buffer view"));
+  file.replace(file.find("\"byteLength\":36"), 15, "\"byteLength\":88");
+  EXPECT_THAT(refusal(file), HasSubstr("beyond the end of the binary chunk"));
+}
+
+TEST(ReadGlb, RefusesInstancesThatMakeMoreThanTheFileHasBytes) {
+  const std::string primitive = R"({"attributes":{"POSITION":0}})";
+  std::string primitives = primitive, nodes = R"({"mesh":0})", list = "0";
+  for (int i = 1; i < 100; ++i) {
+    primitives += "," + primitive;
+    nodes += R"(,{"mesh":0})";
+    list += "," + std::to_string(i);
+  }
+  EXPECT_THAT(
+      refusal(glb(std::string("{") + kViews + R"({}],"accessors":[)" + kPositions +
+                      R"(],"meshes":[{"primitives":[)" + primitives +
+                      R"(]}],"scenes":[{"nodes":[)" + list + R"(]}],"nodes":[)" + nodes + "]}",
+                  kCorners)),
+      HasSubstr("instances make too many faces"));
+}
+
+}  // namespace
+}  // namespace vitrine

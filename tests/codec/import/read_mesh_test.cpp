@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/reading.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using vitrine::testing::read_text;
+using vitrine::testing::refusal;
+
+TEST(ReadMesh, RefusesAnEmptyFile) {
+  EXPECT_THAT(refusal(""), HasSubstr("is empty"));
+}
+
+TEST(ReadMesh, RefusesOtherContentWhateverTheNameOfTheFile) {
+  for (const char* text :
+       {"Dear museum,\nhere is the scan.", "<html>", "\x89PNG\r\n\x1a\n", "\n\n"}) {
+    EXPECT_THAT(refusal(text),
+                HasSubstr("not a mesh file Vitrine reads (PLY, OBJ, STL, OFF, GLB)"));
+  }
+}
+
+TEST(ReadMesh, RefusesPointsWithoutFaces) {
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\n"), HasSubstr("has 2 points but no faces"));
+}
+
+TEST(ReadMesh, RefusesAFaceWhoseVertexIsMissingAndNamesIt) {
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n"),
+              HasSubstr("face 1 refers to vertex 3, but the file has only 3"));
+}
+
+TEST(ReadMesh, RefusesANumberThatIsNotFiniteWhereAFaceUsesIt) {
+  EXPECT_THAT(refusal("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("vertex 1"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("not a finite number"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 1e999 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("vertex 1"));
+}
+
+TEST(ReadMesh, DropsPointsThatAreNotFiniteWhereNoFaceUsesThem) {
+  const auto result = read_text("v nan nan nan\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n");
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_EQ(result.mesh.positions.size(), 3u);
+  EXPECT_THAT(result.repairs,
+              ElementsAre(HasSubstr("1 points without finite coordinates dropped")));
+}
+
+TEST(ReadMesh, NamesFacesOfFewerThanThreeCorners) {
+  const auto result = read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
+  EXPECT_THAT(result.repairs, ElementsAre("1 face with fewer than three corners dropped, first at "
+                                          "face 1"));
+}
+
+TEST(ReadMesh, RefusesMoreThanTheLimits) {
+  Limits limits;
+  limits.faces = 1;
+  const auto result = read_mesh(
+      vitrine::testing::as_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n"), limits);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_EQ(result.error().code, ErrorCode::kLimit);
+}
+
+}  // namespace
+}  // namespace vitrine

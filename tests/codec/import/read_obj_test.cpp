@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/reading.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using vitrine::testing::read_text;
+using vitrine::testing::refusal;
+
+constexpr char kSquare[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST(ReadObj, FacesInEveryNotation) {
+  const auto result = read_text(std::string("# a comment\n\no thing\n") + kSquare +
+                                "vn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 3//1 4//1\n"
+                                "f 1/1/1 3/1/1 4/1/1 # end\ns 1\n");
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 2},
+                                             Triangle{0, 2, 3}, Triangle{0, 2, 3}));
+  EXPECT_THAT(result.repairs, IsEmpty());
+}
+
+TEST(ReadObj, PolygonsAndNegativeIndices) {
+  const auto result = read_text(std::string(kSquare) + "f -4 -3 -2 -1\nv 0 0 1\nf -1 1 2\n");
+  EXPECT_THAT(result.mesh.faces,
+              ElementsAre(Triangle{4, 0, 1}, Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+}
+
+TEST(ReadObj, LinesThatContinue) {
+  const auto result =
+      read_text(std::string(kSquare) + "f 1 \\\n 2 \\\r\n 3\nv 5 \\\n5 5\nf 1 2 5\n");
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 4}));
+}
+
+TEST(ReadObj, Colours) {
+  const auto result = read_text("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+  EXPECT_THAT(result.mesh.colours,
+              ElementsAre(Colour{255, 128, 0}, Colour{255, 255, 255}, Colour{0, 0, 255}));
+  const auto bytes = read_text("v 0 0 0 255 128 7\nv 1 0 0 0 1 2\nv 0 1 0 3 4 5\nf 1 2 3\n");
+  EXPECT_THAT(bytes.mesh.colours,
+              ElementsAre(Colour{255, 128, 7}, Colour{0, 1, 2}, Colour{3, 4, 5}));
+}
+
+TEST(ReadObj, AWeightIsNoColour) {
+  EXPECT_THAT(read_text("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").mesh.colours, IsEmpty());
+}
+
+TEST(ReadObj, SaysThatATextureIsNotCarried) {
+  const auto result = read_text(
+      "mtllib bust.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl skin\n"
+      "f 1/1 2/1 3/1\n");
+  EXPECT_THAT(result.repairs, ElementsAre("texture map (material library 'bust.mtl') not carried"));
+}
+
+TEST(ReadObj, NamesTheLineOfAFault) {
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\n"), HasSubstr("line 2: a vertex needs three numbers"));
+  EXPECT_THAT(refusal("v 0 0 0\nf 0 1 1\n"), HasSubstr("line 2: a face needs"));
+  EXPECT_THAT(refusal("v 0 0 0\nf 1 1 -2\n"), HasSubstr("line 2: a face needs"));
+  EXPECT_THAT(refusal("v 0 0 0\nf 1 1 99999999999\n"), HasSubstr("refers to vertex"));
+}
+
+}  // namespace
+}  // namespace vitrine
