@@ -27,7 +27,7 @@ TriangleMesh read_clean(std::span<const std::uint8_t> file) {
 Bytes build(std::span<const std::uint8_t> file, int bits) {
   BuildOptions options;
   options.bits = bits;
-  return value_of(build_model(file, options, {})).bytes;
+  return value_of(build_model(file, options, {})).file;
 }
 
 std::uint32_t decode(std::span<const std::uint8_t> pmesh) {
