@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <thread>
+
+#include "server/cli/command.h"
+#include "server/cli/console.h"
+#include "server/cli/input.h"
+#include "server/cli/isolation.h"
+#include "server/cli/levels.h"
+#include "server/jobs/build_model.h"
+#include "server/store/atomic_file.h"
+
+namespace vitrine::cli {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+tl::expected<int, Fault> read_bits(const Arguments& arguments) {
+  if (arguments.text("--bits", "auto") == "auto") return 0;
+  const auto bits = arguments.number("--bits", kMinBits, kMaxBits);
+  if (!bits) return misused(fmt::format("--bits takes auto or {} to {}", kMinBits, kMaxBits));
+  return static_cast<int>(**bits);
+}
+
+tl::expected<BuildOptions, Fault> read_options(const Arguments& arguments) {
+  const auto bits = read_bits(arguments);
+  if (!bits) return tl::unexpected(bits.error());
+  constexpr std::string_view kPlacements[] = {"midpoint", "pyramid"};
+  const auto placement = arguments.choice("--placement", kPlacements);
+  if (!placement) return tl::unexpected(placement.error());
+  const auto threads = arguments.number("--threads", 1, 256);
+  if (!threads) return tl::unexpected(threads.error());
+  BuildOptions options;
+  options.bits = *bits;
+  options.placement = *placement == 1 ? Placement::kPyramid : Placement::kMidpoint;
+  options.threads =
+      static_cast<unsigned>(threads->value_or(std::max(1u, std::thread::hardware_concurrency())));
+  return options;
+}
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+json describe(const BuildReport& report) {
+  const Manifest& m = report.manifest;
+  const auto& [read, simplify, encode, write] = report.seconds;
+  return {
+      {"input",
+       {{"vertices", report.input.vertices},
+        {"faces", report.input.faces},
+        {"boundary_edges", report.input.boundary_edges},
+        {"components", report.input.components},
+        {"repairs", report.input.repairs}}},
+      {"bits", m.lattice.bits},
+      {"bytes", bytes_json(m)},
+      {"bits_per_vertex", 8.0 * static_cast<double>(m.file_bytes) / m.levels.back().vertices},
+      {"levels", levels_json(m)},
+      {"seconds", {{"read", read}, {"simplify", simplify}, {"encode", encode}, {"write", write}}},
+      {"peak_rss_bytes", peak_memory()}};
+}
+
+std::string as_text(const json& report, const Manifest& manifest, const std::string& out) {
+  std::string text;
+  for (const json& repair : report["input"]["repairs"]) {
+    text += fmt::format("repaired: {}\n", repair.get<std::string>());
+  }
+  return text + fmt::format("{}: {} bytes, {:.2f} bits per vertex, {} bits a coordinate\n\n{}", out,
+                            manifest.file_bytes, report["bits_per_vertex"].get<double>(),
+                            manifest.lattice.bits, levels_text(manifest));
+}
+
+Outcome build(const Arguments& arguments) {
+  if (!arguments.has("-o")) return misused("-o is missing: name the output file");
+  const auto options = read_options(arguments);
+  if (!options) return tl::unexpected(options.error());
+  const std::string path = arguments.operand(0), out = arguments.text("-o");
+  const auto file = InputFile::open(path);
+  if (!file) return failed(file.error());
+
+  auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
+    auto result = build_model(file->bytes(), *options, progress);
+    if (!result) return tl::unexpected(result.error());
+    return Product{describe(result->report), std::move(result->file)};
+  });
+  if (!product) return tl::unexpected(product.error());
+  const auto start = Clock::now();
+  if (auto written = write_file_atomically(out, product->file); !written) {
+    return failed(written.error());
+  }
+  json& seconds = product->report["seconds"]["write"];
+  seconds = seconds.get<double>() + std::chrono::duration<double>(Clock::now() - start).count();
+  if (arguments.has("--json")) return print(product->report.dump());
+  const auto manifest = parse_header(product->file);
+  if (!manifest) return failed(manifest.error());
+  return print(as_text(product->report, *manifest, out));
+}
+
+constexpr std::string_view kOperands[] = {"IN"};
+constexpr Flag kFlags[] = {
+    {"-o", "OUT.pmesh", "the file to write"},
+    {"--bits", "auto|10..16", "grid of the coordinates (default auto)"},
+    {"--placement", "midpoint|pyramid", "smallest file, or best coarse levels (default midpoint)"},
+    {"--threads", "N", "default: one for each core"},
+    {"--json", "", "print one JSON object"}};
+
+}  // namespace
+
+const Command kBuild = {"build", "Builds a .pmesh file from a PLY, OBJ, STL, OFF or GLB mesh.",
+                        kOperands, kFlags, build};
+
+}  // namespace vitrine::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/console.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace vitrine::cli {
+
+Outcome print(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
+                       std::fputc('\n', stdout) != EOF && std::fflush(stdout) == 0;
+  if (written) return {};
+  return failed(fmt::format("cannot write the result to stdout: {}; check where it goes",
+                            std::strerror(errno)));
+}
+
+void print_fault(std::string_view message) {
+  fmt::print(stderr, "vitrine: {}\n", message);
+}
+
+ProgressBar::ProgressBar() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+  if (is_terminal_) fmt::print(stderr, "\r\x1b[K");
+}
+
+ProgressReport ProgressBar::report() {
+  return [this](std::string_view stage, double fraction) { show(stage, fraction); };
+}
+
+void ProgressBar::show(std::string_view stage, double fraction) {
+  if (!is_terminal_) return;
+  constexpr int kWidth = 30;
+  const double share = fraction >= 0 && fraction <= 1 ? fraction : 0;
+  const int filled = static_cast<int>(share * kWidth);
+  fmt::print(stderr, "\r\x1b[K[{:#<{}}{:.<{}}] {:3.0f} % {}", "", filled, "", kWidth - filled,
+             100 * share, stage);
+  std::fflush(stderr);
+}
+
+}  // namespace vitrine::cli

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "codec/export/write_mesh.h"
+#include "server/cli/command.h"
+#include "server/cli/console.h"
+#include "server/cli/input.h"
+#include "server/cli/isolation.h"
+#include "server/jobs/open_model.h"
+#include "server/store/atomic_file.h"
+
+namespace vitrine::cli {
+namespace {
+
+// What the command line asks for; nothing: the finest level.
+tl::expected<std::optional<Want>, Fault> read_want(const Arguments& arguments) {
+  const auto level = arguments.number("--level", 0, 1'000);
+  if (!level) return tl::unexpected(level.error());
+  const auto triangles = arguments.number("--triangles", 1, UINT64_MAX);
+  if (!triangles) return tl::unexpected(triangles.error());
+  const auto bytes = arguments.number("--bytes", 1, UINT64_MAX);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto error = arguments.distance("--error");
+  if (!error) return tl::unexpected(error.error());
+
+  std::vector<Want> wants;
+  if (*level) wants.push_back(WantLevel{static_cast<std::uint32_t>(**level)});
+  if (*triangles) wants.push_back(WantTriangles{**triangles});
+  if (*bytes) wants.push_back(WantBytes{**bytes});
+  if (*error) wants.push_back(WantError{**error});
+  if (wants.size() > 1) return misused("give one of --level, --triangles, --bytes and --error");
+  return wants.empty() ? std::nullopt : std::optional(wants[0]);
+}
+
+Unexpected unmet(std::string why) {
+  return fail(ErrorCode::kState, std::move(why));
+}
+
+// No level meets a want beyond the coarsest or the finest: say so instead of giving another one.
+Expected<void> check_want(const Manifest& m, const Want& want) {
+  const LevelInfo &coarsest = m.levels.front(), &finest = m.levels.back();
+  if (const auto* w = std::get_if<WantLevel>(&want); w && w->level >= m.levels.size()) {
+    return unmet(
+        fmt::format("there is no level {}; the finest is {}", w->level, m.levels.size() - 1));
+  }
+  if (const auto* w = std::get_if<WantTriangles>(&want); w && w->triangles < coarsest.faces) {
+    return unmet(fmt::format("the coarsest level has {} triangles; ask for as many or more",
+                             coarsest.faces));
+  }
+  if (const auto* w = std::get_if<WantBytes>(&want); w && w->bytes < m.head_bytes()) {
+    return unmet(
+        fmt::format("the coarsest level takes {} bytes; ask for as many or more", m.head_bytes()));
+  }
+  if (const auto* w = std::get_if<WantError>(&want); w && w->error < finest.max_error) {
+    return unmet(fmt::format("the finest level has an error of {:.6g}; ask for as much or more",
+                             finest.max_error));
+  }
+  return {};
+}
+
+nlohmann::json describe(const Refiner& refiner, const TriangleMesh& mesh) {
+  std::uint64_t bytes = refiner.manifest().head_bytes();
+  for (std::size_t i = 0; i < refiner.manifest().chunks.size(); ++i) {
+    if (refiner.applied(i)) bytes += refiner.manifest().chunks[i].length;
+  }
+  return {{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}, {"bytes", bytes}};
+}
+
+Expected<Product> decode_to(std::span<const std::uint8_t> pmesh, const std::optional<Want>& wanted,
+                            MeshFormat format, const ProgressReport& progress) {
+  auto refiner = open_model(pmesh);
+  if (!refiner) return tl::unexpected(refiner.error());
+  const Manifest& manifest = refiner->manifest();
+  const Want want =
+      wanted.value_or(WantLevel{static_cast<std::uint32_t>(manifest.levels.size() - 1)});
+  if (auto ok = check_want(manifest, want); !ok) return tl::unexpected(ok.error());
+
+  const ChunkReader chunks = chunks_of(manifest, pmesh);
+  const auto reader = [&](std::size_t chunk) {
+    progress("decode", static_cast<double>(chunk) / static_cast<double>(manifest.chunks.size()));
+    return chunks(chunk);
+  };
+  if (auto ok = refine(*refiner, want, reader); !ok) return tl::unexpected(ok.error());
+  const TriangleMesh mesh = refiner->display_mesh();
+  auto file = write_mesh(mesh, format);
+  if (!file) return tl::unexpected(file.error());
+  return Product{describe(*refiner, mesh), std::move(*file)};
+}
+
+Outcome decode(const Arguments& arguments) {
+  if (!arguments.has("-o")) return misused("-o is missing: name the output file");
+  const std::string out = arguments.text("-o");
+  const auto format = format_of_extension(std::filesystem::path(out).extension().string());
+  if (!format) return misused("the output's name must end in .ply, .glb, .obj, .stl, .drc or .wrl");
+  const auto want = read_want(arguments);
+  if (!want) return tl::unexpected(want.error());
+  const std::string path = arguments.operand(0);
+  const auto file = InputFile::open(path);
+  if (!file) return failed(file.error());
+
+  const auto product = isolate(path, [&](const ProgressReport& progress) {
+    return decode_to(file->bytes(), *want, *format, progress);
+  });
+  if (!product) return tl::unexpected(product.error());
+  if (auto written = write_file_atomically(out, product->file); !written) {
+    return failed(written.error());
+  }
+  const auto& report = product->report;
+  if (arguments.has("--json")) return print(report.dump());
+  return print(fmt::format(
+      "{}: {} faces, {} vertices from {} bytes", out, report["faces"].get<std::uint64_t>(),
+      report["vertices"].get<std::uint64_t>(), report["bytes"].get<std::uint64_t>()));
+}
+
+constexpr std::string_view kOperands[] = {"FILE.pmesh"};
+constexpr Flag kFlags[] = {
+    {"-o", "OUT.{ply,glb,obj,stl,drc,wrl}", "the mesh to write"},
+    {"--level", "L", "this level; 0 is the base (default: the finest)"},
+    {"--triangles", "N", "the finest state of at most N triangles"},
+    {"--bytes", "B", "the finest state that at most B bytes of the file hold"},
+    {"--error", "E", "the coarsest level off by at most E, in the model's unit"},
+    {"--json", "", "print one JSON object"}};
+
+}  // namespace
+
+const Command kDecode = {"decode", "Writes a level of a .pmesh file as a mesh.", kOperands, kFlags,
+                         decode};
+
+}  // namespace vitrine::cli

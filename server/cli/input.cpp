@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/input.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "codec/progressive/manifest.h"
+#include "server/store/file_descriptor.h"
+
+namespace vitrine::cli {
+namespace {
+
+Unexpected unreadable(const std::string& path, int error) {
+  const char* next = error == ENOENT ? "check its name" : "check that you may read it";
+  return fail(ErrorCode::kIo,
+              fmt::format("cannot read {}: {}; {}", path, std::strerror(error), next));
+}
+
+}  // namespace
+
+Expected<InputFile> InputFile::open(const std::string& path) {
+  const FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status {};
+  if (!fd || ::fstat(fd.get(), &status) != 0) return unreadable(path, errno);
+  if (!S_ISREG(status.st_mode)) {
+    return fail(ErrorCode::kIo, path + " is not a file; name a mesh or .pmesh file");
+  }
+  if (status.st_size == 0) {
+    return fail(ErrorCode::kBadInput, path + " is empty; export or download it again");
+  }
+  const auto size = static_cast<std::size_t>(status.st_size);
+  void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd.get(), 0);
+  if (data == MAP_FAILED) return unreadable(path, errno);
+  return InputFile({static_cast<const std::uint8_t*>(data), size});
+}
+
+InputFile::InputFile(InputFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+
+InputFile::~InputFile() {
+  if (!bytes_.empty()) ::munmap(const_cast<std::uint8_t*>(bytes_.data()), bytes_.size());
+}
+
+bool InputFile::is_pmesh() const {
+  const auto length = header_bytes(bytes_.first(std::min(bytes_.size(), kHeaderPrefix)));
+  return length.has_value() || length.error().code == ErrorCode::kUnsupported;
+}
+
+}  // namespace vitrine::cli

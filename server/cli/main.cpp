@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <string_view>
+#include <vector>
+
+#include "server/cli/command.h"
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error to report, not an end
+  const std::vector<std::string_view> words(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return vitrine::cli::run(words);
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/publish.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "server/cli/command.h"
+#include "server/cli/console.h"
+#include "server/cli/input.h"
+#include "server/cli/isolation.h"
+#include "server/jobs/build_model.h"
+#include "server/jobs/verify_model.h"
+#include "server/store/installation.h"
+
+namespace vitrine::cli {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// A mesh is built; a .pmesh from elsewhere is decoded from end to end before anybody is served it.
+tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& path) {
+  const auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
+    if (file.is_pmesh()) {
+      const auto verified = verify_model(file.bytes(), std::nullopt, progress);
+      if (!verified) return tl::unexpected(verified.error());
+      return Product{nlohmann::json::object(), Bytes(file.bytes().begin(), file.bytes().end())};
+    }
+    auto built = build_model(file.bytes(), {}, progress);
+    if (!built) return tl::unexpected(built.error());
+    return Product{nlohmann::json::object(), std::move(built->file)};
+  });
+  if (!product) return tl::unexpected(product.error());
+  return product->file;
+}
+
+Outcome publish_file(const Arguments& arguments) {
+  if (arguments.has("--server") || arguments.has("--token")) {
+    return failed(
+        "publishing to a remote server is not available in this version; run "
+        "vitrine publish IN --data DIR on the server itself");
+  }
+  if (!arguments.has("--data")) return misused("--data is missing: name the data folder");
+  const std::string path = arguments.operand(0);
+  const auto file = InputFile::open(path);
+  if (!file) return failed(file.error());
+  const auto pmesh = make_pmesh(*file, path);
+  if (!pmesh) return tl::unexpected(pmesh.error());
+
+  const auto installation = open_installation(arguments.text("--data"));
+  if (!installation) return failed(installation.error());
+  const std::string stem = std::filesystem::path(path).stem().string();
+  const auto id = publish(*installation->store, *installation->catalogue, *pmesh,
+                          {.title = arguments.text("--title", stem)});
+  if (!id) return failed(id.error());
+  if (!arguments.has("--json")) return print(id->to_string());
+  return print(nlohmann::json{{"id", id->to_string()}, {"url", nullptr}}.dump());
+}
+
+constexpr std::string_view kOperands[] = {"IN"};
+constexpr Flag kFlags[] = {{"--data", "DIR", "the daemon's data folder; it may be running"},
+                           {"--server", "URL", "a remote server (not in this version)"},
+                           {"--token", "T", "its access token (not in this version)"},
+                           {"--title", "T", "default: the file's name"},
+                           {"--json", "", "print one JSON object: id and url"}};
+
+}  // namespace
+
+const Command kPublish = {"publish", "Makes a mesh or .pmesh file public in an installation.",
+                          kOperands, kFlags, publish_file};
+
+}  // namespace vitrine::cli

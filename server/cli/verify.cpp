@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/verify_model.h"
+
+#include <fmt/core.h>
+
+#include "server/cli/command.h"
+#include "server/cli/console.h"
+#include "server/cli/input.h"
+#include "server/cli/isolation.h"
+
+namespace vitrine::cli {
+namespace {
+
+using nlohmann::json;
+
+json describe(const Verification& v) {
+  return {{"ok", v.lossless.value_or(true)},
+          {"lossless", v.lossless.has_value() ? json(*v.lossless) : json()},
+          {"levels", v.levels},
+          {"chunks", v.chunks},
+          {"vertices", v.vertices},
+          {"faces", v.faces},
+          {"orders", v.orders}};
+}
+
+std::string as_text(const json& report) {
+  return fmt::format("good: {} levels and {} chunks, {} vertices, {} faces, {} order(s){}",
+                     report["levels"].get<std::uint64_t>(), report["chunks"].get<std::uint64_t>(),
+                     report["vertices"].get<std::uint64_t>(), report["faces"].get<std::uint64_t>(),
+                     report["orders"].get<std::uint64_t>(),
+                     report["lossless"].is_null() ? "" : "; lossless");
+}
+
+Outcome report_fault(bool as_json, const Fault& fault) {
+  if (as_json) {
+    const json report = {{"ok", false}, {"lossless", nullptr}, {"error", fault.message}};
+    if (auto printed = print(report.dump()); !printed) return printed;
+  }
+  return tl::unexpected(fault);
+}
+
+Outcome verify(const Arguments& arguments) {
+  const std::string path = arguments.operand(0);
+  const auto file = InputFile::open(path);
+  if (!file) return failed(file.error());
+  std::optional<InputFile> input;
+  if (arguments.has("--against")) {
+    auto opened = InputFile::open(arguments.text("--against"));
+    if (!opened) return failed(opened.error());
+    input.emplace(std::move(*opened));
+  }
+  const auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
+    const auto against = input ? std::optional(input->bytes()) : std::nullopt;
+    const auto result = verify_model(file->bytes(), against, progress);
+    if (!result) return tl::unexpected(result.error());
+    return Product{describe(*result), {}};
+  });
+  const bool as_json = arguments.has("--json");
+  if (!product) return report_fault(as_json, product.error());
+  const bool good = product->report["ok"].get<bool>();
+  if (as_json || good) {
+    auto printed = print(as_json ? product->report.dump() : as_text(product->report));
+    if (!printed || good) return printed;
+  }
+  return failed(fmt::format("{} is whole but not the quantised {}; build it again from that file",
+                            path, arguments.text("--against")));
+}
+
+constexpr std::string_view kOperands[] = {"FILE.pmesh"};
+constexpr Flag kFlags[] = {
+    {"--against", "IN", "the mesh it was built from: proves that it is lossless"},
+    {"--json", "", "print one JSON object"}};
+
+}  // namespace
+
+const Command kVerify = {"verify", "Decodes and checks everything in a .pmesh file.", kOperands,
+                         kFlags, verify};
+
+}  // namespace vitrine::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/open_model.h"
+
+#include <fmt/core.h>
+
+#include "codec/base/base_decoder.h"
+
+namespace vitrine {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+Expected<Bytes> checked_range(Bytes pmesh, std::uint64_t offset, std::uint64_t length,
+                              const Sha256& name, const std::string& what) {
+  if (offset > pmesh.size() || length > pmesh.size() - offset) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("the file is cut off at byte {}, before the end of {}; fetch it again "
+                            "or ask for a coarser level",
+                            pmesh.size(), what));
+  }
+  const Bytes bytes = pmesh.subspan(offset, length);
+  if (sha256(bytes) == name) return bytes;
+  return fail(ErrorCode::kBadInput, fmt::format("{} at byte {} is damaged (SHA-256 differs); fetch "
+                                                "the file again",
+                                                what, offset));
+}
+
+}  // namespace
+
+Expected<Refiner> open_model(Bytes pmesh) {
+  auto manifest = parse_header(pmesh);
+  if (!manifest) return tl::unexpected(manifest.error());
+  const auto bytes = checked_range(pmesh, manifest->base_offset, manifest->base_length,
+                                   manifest->base_sha256, "the base mesh");
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto base = decode_base(*bytes, *manifest);
+  if (!base) return tl::unexpected(base.error());
+  return Refiner::start(std::move(*manifest), *base);
+}
+
+ChunkReader chunks_of(const Manifest& manifest, Bytes pmesh) {
+  return [&manifest, pmesh](std::size_t index) -> Expected<Bytes> {
+    const ChunkInfo& c = manifest.chunks[index];
+    return checked_range(pmesh, c.offset, c.length, c.sha256,
+                         fmt::format("the chunk of level {}, region {}", c.level, c.region));
+  };
+}
+
+}  // namespace vitrine

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Proves that a .pmesh is what it claims to be.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "server/jobs/sandbox.h"
+
+namespace vitrine {
+
+struct Verification {
+  std::uint32_t levels = 0;
+  std::uint64_t chunks = 0, vertices = 0, faces = 0;
+  std::uint32_t orders = 0;      // refinement orders that were tried
+  std::optional<bool> lossless;  // nothing where no input was given to compare with
+};
+
+// Checks the size and every SHA-256; decodes all levels in order and compares each one's counts and
+// boundary loops with the header; that each is a manifold with boundary; that random orders which
+// obey the region rule pass through manifolds to the same mesh; and, where `input` is given, that
+// the finest level equals it: repaired, rounded to the lattice, as a set of faces. Fails
+// (kBadInput) with the first fault; a difference from `input` is no fault, but not lossless. Draco
+// decodes the base: call it in the sandbox.
+Expected<Verification> verify_model(std::span<const std::uint8_t> pmesh,
+                                    std::optional<std::span<const std::uint8_t>> input,
+                                    const ProgressReport& progress);
+
+}  // namespace vitrine
