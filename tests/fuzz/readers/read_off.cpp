@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/readers/reader.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size <= vitrine::fuzz::kMostBytes) vitrine::fuzz::check(vitrine::read_off({data, size}));
+  return 0;
+}

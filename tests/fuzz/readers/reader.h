@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every reader must keep on any bytes: an error of one line, or a mesh that repair makes sound
+// without losing a face.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "codec/import/raw_mesh.h"
+#include "codec/import/readers.h"
+#include "codec/import/repair.h"
+#include "codec/mesh/connectivity.h"
+
+namespace vitrine::fuzz {
+
+inline constexpr std::size_t kMostBytes = 1 << 16;
+
+inline void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+inline void check(Expected<RawMesh> raw) {
+  if (!raw) return require(raw.error().message.find('\n') == std::string::npos);
+  auto imported = std::move(*raw).finish({});
+  if (!imported) return require(imported.error().message.find('\n') == std::string::npos);
+  const TriangleMesh before = imported->mesh;
+  require(before.colours.empty() || before.colours.size() == before.positions.size());
+  const auto repaired = repair(*std::move(imported));
+  if (!repaired) return;
+  const TriangleMesh& mesh = repaired->mesh;
+  require(mesh.faces.size() <= before.faces.size());
+  require(mesh.colours.empty() || mesh.colours.size() == mesh.positions.size());
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  require(Connectivity::close(count, mesh.faces).has_value());
+}
+
+}  // namespace vitrine::fuzz
