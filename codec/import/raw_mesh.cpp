@@ -4,21 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/import/keep_vertices.h"
 #include "codec/import/triangulate.h"
 
 namespace vitrine {
 namespace {
 
 constexpr double kLargestCoordinate = 1e30;  // squares and cross products stay finite
-
-std::vector<bool> used_vertices(std::size_t count, std::span<const Triangle> faces) {
-  std::vector<bool> used(count, false);
-  for (const Triangle& face : faces) {
-    for (const std::uint32_t v : face)
-      used[v] = true;
-  }
-  return used;
-}
 
 }  // namespace
 
@@ -107,27 +99,17 @@ void RawMesh::triangulate_polygons() {
 Expected<void> RawMesh::drop_stray_positions() {
   if (std::all_of(positions.begin(), positions.end(), is_usable)) return {};
   const std::vector<bool> used = used_vertices(positions.size(), triangles_);
-  std::vector<std::uint32_t> renamed(positions.size());
-  std::uint32_t kept = 0;
+  std::vector<bool> usable(positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (!is_usable(positions[v])) {
-      if (!used[v]) continue;
-      return bad_input("vertex " + std::to_string(v) +
-                       " has a coordinate that is not a finite number (or beyond 1e30) and faces "
-                       "use it; remove it and export again");
-    }
-    positions[kept] = positions[v];
-    if (!colours.empty()) colours[kept] = colours[v];
-    renamed[v] = kept++;
+    usable[v] = is_usable(positions[v]);
+    if (usable[v] || !used[v]) continue;
+    return bad_input("vertex " + std::to_string(v) +
+                     " has a coordinate that is not a finite number (or beyond 1e30) and faces "
+                     "use it; remove it and export again");
   }
-  repairs.push_back(std::to_string(positions.size() - kept) +
-                    " points without finite coordinates dropped, no face uses them");
-  positions.resize(kept);
-  if (!colours.empty()) colours.resize(kept);
-  for (Triangle& face : triangles_) {
-    for (std::uint32_t& v : face)
-      v = renamed[v];
-  }
+  const std::size_t dropped = keep_vertices(usable, positions, colours, triangles_);
+  repairs.push_back(counted(dropped, "point") +
+                    " without finite coordinates dropped, no face uses them");
   return {};
 }
 

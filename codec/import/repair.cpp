@@ -8,6 +8,7 @@
 #include "codec/import/edge_groups.h"
 #include "codec/import/edge_pairs.h"
 #include "codec/import/fan_splitter.h"
+#include "codec/import/keep_vertices.h"
 #include "codec/import/orientation.h"
 #include "codec/import/raw_mesh.h"
 
@@ -52,6 +53,13 @@ void mark_copies(std::span<const Triangle> faces, std::span<const EdgeSide> side
 
 using NamedSide = std::array<std::uint32_t, 3>;  // low end, high end, corner
 
+// Whether exactly two faces meet, in opposite directions and as more than each other's back.
+bool are_partners(std::span<const EdgeSide> sides, std::span<const Triangle> faces) {
+  return sides.size() == 2 &&
+         runs_upwards(faces, sides[0].corner) != runs_upwards(faces, sides[1].corner) &&
+         apex(faces, sides[0].corner) != apex(faces, sides[1].corner);
+}
+
 class Repairer {
  public:
   explicit Repairer(ImportedMesh imported)
@@ -60,13 +68,14 @@ class Repairer {
   Expected<RepairedMesh> run() {
     if (auto ok = check(); !ok) return Unexpected(ok.error());
     drop_degenerate();
-    drop_duplicates();
     if (mesh_.faces.empty()) return bad_input("every face of the mesh repeats a vertex");
-    EdgeGroups groups(mesh_.positions.size(), mesh_.faces);
-    if (orient(groups)) groups = EdgeGroups(mesh_.positions.size(), mesh_.faces);
-    split(groups);
+    EdgeGroups groups = edges();
+    if (drop_duplicates(groups)) groups = edges();
+    if (orient(groups)) groups = edges();
+    if (split(groups)) groups = edges();
+    const std::uint64_t boundary_edges = count_boundary_edges(groups);
     drop_unreferenced();
-    return finish();
+    return finish(boundary_edges);
   }
 
  private:
@@ -95,25 +104,25 @@ class Repairer {
   }
 
   // Equal faces share the edge of their two smaller vertices.
-  void drop_duplicates() {
+  bool drop_duplicates(const EdgeGroups& groups) {
     Tally duplicates, opposed;
     std::vector<bool> marked(mesh_.faces.size(), false);
     std::vector<EdgeSide> lowest;
-    EdgeGroups(mesh_.positions.size(), mesh_.faces)
-        .for_each([&](std::uint32_t low, std::span<const EdgeSide> sides) {
-          if (sides.size() < 2) return;
-          lowest.clear();
-          for (const EdgeSide& side : sides) {
-            const std::uint32_t tip = apex(mesh_.faces, side.corner);
-            if (tip > low && tip > side.high) lowest.push_back(side);
-          }
-          if (lowest.size() > 1) mark_copies(mesh_.faces, lowest, marked, duplicates, opposed);
-        });
+    groups.for_each([&](std::uint32_t low, std::span<const EdgeSide> sides) {
+      if (sides.size() < 2) return;
+      lowest.clear();
+      for (const EdgeSide& side : sides) {
+        const std::uint32_t tip = apex(mesh_.faces, side.corner);
+        if (tip > low && tip > side.high) lowest.push_back(side);
+      }
+      if (lowest.size() > 1) mark_copies(mesh_.faces, lowest, marked, duplicates, opposed);
+    });
     duplicates.first = source(duplicates.first);
     opposed.first = source(opposed.first);
     if (duplicates.count > 0) erase(marked);
     duplicates.report("duplicate face", "dropped", repairs_);
     opposed.report("opposed face", "on the same vertices parted", repairs_);
+    return duplicates.count > 0;
   }
 
   bool orient(const EdgeGroups& groups) {
@@ -123,7 +132,8 @@ class Repairer {
     return reversal.faces > 0;
   }
 
-  void split(const EdgeGroups& groups) {
+  // Whether any vertex was split.
+  bool split(const EdgeGroups& groups) {
     report_bad_edges(groups);
     std::vector<std::uint32_t> across = pair_faces(mesh_.positions, mesh_.faces, groups);
     std::vector<Triangle> faces;
@@ -144,6 +154,7 @@ class Repairer {
       mesh_.positions.push_back(mesh_.positions[v]);
       if (!mesh_.colours.empty()) mesh_.colours.push_back(mesh_.colours[v]);
     }
+    return !origins.empty();
   }
 
   static void cut(std::vector<std::uint32_t>& across, std::uint32_t corner, int count) {
@@ -163,7 +174,7 @@ class Repairer {
     std::vector<std::uint32_t> tangled;
     std::vector<NamedSide> named;
     groups.for_each([&](std::uint32_t, std::span<const EdgeSide> sides) {
-      if (sides.size() < 2) return;
+      if (sides.size() < 2 || are_partners(sides, mesh_.faces)) return;
       named.clear();
       for (const EdgeSide& side : sides) {
         const Triangle& face = faces[side.corner / 3];
@@ -187,10 +198,9 @@ class Repairer {
   }
 
   static bool is_sound(std::span<const NamedSide> sides, std::span<const Triangle> faces) {
-    if (sides.size() < 2) return true;
-    return sides.size() == 2 &&
-           runs_upwards(faces, sides[0][2]) != runs_upwards(faces, sides[1][2]) &&
-           apex(faces, sides[0][2]) != apex(faces, sides[1][2]);
+    if (sides.size() != 2) return sides.size() < 2;
+    const std::array<EdgeSide, 2> pair{EdgeSide{0, sides[0][2]}, EdgeSide{0, sides[1][2]}};
+    return are_partners(pair, faces);
   }
 
   void report_bad_edges(const EdgeGroups& groups) {
@@ -217,28 +227,11 @@ class Repairer {
   }
 
   void drop_unreferenced() {
-    std::vector<std::uint32_t> renamed(mesh_.positions.size(), kNoPartner);
-    for (const Triangle& face : mesh_.faces) {
-      for (const std::uint32_t v : face)
-        renamed[v] = 0;
-    }
-    std::uint32_t kept = 0;
-    for (std::size_t v = 0; v < renamed.size(); ++v) {
-      if (renamed[v] == kNoPartner) continue;
-      mesh_.positions[kept] = mesh_.positions[v];
-      if (!mesh_.colours.empty()) mesh_.colours[kept] = mesh_.colours[v];
-      renamed[v] = kept++;
-    }
-    if (kept == renamed.size()) return;
-    const std::size_t dropped = renamed.size() - kept;
+    const std::size_t dropped = keep_vertices(used_vertices(mesh_.positions.size(), mesh_.faces),
+                                              mesh_.positions, mesh_.colours, mesh_.faces);
+    if (dropped == 0) return;
     repairs_.push_back(std::to_string(dropped) + " unreferenced " +
                        (dropped == 1 ? "vertex" : "vertices") + " dropped");
-    mesh_.positions.resize(kept);
-    if (!mesh_.colours.empty()) mesh_.colours.resize(kept);
-    for (Triangle& face : mesh_.faces) {
-      for (std::uint32_t& v : face)
-        v = renamed[v];
-    }
   }
 
   std::uint64_t count_components() const {
@@ -261,17 +254,18 @@ class Repairer {
     return count;
   }
 
-  std::uint64_t count_boundary_edges() const {
+  EdgeGroups edges() const { return EdgeGroups(mesh_.positions.size(), mesh_.faces); }
+
+  static std::uint64_t count_boundary_edges(const EdgeGroups& groups) {
     std::uint64_t count = 0;
-    EdgeGroups(mesh_.positions.size(), mesh_.faces)
-        .for_each(
-            [&](std::uint32_t, std::span<const EdgeSide> sides) { count += sides.size() == 1; });
+    groups.for_each(
+        [&](std::uint32_t, std::span<const EdgeSide> sides) { count += sides.size() == 1; });
     return count;
   }
 
-  RepairedMesh finish() {
+  RepairedMesh finish(std::uint64_t boundary_edges) {
     RepairedMesh result;
-    result.boundary_edges = count_boundary_edges();
+    result.boundary_edges = boundary_edges;
     result.components = count_components();
     result.mesh = std::move(mesh_);
     result.repairs = std::move(repairs_);

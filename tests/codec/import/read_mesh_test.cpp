@@ -41,7 +41,7 @@ TEST(ReadMesh, DropsPointsThatAreNotFiniteWhereNoFaceUsesThem) {
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
   EXPECT_EQ(result.mesh.positions.size(), 3u);
   EXPECT_THAT(result.repairs,
-              ElementsAre(HasSubstr("1 points without finite coordinates dropped")));
+              ElementsAre(HasSubstr("1 point without finite coordinates dropped")));
 }
 
 TEST(ReadMesh, NamesFacesOfFewerThanThreeCorners) {
