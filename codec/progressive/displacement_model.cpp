@@ -22,11 +22,17 @@ Vec3 any_perpendicular(const Vec3& n) {
 
 }  // namespace
 
-DisplacementModel::DisplacementModel() : weights_(kStartWeights) {
+void DisplacementModel::Regression::start(const std::array<double, kFeatures>& prior) {
+  weights = prior;
   for (std::size_t k = 0; k < kFeatures; ++k) {
-    normal_matrix_[k][k] = kRidge;
-    right_side_[k] = kRidge * kStartWeights[k];
+    matrix[k][k] = kRidge;
+    right_side[k] = kRidge * prior[k];
   }
+}
+
+DisplacementModel::DisplacementModel() {
+  tangential_.start(kStartWeights);
+  normal_.start(kStartWeights);
   for (auto& e : energy_)
     e = {0.03, 0.01, 0.03};
   for (auto& w : weight_)
@@ -35,8 +41,11 @@ DisplacementModel::DisplacementModel() : weights_(kStartWeights) {
 
 Vec3 DisplacementModel::predict(const SplitSurroundings& s) const {
   Vec3 d;
-  for (std::size_t k = 0; k < kFeatures; ++k)
-    d += s.features[k] * weights_[k];
+  for (std::size_t k = 0; k < kFeatures; ++k) {
+    const double across = dot(s.features[k], s.normal);
+    d += s.features[k] * tangential_.weights[k] +
+         s.normal * (across * (normal_.weights[k] - tangential_.weights[k]));
+  }
   return d;
 }
 
@@ -75,21 +84,32 @@ void DisplacementModel::learn(const SplitSurroundings& s, const Spread& spread, 
     energy[k] = std::max(energy[k], 1e-7);
     weight[k] = std::min(weight[k] + 1, kMemory);
   }
+  const double d_normal = dot(d, s.normal);
+  std::array<double, kFeatures> f_normal;
+  for (std::size_t a = 0; a < kFeatures; ++a)
+    f_normal[a] = dot(s.features[a], s.normal);
   for (std::size_t a = 0; a < kFeatures; ++a) {
-    right_side_[a] += dot(s.features[a], d) * inverse;
+    const double along_normal = f_normal[a] * d_normal;
+    tangential_.right_side[a] += (dot(s.features[a], d) - along_normal) * inverse;
+    normal_.right_side[a] += along_normal * inverse;
     for (std::size_t b = 0; b <= a; ++b) {
-      normal_matrix_[a][b] += dot(s.features[a], s.features[b]) * inverse;
+      const double both_normal = f_normal[a] * f_normal[b];
+      tangential_.matrix[a][b] += (dot(s.features[a], s.features[b]) - both_normal) * inverse;
+      normal_.matrix[a][b] += both_normal * inverse;
     }
   }
-  if (++learned_ % kSolveEvery == 0) solve();
+  if (++learned_ % kSolveEvery == 0) {
+    tangential_.solve();
+    normal_.solve();
+  }
 }
 
 // Cholesky; the ridge keeps the matrix positive definite.
-void DisplacementModel::solve() {
+void DisplacementModel::Regression::solve() {
   std::array<std::array<double, kFeatures>, kFeatures> l{};
   for (std::size_t i = 0; i < kFeatures; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      double sum = normal_matrix_[i][j];
+      double sum = matrix[i][j];
       for (std::size_t k = 0; k < j; ++k)
         sum -= l[i][k] * l[j][k];
       l[i][j] = i == j ? std::sqrt(std::max(sum, 1e-6)) : sum / l[j][j];
@@ -97,7 +117,7 @@ void DisplacementModel::solve() {
   }
   std::array<double, kFeatures> y{};
   for (std::size_t i = 0; i < kFeatures; ++i) {
-    double sum = right_side_[i];
+    double sum = right_side[i];
     for (std::size_t k = 0; k < i; ++k)
       sum -= l[i][k] * y[k];
     y[i] = sum / l[i][i];
@@ -105,8 +125,8 @@ void DisplacementModel::solve() {
   for (std::size_t i = kFeatures; i-- > 0;) {
     double sum = y[i];
     for (std::size_t k = i + 1; k < kFeatures; ++k)
-      sum -= l[k][i] * weights_[k];
-    weights_[i] = sum / l[i][i];
+      sum -= l[k][i] * weights[k];
+    weights[i] = sum / l[i][i];
   }
 }
 

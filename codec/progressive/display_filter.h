@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display filter of coarse levels: p' = p + a n (n . (p - mean of the ring)), which takes back the
-// shrinkage of midpoint placement for no bytes.
+// The display filter of coarse levels: p' = p + a n (n . (p - mean of the ring)), which takes back
+// the shrinkage of midpoint placement for no bytes.
 #pragma once
 
 #include <functional>

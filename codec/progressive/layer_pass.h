@@ -187,9 +187,10 @@ class LayerPass {
   }
 
   bool place(std::size_t s) {
-    const Split& split = splits_[s];
+    Split& split = splits_[s];
     const SplitSurroundings around = split_surroundings(mesh_, splits_, s);
-    const Vec3i d = displacements_.code(coder_, around, Coder::kEncodes ? told_[s].first : Vec3i{});
+    const Vec3i d = displacements_.code(coder_, around, Coder::kEncodes ? told_[s].first : Vec3i{},
+                                        split.error);
     const SplitPair pair = unmerge(split.merged, d, split.term);
     if (!in_coordinate_bound(pair.v1) || !in_coordinate_bound(pair.v2)) return false;
     mesh_.positions[split.v] = pair.v1;

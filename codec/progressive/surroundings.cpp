@@ -34,7 +34,8 @@ struct Mean {
 struct HalfFeatures {
   Mean all, inner, parallelogram, neighbour_d;
   double distance = 0;
-  int pending = 0;  // neighbours of the region that split in this level and are still estimates
+  double error = 0;  // of neighbour_d's predictions, relative to their scale
+  int pending = 0;   // neighbours of the region that split in this level and are still estimates
 };
 
 // Parallelogram prediction of the vertex across the edge that faces it.
@@ -58,6 +59,7 @@ void add_neighbour_d(const MeshState& mesh, std::span<const Split> splits, std::
   }
   const Vec3 d = to_vec3(mesh.positions[splits[t].v] - mesh.positions[splits[t].w]);
   f.neighbour_d.add(dot(d, sense) < 0 ? d * -1.0 : d);
+  f.error += splits[t].error;
 }
 
 HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, std::uint16_t region,
@@ -205,10 +207,17 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   const Vec3 across = unit(cross(out.normal, chord)) * out.scale;
   const Vec3 neighbour_d =
       around.neighbour_d.count > 0 ? around.neighbour_d.value() : arcs * CutModel::kArcToEdge;
-  out.features = {arcs, inner_arcs, parallelograms, across, neighbour_d, cross(out.normal, chord)};
-  const double disagreement = length(arcs * CutModel::kArcToEdge - parallelograms) / out.scale;
-  const int bucket = std::clamp(exact::log2_bucket<1>(disagreement + 1e-6) + 7, 0, 7);
-  out.context = bucket * 2 + (2 * around.pending > neighbours ? 1 : 0);
+  // Both vertices in the middle of their neighbours, one of which is the other vertex.
+  const auto umbrella = [](const HalfFeatures& f) { return f.all.sum * (2.0 / (f.all.count + 2)); };
+  const Vec3 laplace = (umbrella(v) - umbrella(w)) * 0.5;
+  out.features = {
+      laplace, arcs, inner_arcs, parallelograms, across, neighbour_d, cross(out.normal, chord)};
+  const double disagreement = length(laplace - parallelograms) / out.scale;
+  const int bucket = std::clamp(exact::log2_bucket<1>(disagreement + 1e-6) + 6, 0, 6);
+  const int known = around.neighbour_d.count;
+  const int rough =
+      known == 0 ? 0 : std::clamp(exact::log2_bucket<0>(around.error / known + 1e-6) + 6, 1, 5);
+  out.context = (bucket * 6 + rough) * 2 + (2 * around.pending > neighbours ? 1 : 0);
   return out;
 }
 

@@ -26,10 +26,10 @@ const std::vector<Pick>& Matcher::match(const LevelRules& rules) {
   radix_sort(edges_, scratch_);
 
   picks_.clear();
-  const std::size_t half = edges_.size() / 2;
+  const std::size_t cheap = edges_.size() * 3 / 4;
   const std::size_t enough = surface_.live.size() / 5;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
-    if (picks_.size() == rules.most || (i >= half && picks_.size() >= enough)) break;
+    if (picks_.size() == rules.most || (i >= cheap && picks_.size() >= enough)) break;
     choose(rules, edges_[i].index);
   }
   const auto target_less = [](const Pick& a, const Pick& b) { return a.target < b.target; };
