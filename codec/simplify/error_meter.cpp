@@ -16,7 +16,7 @@ constexpr std::size_t kSamples = 10'000;  // per direction
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kWorst = 32;  // samples per direction that are looked at first
 constexpr double kTolerance = 1.15;
-constexpr double kNegligible = 1e-9;  // of the diagonal
+constexpr double kNegligible = 1e-6;  // of the diagonal
 
 double diagonal(const TriangleBvh& bvh) {
   const TriangleBvh::Node& n = bvh.nodes()[0];

@@ -23,7 +23,7 @@ class ErrorMeter {
   explicit ErrorMeter(const TriangleMesh& original);
 
   // `level` is what is displayed: at least one face, model units. max_error is at most a sixth
-  // above the true maximum (or 1e-9 of the diagonal above it).
+  // above the true maximum (or 1e-6 of the diagonal).
   LevelError measure(const TriangleMesh& level) const;
 
   const TriangleBvh& original() const { return bvh_; }

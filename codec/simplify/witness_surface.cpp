@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kMaxSteps = 64;         // of a walk
 constexpr double kFloatError = 1e-6;  // of products with a frame, against the other factor
+constexpr double kMuch = 100;
 
 Vec3 widen(const std::array<float, 3>& v) {
   return {v[0], v[1], v[2]};
@@ -63,11 +64,12 @@ double WitnessSurface::distance(const Vec3& p, std::uint32_t t) const {
   const Frame& frame = frames_[t];
   const Vec3 from_a = p - triangle.a;
   const double height = std::abs(product(frame.normal, from_a));
-  const bool above = height == height && product(frame.inward[0], from_a) >= 0 &&
+  const double error = kFloatError * (std::abs(from_a.x) + std::abs(from_a.y) + std::abs(from_a.z));
+  // Not so where the height is not a number.
+  const bool quick = height > kMuch * error && product(frame.inward[0], from_a) >= 0 &&
                      product(frame.inward[1], p - triangle.b) >= 0 &&
                      product(frame.inward[2], from_a) >= 0;
-  if (!above) return std::sqrt(squared_distance(triangle, p));
-  return height + kFloatError * (std::abs(from_a.x) + std::abs(from_a.y) + std::abs(from_a.z));
+  return quick ? height + error : std::sqrt(squared_distance(triangle, p));
 }
 
 std::array<double, 3> WitnessSurface::overhang(const Vec3& p, std::uint32_t t) const {

@@ -19,7 +19,7 @@ class WitnessSurface {
   // The triangle across edge k, from corner k to the next; t itself at a border.
   std::uint32_t across(std::uint32_t t, std::uint32_t edge) const { return across_[t][edge]; }
 
-  // An upper bound on the distance from p to triangle t, exact but for rounding.
+  // An upper bound on the distance from p to triangle t, at most a hundredth above it.
   double distance(const Vec3& p, std::uint32_t t) const;
 
   // How far p reaches beyond each edge of t, seen along its normal; negative inside.

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/simplify/error_meter.h"
+
+#include <gtest/gtest.h>
+
+#include "codec/mesh/surface_distance.h"
+#include "codec/simplify/hausdorff_bound.h"
+#include "codec/simplify/simplify.h"
+#include "support/meshes.h"
+
+namespace vitrine::test {
+namespace {
+
+// The largest distance of a fine grid of points on every triangle of `from`.
+double dense_maximum(const TriangleMesh& from, const TriangleBvh& to) {
+  constexpr int kGrid = 10;
+  double most = 0;
+  for (const Triangle& f : from.faces) {
+    const Vec3 a = from.positions[f[0]], b = from.positions[f[1]], c = from.positions[f[2]];
+    for (int i = 0; i <= kGrid; ++i) {
+      for (int j = 0; i + j <= kGrid; ++j) {
+        const Vec3 p = a + (b - a) * (1.0 * i / kGrid) + (c - a) * (1.0 * j / kGrid);
+        most = std::max(most, to.closest(p).squared);
+      }
+    }
+  }
+  return std::sqrt(most);
+}
+
+void expect_tight(const TriangleMesh& level, const TriangleMesh& original) {
+  const double bound = ErrorMeter(original).measure(level).max_error;
+  const double there = dense_maximum(level, TriangleBvh(original));
+  const double back = dense_maximum(original, TriangleBvh(level));
+  EXPECT_GE(bound, std::max(there, back) * (1 - 1e-9));
+  EXPECT_LE(bound, std::max(there, back) * 1.25);
+}
+
+TriangleMesh base_of(const TriangleMesh& mesh, std::uint32_t vertices) {
+  const LatticeMesh fine = quantise(mesh, fit_lattice(mesh.positions, 12));
+  auto hierarchy = simplify(fine, {.target_vertices = vertices});
+  EXPECT_TRUE(hierarchy.has_value());
+  return to_model(hierarchy->base);
+}
+
+TEST(ErrorMeter, BoundIsTrueAndTightOnAScan) {
+  const TriangleMesh scan = shipped_model("demosthenes.obj");
+  for (std::uint32_t vertices : {300u, 1200u, 5000u}) {
+    SCOPED_TRACE(vertices);
+    expect_tight(base_of(scan, vertices), scan);
+  }
+}
+
+TEST(ErrorMeter, BoundIsTrueAndTightAfterQuantisationAlone) {
+  const TriangleMesh scan = shipped_model("demosthenes.obj");
+  expect_tight(to_model(quantise(scan, fit_lattice(scan.positions, 10))), scan);
+}
+
+TEST(ErrorMeter, BoundIsTrueAndTightWithBoundariesAndHandles) {
+  expect_tight(base_of(sheet(60, 50), 100), sheet(60, 50));
+  expect_tight(base_of(tube(60, 40), 60), tube(60, 40));
+  expect_tight(base_of(torus(80, 40), 100), torus(80, 40));
+}
+
+TEST(ErrorMeter, FindsASpikeThatSamplesMiss) {
+  TriangleMesh spiked = sheet(60, 50);
+  spiked.positions[60 * 25 + 30].z += 40;
+  const LevelError error = ErrorMeter(spiked).measure(sheet(60, 50));
+  EXPECT_GT(error.max_error, 38);
+  EXPECT_LT(error.rms_error, 5);
+}
+
+TEST(ErrorMeter, FindsAPartThatTheLevelLost) {
+  TriangleMesh with_speck = sheet(30, 30);
+  const auto n = static_cast<std::uint32_t>(with_speck.positions.size());
+  with_speck.positions.insert(with_speck.positions.end(),
+                              {{5, 5, 60}, {5.01, 5, 60}, {5, 5.01, 60}});
+  with_speck.faces.push_back({n, n + 1, n + 2});
+  EXPECT_NEAR(ErrorMeter(with_speck).measure(sheet(30, 30)).max_error, 60, 10);
+}
+
+TEST(ErrorMeter, TheSameSurfaceHasNoError) {
+  const TriangleMesh mesh = torus(20, 12);
+  const LevelError error = ErrorMeter(mesh).measure(mesh);
+  EXPECT_LT(error.max_error, 1e-6);
+  EXPECT_LT(error.rms_error, 1e-12);
+}
+
+TEST(ErrorMeter, RmsAgreesWithMeasure) {
+  const TriangleMesh scan = shipped_model("demosthenes.obj"), base = base_of(scan, 600);
+  const double rms = ErrorMeter(scan).measure(base).rms_error;
+  EXPECT_NEAR(rms, measure(base, scan)->rms, 0.04 * rms);
+}
+
+TEST(ErrorMeter, CopesWithFacesWithoutArea) {
+  TriangleMesh flat = sheet(10, 10);
+  flat.faces.push_back({0, 0, 1});
+  flat.faces.push_back({5, 5, 5});
+  EXPECT_LT(ErrorMeter(flat).measure(sheet(10, 10)).max_error, 1e-6);
+  EXPECT_LT(ErrorMeter(sheet(10, 10)).measure(flat).max_error, 1e-6);
+  const TriangleMesh point{.positions = {{3, 3, 9}}, .faces = {{0, 0, 0}}, .colours = {}};
+  const double far = dense_maximum(sheet(10, 10), TriangleBvh(point));
+  EXPECT_GE(ErrorMeter(sheet(10, 10)).measure(point).max_error, far * (1 - 1e-9));
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/simplify/simplify.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "codec/progressive/colour.h"
+#include "codec/progressive/placement.h"
+#include "support/meshes.h"
+#include "support/validate.h"
+
+namespace vitrine::test {
+namespace {
+
+LatticeMesh on_lattice(const TriangleMesh& mesh) {
+  return quantise(mesh, fit_lattice(mesh.positions, 12));
+}
+
+// Performs the recorded collapses on plain face lists, without the code under test.
+class Replay {
+ public:
+  Replay(const LatticeMesh& fine, const Hierarchy& hierarchy)
+      : hierarchy_(hierarchy), faces_(fine.faces), positions_(fine.positions) {
+    link();
+  }
+
+  // `level` counts from 1 (coarsest) as in Hierarchy.
+  void collapse_level(std::uint32_t level) {
+    std::set<VertexId> ends;
+    const Vec3i* last = nullptr;
+    for (const Collapse& c : hierarchy_.levels[level - 1]) {
+      ASSERT_TRUE(ends.insert(c.v1).second && ends.insert(c.v2).second) << "a shared end point";
+    }
+    ASSERT_NO_FATAL_FAILURE(check_independence(level, ends));
+    for (const Collapse& c : hierarchy_.levels[level - 1]) {
+      ASSERT_NO_FATAL_FAILURE(collapse(c, level));
+      ASSERT_TRUE(last == nullptr || *last < positions_[c.v1]) << "v~ does not ascend";
+      last = &positions_[c.v1];
+    }
+  }
+
+  // The closed mesh of the level must be a manifold with all of its boundary loops.
+  void check_manifold() const {
+    std::map<VertexId, std::uint32_t> index;
+    std::vector<Triangle> faces;
+    for (const Triangle& f : faces_) {
+      Triangle g;
+      for (std::size_t k = 0; k < 3; ++k) {
+        g[k] = index.emplace(f[k], static_cast<std::uint32_t>(index.size())).first->second;
+      }
+      faces.push_back(g);
+    }
+    const auto mesh = Connectivity::close(static_cast<std::uint32_t>(index.size()), faces);
+    ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+    ASSERT_EQ(mesh->loop_count(), hierarchy_.loops);
+    ASSERT_NO_FATAL_FAILURE(expect_valid(*mesh));
+  }
+
+  const std::vector<Triangle>& faces() const { return faces_; }
+  const std::vector<Vec3i>& positions() const { return positions_; }
+
+ private:
+  void link() {
+    neighbours_.assign(positions_.size(), {});
+    faces_at_.assign(positions_.size(), {});
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        faces_at_[faces_[f][k]].push_back(f);
+        neighbours_[faces_[f][k]].insert({faces_[f][(k + 1) % 3], faces_[f][(k + 2) % 3]});
+      }
+    }
+  }
+
+  void check_independence(std::uint32_t level, const std::set<VertexId>& ends) const {
+    const bool by_region = level >= hierarchy_.fork_level;
+    const auto& region = hierarchy_.region;
+    for (const Collapse& c : hierarchy_.levels[level - 1]) {
+      ASSERT_TRUE(!by_region || region[c.v1] == region[c.v2]) << "across regions";
+      for (VertexId end : {c.v1, c.v2}) {
+        for (VertexId n : neighbours_[end]) {
+          if (n == c.v1 || n == c.v2 || !ends.contains(n)) continue;
+          ASSERT_NE(hierarchy_.placement, Placement::kPyramid) << "adjacent collapses";
+          ASSERT_TRUE(!by_region || region[n] == region[end]) << "adjacent across regions";
+        }
+      }
+    }
+  }
+
+  Vec3i expected_target(const Collapse& c, std::uint32_t level) const {
+    const auto last = static_cast<std::uint32_t>(hierarchy_.levels.size());
+    const std::int32_t parity = level_parity(level, last);
+    if (hierarchy_.placement == Placement::kMidpoint) {
+      return merge(c.p1, c.p2, midpoint_term(parity));
+    }
+    std::vector<Vec3i> opposite, others;
+    std::set<VertexId> ring = neighbours_[c.v1];
+    ring.insert(neighbours_[c.v2].begin(), neighbours_[c.v2].end());
+    for (VertexId v : ring) {
+      if (v == c.v1 || v == c.v2) continue;
+      (v == c.apex12 || v == c.apex21 ? opposite : others).push_back(positions_[v]);
+    }
+    return merge(c.p1, c.p2, pyramid_term(opposite, others, parity));
+  }
+
+  // The third vertex of the face with the directed edge, or a virtual one.
+  VertexId apex(VertexId from, VertexId to) const {
+    for (std::size_t f : faces_at_[from]) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (faces_[f][k] == from && faces_[f][(k + 1) % 3] == to) return faces_[f][(k + 2) % 3];
+      }
+    }
+    return kVirtualBit;
+  }
+
+  void collapse(const Collapse& c, std::uint32_t level) {
+    ASSERT_EQ(positions_[c.v1], c.p1);
+    ASSERT_EQ(positions_[c.v2], c.p2);
+    ASSERT_EQ(apex(c.v1, c.v2), is_virtual(c.apex12) ? kVirtualBit : c.apex12);
+    ASSERT_EQ(apex(c.v2, c.v1), is_virtual(c.apex21) ? kVirtualBit : c.apex21);
+    const Vec3i target = expected_target(c, level);
+    for (std::size_t f : faces_at_[c.v2])
+      std::replace(faces_[f].begin(), faces_[f].end(), c.v2, c.v1);
+    std::erase_if(faces_,
+                  [&](const Triangle& f) { return std::count(f.begin(), f.end(), c.v1) > 1; });
+    link();
+    positions_[c.v1] = target;
+    ASSERT_LE(neighbours_[c.v1].size(), static_cast<std::size_t>(kMaxSplitValence));
+  }
+
+  const Hierarchy& hierarchy_;
+  std::vector<Triangle> faces_;
+  std::vector<Vec3i> positions_;
+  std::vector<std::set<VertexId>> neighbours_;
+  std::vector<std::vector<std::size_t>> faces_at_;
+};
+
+struct Case {
+  const char* name;
+  TriangleMesh mesh;
+  SimplifyOptions options;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
+    for (const std::uint32_t regions : {1u, 3u}) {
+      const SimplifyOptions options{.placement = placement,
+                                    .target_vertices = 40,
+                                    .regions = regions,
+                                    .vertices_per_region = 60};
+      all.push_back({"sheet", sheet(24, 20), options});
+      all.push_back({"tube", tube(24, 18), options});
+      all.push_back({"torus", torus(30, 16), options});
+    }
+  }
+  return all;
+}
+
+TEST(Simplify, EveryLevelIsAManifoldThatObeysTheRulesDownToTheBase) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(std::string(c.name) + " pyramid " +
+                 std::to_string(c.options.placement == Placement::kPyramid) + " regions " +
+                 std::to_string(c.options.regions));
+    const LatticeMesh fine = on_lattice(c.mesh);
+    const auto hierarchy = simplify(fine, c.options);
+    ASSERT_TRUE(hierarchy.has_value());
+    ASSERT_GE(hierarchy->levels.size(), 3u);
+    Replay replay(fine, *hierarchy);
+    for (std::size_t level = hierarchy->levels.size(); level >= 1; --level) {
+      SCOPED_TRACE("level " + std::to_string(level));
+      ASSERT_NO_FATAL_FAILURE(replay.collapse_level(static_cast<std::uint32_t>(level)));
+      ASSERT_NO_FATAL_FAILURE(replay.check_manifold());
+    }
+    std::vector<Triangle> base;
+    for (const Triangle& f : hierarchy->base.faces) {
+      base.push_back(
+          {hierarchy->base_ids[f[0]], hierarchy->base_ids[f[1]], hierarchy->base_ids[f[2]]});
+    }
+    EXPECT_EQ(canonical(base), canonical(replay.faces()));
+    for (std::size_t i = 0; i < hierarchy->base_ids.size(); ++i) {
+      EXPECT_EQ(hierarchy->base.positions[i], replay.positions()[hierarchy->base_ids[i]]);
+    }
+  }
+}
+
+TEST(Simplify, ReachesItsTargetInFewLevels) {
+  const LatticeMesh scan = on_lattice(shipped_model("demosthenes.obj"));
+  const auto hierarchy = simplify(scan, {});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_GE(hierarchy->base.positions.size(), 300u);
+  EXPECT_LE(hierarchy->base.positions.size(), 375u);
+  EXPECT_LE(hierarchy->levels.size(), 8u);
+  std::size_t vertices = hierarchy->base.positions.size();
+  for (const CollapseLevel& level : hierarchy->levels)
+    vertices += level.size();
+  EXPECT_EQ(vertices, scan.positions.size());
+  EXPECT_EQ(hierarchy->fork_level, hierarchy->levels.size() + 1);
+}
+
+TEST(Simplify, RegionsHoldWhileTheMeshIsFineOnly) {
+  const LatticeMesh scan = on_lattice(shipped_model("demosthenes.obj"));
+  const auto hierarchy = simplify(scan, {.regions = 4, .vertices_per_region = 400});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_EQ(hierarchy->planes.size(), 3u);
+  const auto last = static_cast<std::uint32_t>(hierarchy->levels.size());
+  ASSERT_GT(hierarchy->fork_level, 1u);
+  ASSERT_LE(hierarchy->fork_level, last);
+  std::size_t vertices = hierarchy->base.positions.size();
+  for (std::uint32_t level = 1; level <= last; ++level) {
+    vertices += hierarchy->levels[level - 1].size();
+    EXPECT_EQ(level >= hierarchy->fork_level, vertices > 1600) << "level " << level;
+  }
+}
+
+TEST(Simplify, ColoursMergeAndStayExactInTheRecord) {
+  TriangleMesh mesh = sheet(20, 16);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    mesh.colours.push_back({static_cast<std::uint8_t>(i * 7), static_cast<std::uint8_t>(i * 13),
+                            static_cast<std::uint8_t>(i * 29)});
+  }
+  const auto hierarchy = simplify(on_lattice(mesh), {.target_vertices = 40});
+  ASSERT_TRUE(hierarchy.has_value());
+  std::vector<Vec3i> colour;
+  for (const Colour& c : mesh.colours)
+    colour.push_back(to_ycocg(c));
+  for (auto level = hierarchy->levels.rbegin(); level != hierarchy->levels.rend(); ++level) {
+    for (const Collapse& c : *level) {
+      ASSERT_EQ(c.c1, colour[c.v1]);
+      ASSERT_EQ(c.c2, colour[c.v2]);
+      colour[c.v1] = merge_colours(c.c1, c.c2);
+    }
+  }
+  ASSERT_EQ(hierarchy->base_colours.size(), hierarchy->base.positions.size());
+  for (std::size_t i = 0; i < hierarchy->base_ids.size(); ++i) {
+    EXPECT_EQ(hierarchy->base_colours[i], colour[hierarchy->base_ids[i]]);
+  }
+}
+
+TEST(Simplify, GivesTheSameHierarchyEveryTime) {
+  const LatticeMesh fine = on_lattice(torus(40, 24));
+  const auto once = simplify(fine, {}), again = simplify(fine, {});
+  ASSERT_EQ(once->levels.size(), again->levels.size());
+  for (std::size_t l = 0; l < once->levels.size(); ++l) {
+    ASSERT_EQ(once->levels[l].size(), again->levels[l].size());
+    for (std::size_t i = 0; i < once->levels[l].size(); ++i) {
+      ASSERT_EQ(once->levels[l][i].v1, again->levels[l][i].v1);
+      ASSERT_EQ(once->levels[l][i].v2, again->levels[l][i].v2);
+    }
+  }
+}
+
+TEST(Simplify, RimsKeepTheirPlace) {
+  const auto hierarchy = simplify(on_lattice(tube(64, 40)), {.target_vertices = 100});
+  ASSERT_TRUE(hierarchy.has_value());
+  const auto [low, high] =
+      std::minmax_element(hierarchy->base.positions.begin(), hierarchy->base.positions.end(),
+                          [](const Vec3i& a, const Vec3i& b) { return a.z < b.z; });
+  EXPECT_LE(low->z, 2);
+  EXPECT_GE(high->z, 4093);
+}
+
+TEST(Simplify, FacesWithoutAreaCollapseToo) {
+  LatticeMesh flat = on_lattice(sheet(40, 40));
+  for (Vec3i& p : flat.positions)
+    p = {p.x / 400, p.y / 400, 0};
+  const auto hierarchy = simplify(flat, {.target_vertices = 200});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_LT(hierarchy->base.positions.size(), 800u);
+}
+
+TEST(Simplify, LeavesWhatCannotCollapseAsItIs) {
+  const LatticeMesh tetrahedron{.lattice = {},
+                                .positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}},
+                                .faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+                                .colours = {}};
+  const auto hierarchy = simplify(tetrahedron, {.target_vertices = 1});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_TRUE(hierarchy->levels.empty());
+  EXPECT_EQ(hierarchy->base.faces.size(), 4u);
+  EXPECT_EQ(hierarchy->fork_level, 1u);
+}
+
+TEST(Simplify, ReportsProgressUpwards) {
+  std::vector<double> seen;
+  const SimplifyOptions options{.progress = [&](double f) { seen.push_back(f); }};
+  ASSERT_TRUE(simplify(on_lattice(torus(40, 40)), options).has_value());
+  ASSERT_FALSE(seen.empty());
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_LE(seen.back(), 1);
+}
+
+TEST(Simplify, RefusesBadRegionsAndBadFaces) {
+  const LatticeMesh fine = on_lattice(torus(8, 6));
+  EXPECT_EQ(simplify(fine, {.regions = 0}).error().code, ErrorCode::kLimit);
+  EXPECT_EQ(simplify(fine, {.regions = 65'536}).error().code, ErrorCode::kLimit);
+  LatticeMesh broken = fine;
+  broken.faces.push_back(broken.faces.front());
+  EXPECT_EQ(simplify(broken, {}).error().code, ErrorCode::kBadInput);
+}
+
+}  // namespace
+}  // namespace vitrine::test
