@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/app/daemon.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <boost/asio/signal_set.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "server/app/port_file.h"
+#include "server/config/command_line.h"
+#include "server/http/http_server.h"
+#include "server/http/routes.h"
+#include "server/http/services.h"
+#include "server/store/installation.h"
+#include "server/stream/websocket.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::size_t kAdminConnections = 64;
+
+// Everything that serves, in the order in which it may depend on what comes before.
+class Daemon {
+ public:
+  Daemon(const Settings& settings, Installation installation, Log access_log)
+      : settings_(settings),
+        installation_(std::move(installation)),
+        access_log_(std::move(access_log)),
+        models_(*installation_.store, *installation_.catalogue),
+        exports_(settings.export_cache_bytes),
+        pages_(web_assets()),
+        metrics_(Router(public_routes()).templates()),
+        services_{
+            *installation_.catalogue, models_, exports_, pages_, metrics_, access_log_, events_},
+        threads_(settings.threads > 0 ? settings.threads
+                                      : std::max(1u, std::thread::hardware_concurrency())),
+        io_(static_cast<int>(threads_)),
+        workers_(threads_),
+        public_(io_, services_, workers_, public_options()),
+        admin_(io_, services_, workers_, admin_options()),
+        signals_(io_, SIGTERM, SIGINT),
+        deadline_(io_) {}
+
+  Expected<void> open() {
+    if (auto bound = bind(public_, settings_.listen, settings_.port_file, ""); !bound) return bound;
+    return bind(admin_, settings_.admin_listen, settings_.admin_port_file, "admin ");
+  }
+
+  void run() {
+    wait_for_signal();
+    public_.start();
+    admin_.start();
+    services_.ready = true;
+    std::vector<std::thread> threads;
+    for (unsigned i = 1; i < threads_; ++i)
+      threads.emplace_back([this] { io_.run(); });
+    io_.run();
+    for (std::thread& thread : threads)
+      thread.join();
+    workers_.stop();
+    workers_.join();
+    events_.event(Severity::kInfo, "stopped");
+  }
+
+ private:
+  HttpOptions public_options() {
+    return {.routes = public_routes(),
+            .recorded = true,
+            .max_connections = settings_.max_connections,
+            .patience = settings_.idle_timeout,
+            .stream = [this](StreamCall call) { return stream(std::move(call)); }};
+  }
+
+  HttpOptions admin_options() {
+    return {.routes = admin_routes(),
+            .recorded = false,
+            .max_connections = kAdminConnections,
+            .patience = settings_.idle_timeout,
+            .stream = {}};
+  }
+
+  Expected<void> bind(HttpServer& server, const Endpoint& endpoint,
+                      const std::filesystem::path& port_file, std::string_view what) {
+    const auto port = server.listen(endpoint);
+    if (!port) return Unexpected(port.error());
+    if (auto written = write_port_file(port_file, *port); !written) return written;
+    const bool v6 = endpoint.host.find(':') != std::string::npos;
+    events_.event(Severity::kInfo, fmt::format("{}listening on http://{}{}{}:{}", what,
+                                               v6 ? "[" : "", endpoint.host, v6 ? "]" : "", *port));
+    return {};
+  }
+
+  asio::awaitable<void> stream(StreamCall call) {
+    const auto model = models_.find(call.model);
+    if (!model || !*model) co_return;  // it was there when the request was answered
+    const std::shared_ptr<Connection> connection = call.connection;
+    StreamOptions options;
+    options.patience = settings_.idle_timeout;
+    options.on_drain = [connection](std::function<void()> stop) {
+      if (connection->draining) stop();
+      connection->on_drain = std::move(stop);
+    };
+    options.sent = [this](std::uint64_t bytes) {
+      metrics_.stream_bytes.fetch_add(bytes, std::memory_order_relaxed);
+    };
+    metrics_.streams.fetch_add(1, std::memory_order_relaxed);
+    co_await serve_stream(connection->socket, std::move(call.request), *model, std::move(options));
+    metrics_.streams.fetch_sub(1, std::memory_order_relaxed);
+    connection->on_drain = nullptr;
+  }
+
+  void wait_for_signal() {
+    signals_.async_wait([this](const boost::system::error_code& error, int) {
+      if (!error) drain();
+    });
+  }
+
+  void drain() {
+    services_.ready = false;
+    events_.event(Severity::kInfo, "stopping: finishing what is under way");
+    signals_.async_wait([this](const boost::system::error_code& error, int) {
+      if (!error) io_.stop();
+    });
+    deadline_.expires_after(settings_.stop_timeout);
+    deadline_.async_wait([this](const boost::system::error_code& error) {
+      if (!error) io_.stop();
+    });
+    public_.drain([this] { io_.stop(); });
+  }
+
+  const Settings settings_;
+  const Installation installation_;
+  const Log access_log_;
+  const Log events_ = Log::to_stderr();
+  PublishedModels models_;
+  ExportCache exports_;
+  const WebPages pages_;
+  Metrics metrics_;
+  Services services_;
+  const unsigned threads_;
+  asio::io_context io_;
+  Workers workers_;
+  HttpServer public_;
+  HttpServer admin_;
+  asio::signal_set signals_;
+  asio::steady_timer deadline_;
+};
+
+Expected<std::string> read_file(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || file.bad()) {
+    return fail(ErrorCode::kIo,
+                fmt::format("cannot read {}: {}; check --config", path, std::strerror(errno)));
+  }
+  return text.str();
+}
+
+int report(const Error& error) {
+  fmt::print(stderr, "vitrined: {}\n", error.message);
+  return error.code == ErrorCode::kBadInput ? kExitUsage : kExitFailed;
+}
+
+int serve(const Settings& settings) {
+  auto installation = open_installation(settings.data);
+  if (!installation) return report({ErrorCode::kIo, installation.error().message});
+  auto access_log = Log::open(settings.access_log);
+  if (!access_log) return report(access_log.error());
+  Daemon daemon(settings, std::move(*installation), std::move(*access_log));
+  if (const auto opened = daemon.open(); !opened) return report(opened.error());
+  daemon.run();
+  return kExitDone;
+}
+
+}  // namespace
+
+int run_daemon(std::span<const std::string_view> arguments,
+               std::span<const std::string_view> environment) {
+  std::signal(SIGPIPE, SIG_IGN);  // sendfile(2) has no MSG_NOSIGNAL
+  const auto line = parse_command_line(arguments, environment, read_file);
+  if (!line) return report(line.error());
+  switch (line->action) {
+    case Action::kServe:
+      return serve(line->settings);
+    case Action::kCheckConfig:
+      fmt::print("the configuration is valid\n");
+      break;
+    case Action::kPrintConfig:
+      fmt::print("{}", print_config(*line));
+      break;
+    case Action::kHelp:
+      fmt::print("{}", reference());
+      break;
+    case Action::kVersion:
+      fmt::print("vitrined {}\n", VITRINE_VERSION);
+      break;
+  }
+  return kExitDone;
+}
+
+}  // namespace vitrine

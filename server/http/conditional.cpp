@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/conditional.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace vitrine {
+namespace {
+
+using beast::http::field;
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
+    text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
+    text.remove_suffix(1);
+  return text;
+}
+
+// A number of digits alone; nothing where it is none or does not fit.
+std::optional<std::uint64_t> number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+RangeChoice part(std::uint64_t offset, std::uint64_t length) {
+  return {RangeChoice::Kind::kPart, offset, length};
+}
+
+constexpr RangeChoice kWhole{};
+constexpr RangeChoice kUnsatisfiable{RangeChoice::Kind::kUnsatisfiable};
+
+// "-500": the last 500 bytes.
+RangeChoice choose_suffix(std::string_view text, std::uint64_t size) {
+  const auto length = number(text);
+  if (!length) return kWhole;
+  if (*length == 0 || size == 0) return kUnsatisfiable;
+  const std::uint64_t kept = std::min(*length, size);
+  return part(size - kept, kept);
+}
+
+std::string_view value_of(const RequestHeader& request, field name) {
+  const auto value = request[name];
+  return {value.data(), value.size()};
+}
+
+Response not_modified(Response response) {
+  response.status = 304;
+  response.type.clear();
+  response.body = std::string();
+  return response;
+}
+
+Response unsatisfiable(Response response) {
+  response.fields = {{"Content-Range", fmt::format("bytes */{}", body_size(response.body))}};
+  response.status = 416;
+  response.type.clear();
+  response.etag.clear();
+  response.caching = Caching::kNever;
+  response.body = std::string();
+  return response;
+}
+
+Response partial(Response response, const RangeChoice& range) {
+  response.fields.emplace_back(
+      "Content-Range", fmt::format("bytes {}-{}/{}", range.offset, range.offset + range.length - 1,
+                                   body_size(response.body)));
+  response.status = 206;
+  response.body = body_range(std::move(response.body), range.offset, range.length);
+  return response;
+}
+
+}  // namespace
+
+bool matches_any(std::string_view list, std::string_view etag) {
+  if (trim(list) == "*") return true;
+  while (!list.empty()) {
+    std::string_view item = trim(list.substr(0, list.find(',')));
+    list.remove_prefix(
+        std::min(list.size(), list.find(',') == list.npos ? list.size() : list.find(',') + 1));
+    if (item.starts_with("W/")) item.remove_prefix(2);
+    if (item == etag) return true;
+  }
+  return false;
+}
+
+RangeChoice choose_range(std::string_view range, std::uint64_t size) {
+  constexpr std::string_view kUnit = "bytes=";
+  if (!range.starts_with(kUnit) || range.find(',') != std::string_view::npos) return kWhole;
+  range = trim(range.substr(kUnit.size()));
+  const std::size_t dash = range.find('-');
+  if (dash == std::string_view::npos) return kWhole;
+  if (dash == 0) return choose_suffix(range.substr(1), size);
+  const auto first = number(range.substr(0, dash));
+  const std::string_view end = range.substr(dash + 1);
+  const auto last = end.empty() ? std::optional(UINT64_MAX) : number(end);
+  if (!first || !last || *last < *first) return kWhole;
+  if (*first >= size) return kUnsatisfiable;
+  return part(*first, std::min(*last, size - 1) - *first + 1);
+}
+
+Response apply_conditions(const RequestHeader& request, Response response) {
+  if (response.status != 200 || response.etag.empty()) return response;
+  const std::string_view none_match = value_of(request, field::if_none_match);
+  if (!none_match.empty() && matches_any(none_match, response.etag)) {
+    return not_modified(std::move(response));
+  }
+  const std::string_view range = value_of(request, field::range);
+  const std::string_view if_range = value_of(request, field::if_range);
+  if (range.empty() || request.count(field::range) > 1 ||
+      request.method() != beast::http::verb::get) {
+    return response;
+  }
+  if (!if_range.empty() && if_range != response.etag) return response;  // a date never matches
+  const RangeChoice choice = choose_range(range, body_size(response.body));
+  if (choice.kind == RangeChoice::Kind::kWhole) return response;
+  if (choice.kind == RangeChoice::Kind::kUnsatisfiable) return unsatisfiable(std::move(response));
+  return partial(std::move(response), choice);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/connection_set.h"
+
+#include <utility>
+#include <vector>
+
+namespace vitrine {
+namespace {
+
+void close(Connection& connection) {
+  boost::system::error_code ignored;
+  connection.socket.close(ignored);
+}
+
+void end(Connection& connection) {
+  connection.draining = true;
+  if (connection.on_drain) {
+    connection.on_drain();
+  } else if (connection.idle) {
+    close(connection);
+  }
+}
+
+// Runs `action` on the connection's strand.
+void post(const std::shared_ptr<Connection>& connection, void (*action)(Connection&)) {
+  asio::post(connection->socket.get_executor(), [connection, action] { action(*connection); });
+}
+
+}  // namespace
+
+bool ConnectionSet::add(const std::shared_ptr<Connection>& connection) {
+  const std::scoped_lock lock(mutex_);
+  if (draining_ || connections_.size() >= capacity_) return false;
+  connections_.emplace(connection.get(), connection);
+  return true;
+}
+
+void ConnectionSet::remove(const Connection& connection) {
+  std::function<void()> on_empty;
+  {
+    const std::scoped_lock lock(mutex_);
+    connections_.erase(&connection);
+    if (connections_.empty()) on_empty = std::exchange(on_empty_, nullptr);
+  }
+  if (on_empty) on_empty();
+}
+
+std::vector<std::shared_ptr<Connection>> ConnectionSet::alive() {
+  std::vector<std::shared_ptr<Connection>> all;
+  const std::scoped_lock lock(mutex_);
+  all.reserve(connections_.size());
+  for (const auto& [key, weak] : connections_) {
+    if (auto connection = weak.lock()) all.push_back(std::move(connection));
+  }
+  return all;
+}
+
+void ConnectionSet::sweep() {
+  for (const auto& connection : alive()) {
+    if (connection->expired()) post(connection, close);
+  }
+}
+
+void ConnectionSet::drain(std::function<void()> on_empty) {
+  {
+    const std::scoped_lock lock(mutex_);
+    draining_ = true;
+    if (!connections_.empty()) on_empty_ = std::exchange(on_empty, nullptr);
+  }
+  if (on_empty) on_empty();
+  for (const auto& connection : alive())
+    post(connection, end);
+}
+
+}  // namespace vitrine

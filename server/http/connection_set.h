@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The connections that are open: for the limit on their number, for deadlines, and to end them all.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+#include "server/http/connection.h"
+
+namespace vitrine {
+
+// Thread-safe.
+class ConnectionSet {
+ public:
+  explicit ConnectionSet(std::size_t capacity) : capacity_(capacity) {}
+
+  bool add(const std::shared_ptr<Connection>& connection);  // false where the set is full
+  void remove(const Connection& connection);
+
+  // Closes every connection whose deadline has passed.
+  void sweep();
+
+  // Asks every connection to end: idle ones at once, others after their answer. `on_empty` is
+  // called once none is left, from any thread.
+  void drain(std::function<void()> on_empty);
+
+ private:
+  std::vector<std::shared_ptr<Connection>> alive();
+
+  const std::size_t capacity_;
+  std::mutex mutex_;  // guards what follows
+  bool draining_ = false;
+  std::function<void()> on_empty_;
+  std::unordered_map<const Connection*, std::weak_ptr<Connection>> connections_;
+};
+
+}  // namespace vitrine

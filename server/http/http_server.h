@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// A listener and its connections.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "server/config/settings.h"
+#include "server/http/beast.h"
+#include "server/http/connection_set.h"
+#include "server/http/router.h"
+
+namespace vitrine {
+
+// A connection that becomes a WebSocket. The callee owns the socket's bytes until it returns.
+struct StreamCall {
+  std::shared_ptr<Connection> connection;
+  beast::http::request<beast::http::string_body> request;
+  ModelId model;
+  std::string request_id;
+};
+using StreamHandler = std::function<asio::awaitable<void>(StreamCall call)>;
+
+// Threads for what must not hold up connections.
+class Workers {
+ public:
+  explicit Workers(unsigned threads);
+
+  // Any thread for Place::kWorker; for Place::kExport, equal targets run one after the other.
+  asio::any_io_executor executor(Place place, std::string_view target);
+  void stop() { pool_.stop(), exports_.stop(); }
+  void join() { pool_.join(), exports_.join(); }
+
+ private:
+  asio::thread_pool pool_;
+  asio::thread_pool exports_;
+  std::vector<asio::strand<asio::thread_pool::executor_type>> lanes_;
+};
+
+struct HttpOptions {
+  std::span<const Route> routes;
+  bool recorded = true;  // in the access log and the metrics
+  std::size_t max_connections = 1;
+  std::chrono::seconds patience{30};
+  StreamHandler stream;
+};
+
+class HttpServer {
+ public:
+  HttpServer(asio::io_context& io, Services& services, Workers& workers, HttpOptions options);
+
+  // Binds and listens, but accepts nobody yet: connections wait. Fails (kIo) with the cause.
+  Expected<std::uint16_t> listen(const Endpoint& endpoint);
+  void start();
+
+  // Accepts nobody any more and ends the connections (ConnectionSet::drain).
+  void drain(std::function<void()> on_empty);
+
+  // What the sessions use.
+  const Router& router() const { return router_; }
+  const HttpOptions& options() const { return options_; }
+  Services& services() { return services_; }
+  Workers& workers() { return workers_; }
+
+ private:
+  asio::awaitable<void> accept();
+  asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
+  asio::awaitable<void> sweep();
+
+  asio::io_context& io_;
+  Services& services_;
+  Workers& workers_;
+  const HttpOptions options_;
+  const Router router_;
+  ConnectionSet connections_;
+  asio::strand<asio::io_context::executor_type> strand_;  // of the two below
+  Tcp::acceptor acceptor_;
+  asio::steady_timer sweeper_;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/model_json.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+namespace vitrine {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string timestamp(std::int64_t milliseconds) {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                     fmt::gmtime(static_cast<std::time_t>(milliseconds / 1000)),
+                     milliseconds % 1000);
+}
+
+Json model(const ModelRecord& record) {
+  const std::string self = "/api/v1/models/" + record.id.to_string();
+  return {{"id", record.id.to_string()},
+          {"title", record.title},
+          {"creator", record.creator},
+          {"rights", record.rights},
+          {"licence", record.licence},
+          {"unit", record.unit},
+          {"created", timestamp(record.created)},
+          {"vertices", record.vertices},
+          {"faces", record.faces},
+          {"bytes", record.file_bytes},
+          {"head_bytes", record.head_bytes},
+          {"links",
+           {{"self", self},
+            {"page", "/models/" + record.id.to_string()},
+            {"manifest", self + "/manifest"},
+            {"head", self + "/head"},
+            {"file", self + "/file.pmesh"},
+            {"stream", self + "/stream"}}}};
+}
+
+Json vector(const Vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json lattice(const Lattice& grid) {
+  return {{"origin", vector(grid.origin)}, {"step", grid.step}, {"bits", grid.bits}};
+}
+
+// The cube that the lattice spans. The surface touches its minimum corner's three faces, and the
+// opposite face along its longest side.
+Json bounding_box(const Lattice& grid) {
+  const std::int32_t top = (1 << grid.bits) - 1;
+  return {{"min", vector(grid.origin)}, {"max", vector(grid.to_model({top, top, top}))}};
+}
+
+Json levels(const Manifest& manifest) {
+  Json all = Json::array();
+  for (std::uint32_t i = 0; i < manifest.levels.size(); ++i) {
+    const LevelInfo& level = manifest.levels[i];
+    all.push_back({{"vertices", level.vertices},
+                   {"faces", level.faces},
+                   {"cumulative_bytes", manifest.cumulative_bytes(i)},
+                   {"max_error", level.max_error},
+                   {"rms_error", level.rms_error},
+                   {"display_filter", level.display_filter}});
+  }
+  return all;
+}
+
+Json chunks(const Manifest& manifest) {
+  Json all = Json::array();
+  for (const ChunkInfo& chunk : manifest.chunks) {
+    all.push_back({{"level", chunk.level},
+                   {"region", chunk.region},
+                   {"offset", chunk.offset},
+                   {"length", chunk.length},
+                   {"splits", chunk.splits},
+                   {"sha256", to_hex(chunk.sha256)}});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string model_json(const ModelRecord& record) {
+  return dump(model(record));
+}
+
+std::string model_page_json(const ModelPage& page) {
+  Json json = {{"models", Json::array()}, {"next", nullptr}};
+  for (const ModelRecord& record : page.models)
+    json["models"].push_back(model(record));
+  if (page.next) json["next"] = page.next->to_string();
+  return dump(json);
+}
+
+std::string manifest_json(const PublishedModel& published) {
+  const Manifest& manifest = published.manifest();
+  return dump({{"id", published.record().id.to_string()},
+               {"sha256", to_hex(published.record().file)},
+               {"bytes", manifest.file_bytes},
+               {"head_bytes", manifest.head_bytes()},
+               {"unit", manifest.unit},
+               {"placement", manifest.placement == Placement::kPyramid ? "pyramid" : "midpoint"},
+               {"coloured", manifest.coloured},
+               {"boundary_loops", manifest.loops},
+               {"lattice", lattice(manifest.lattice)},
+               {"bounding_box", bounding_box(manifest.lattice)},
+               {"levels", levels(manifest)},
+               {"regions", manifest.regions},
+               {"fork_level", manifest.fork_level},
+               {"adjacency", manifest.adjacency},
+               {"base",
+                {{"offset", manifest.base_offset},
+                 {"length", manifest.base_length},
+                 {"sha256", to_hex(manifest.base_sha256)}}},
+               {"chunks", chunks(manifest)}});
+}
+
+}  // namespace vitrine

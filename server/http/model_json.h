@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Models and manifests as JSON.
+#pragma once
+
+#include <string>
+
+#include "server/catalogue/catalogue.h"
+#include "server/store/published_model.h"
+
+namespace vitrine {
+
+std::string model_json(const ModelRecord& record);
+std::string model_page_json(const ModelPage& page);
+std::string manifest_json(const PublishedModel& model);
+
+}  // namespace vitrine

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "server/http/handlers.h"
+#include "server/http/model_json.h"
+#include "server/http/published.h"
+#include "server/http/query.h"
+
+namespace vitrine {
+namespace {
+
+using Faults = std::vector<ParameterFault>;
+
+Response json_response(std::string body) {
+  Response response;
+  response.type = "application/json";
+  response.caching = Caching::kRevalidate;
+  response.etag =
+      '"' + to_hex(sha256({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()})) + '"';
+  response.body = std::move(body);
+  return response;
+}
+
+ModelQuery read_query(const Query& query, Faults& faults) {
+  constexpr std::size_t kMaxText = 200;
+  ModelQuery out;
+  if (const auto text = query.get("q")) {
+    out.text = *text;
+    if (text->size() > kMaxText) faults.push_back({"q", fmt::format("at most {} bytes", kMaxText)});
+  }
+  if (const auto limit = query.get("limit")) {
+    const auto [end, fault] =
+        std::from_chars(limit->data(), limit->data() + limit->size(), out.limit);
+    if (fault != std::errc{} || end != limit->data() + limit->size() || out.limit < 1 ||
+        out.limit > kMaxPage) {
+      faults.push_back({"limit", fmt::format("a whole number from 1 to {}", kMaxPage)});
+    }
+  }
+  if (const auto cursor = query.get("cursor")) {
+    out.after = ModelId::parse(*cursor);
+    if (!out.after) faults.push_back({"cursor", "the 'next' of the page before"});
+  }
+  return out;
+}
+
+}  // namespace
+
+Response list_models(const Request& request, Services& services) {
+  const auto query = Query::parse(request.query);
+  if (!query) return problem(400, "the query is malformed", request.id);
+  Faults faults;
+  const ModelQuery wanted = read_query(*query, faults);
+  if (!faults.empty()) return problem(400, "a parameter is out of range", request.id, faults);
+  const auto page = services.catalogue.search(wanted);
+  if (!page) return internal_error(page.error(), request, services);
+  return json_response(model_page_json(*page));
+}
+
+Response show_model(const Request& request, Services& services) {
+  return with_model(request, services,
+                    [](const auto& model) { return json_response(model_json(model->record())); });
+}
+
+Response show_manifest(const Request& request, Services& services) {
+  return with_model(request, services,
+                    [](const auto& model) { return json_response(manifest_json(*model)); });
+}
+
+Response show_head(const Request& request, Services& services) {
+  return with_model(request, services, [](const auto& model) {
+    Response response;
+    response.type = "application/octet-stream";
+    response.caching = Caching::kRevalidate;
+    response.etag = '"' + to_hex(model->record().file) + "-head\"";
+    response.body = stored_body(model, model->head());
+    return response;
+  });
+}
+
+Response show_file(const Request& request, Services& services) {
+  return with_model(request, services, [](const auto& model) {
+    Response response;
+    response.type = "application/octet-stream";
+    response.caching = Caching::kRevalidate;
+    response.etag = '"' + to_hex(model->record().file) + '"';
+    response.body = stored_body(model, model->whole());
+    return response;
+  });
+}
+
+}  // namespace vitrine

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/handlers.h"
+#include "server/http/problem.h"
+#include "server/http/services.h"
+
+namespace vitrine {
+namespace {
+
+Response page(std::string_view path, const Request& request, Services& services) {
+  const WebPage* found = services.pages.find(path);
+  if (found == nullptr) return problem(404, "there is no such page", request.id);
+  Response response;
+  response.type = found->asset.type;
+  response.caching = Caching::kRevalidate;
+  response.etag = found->etag;
+  response.body = SharedBytes{nullptr, found->asset.bytes};
+  return response;
+}
+
+}  // namespace
+
+Response show_gallery(const Request& request, Services& services) {
+  return page("/index.html", request, services);
+}
+
+Response show_viewer(const Request& request, Services& services) {
+  const auto model = services.models.find(request.parameters.id);
+  if (model && *model == nullptr) return problem(404, "there is no such model", request.id);
+  return page("/model.html", request, services);
+}
+
+Response show_asset(const Request& request, Services& services) {
+  return page(request.path, request, services);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/problem.h"
+
+#include <nlohmann/json.hpp>
+
+#include "server/http/beast.h"
+
+namespace vitrine {
+
+Response problem(unsigned status, std::string_view detail, std::string_view request_id,
+                 const std::vector<ParameterFault>& errors) {
+  using Json = nlohmann::ordered_json;
+  const auto title = beast::http::obsolete_reason(static_cast<beast::http::status>(status));
+  Json json = {{"type", "about:blank"},
+               {"title", std::string(title)},
+               {"status", status},
+               {"request_id", request_id}};
+  if (status < 500 && !detail.empty()) json["detail"] = detail;
+  for (const ParameterFault& error : errors) {
+    json["errors"].push_back({{"parameter", error.parameter}, {"detail", error.detail}});
+  }
+  Response response;
+  response.status = status;
+  response.type = "application/problem+json";
+  // A client's text may be in here: what is not UTF-8 is replaced.
+  response.body = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return response;
+}
+
+}  // namespace vitrine

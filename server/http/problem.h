@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors as application/problem+json (RFC 9457).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/http/response.h"
+
+namespace vitrine {
+
+struct ParameterFault {
+  std::string parameter, detail;
+};
+
+// `detail` is for the client. From status 500 up it is left out: the request id is all that a
+// client learns, the log has the rest.
+Response problem(unsigned status, std::string_view detail, std::string_view request_id,
+                 const std::vector<ParameterFault>& errors = {});
+
+}  // namespace vitrine

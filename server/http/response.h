@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a handler returns, and its header as it goes over the wire.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "server/http/body.h"
+
+namespace vitrine {
+
+enum class Caching {
+  kNever,       // no-store
+  kRevalidate,  // no-cache: kept, but asked about each time
+  kImmutable,   // for a year without asking: the URL names the content
+};
+
+struct Response {
+  unsigned status = 200;
+  std::string type;  // media type; empty where there is no body
+  Caching caching = Caching::kNever;
+  std::string etag;  // a strong entity tag with its quotes; empty: none
+  std::vector<std::pair<std::string_view, std::string>> fields;  // further ones
+  Body body;
+};
+
+struct HeadOptions {
+  std::string_view request_id;
+  bool keep_alive = true;
+};
+
+// The status line and the fields, up to and including the empty line.
+std::string response_head(const Response& response, const HeadOptions& options);
+
+}  // namespace vitrine

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/send.h"
+
+#include <sys/sendfile.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+
+namespace vitrine {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+Bytes bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+// Gives the peer another `patience` to take bytes. False where the connection is gone.
+asio::awaitable<bool> wait_writable(Connection& connection, std::chrono::seconds patience) {
+  connection.expires_after(patience);
+  const auto [error] = co_await connection.socket.async_wait(Tcp::socket::wait_write, kNoThrow);
+  co_return !error;
+}
+
+// Calls `write(sent)` for the bytes from `sent` on until `size` are sent. `write` returns what the
+// socket took, or -1 and errno.
+template <class Write>
+asio::awaitable<std::uint64_t> send_all(Connection& connection, std::uint64_t size,
+                                        std::chrono::seconds patience, Write write) {
+  std::uint64_t sent = 0;
+  while (sent < size) {
+    const ssize_t taken = write(sent);
+    if (taken > 0) {
+      sent += static_cast<std::uint64_t>(taken);
+    } else if (taken == 0 || (errno != EAGAIN && errno != EINTR)) {
+      break;
+    } else if (errno == EAGAIN) {
+      const bool writable = co_await wait_writable(connection, patience);
+      if (!writable) break;
+    }
+  }
+  co_return sent;
+}
+
+asio::awaitable<std::uint64_t> send_memory(Connection& connection, Bytes bytes, int flags,
+                                           std::chrono::seconds patience) {
+  const int socket = connection.socket.native_handle();
+  auto write = [socket, bytes, flags](std::uint64_t sent) {
+    return ::send(socket, bytes.data() + sent, bytes.size() - sent, flags | MSG_NOSIGNAL);
+  };
+  co_return co_await send_all(connection, bytes.size(), patience, write);
+}
+
+asio::awaitable<std::uint64_t> send_file(Connection& connection, int file, const StoredBytes& body,
+                                         std::chrono::seconds patience) {
+  const int socket = connection.socket.native_handle();
+  auto write = [socket, file, &body](std::uint64_t sent) {
+    auto offset = static_cast<off_t>(body.offset + sent);
+    return ::sendfile(socket, file, &offset, body.length - sent);
+  };
+  co_return co_await send_all(connection, body.length, patience, write);
+}
+
+// An object without a descriptor: a piece at a time.
+asio::awaitable<std::uint64_t> send_pieces(Connection& connection, const StoredBytes& body,
+                                           std::chrono::seconds patience) {
+  constexpr std::uint64_t kPiece = 64 * 1024;
+  std::uint64_t sent = 0;
+  while (sent < body.length) {
+    const auto piece = body.object->read(body.offset + sent, std::min(kPiece, body.length - sent));
+    if (!piece) break;
+    const std::uint64_t taken = co_await send_memory(connection, *piece, 0, patience);
+    sent += taken;
+    if (taken < piece->size()) break;
+  }
+  co_return sent;
+}
+
+asio::awaitable<std::uint64_t> send_stored(Connection& connection, const StoredBytes& body,
+                                           std::chrono::seconds patience) {
+  if (const auto file = body.object->descriptor()) {
+    co_return co_await send_file(connection, *file, body, patience);
+  }
+  co_return co_await send_pieces(connection, body, patience);
+}
+
+}  // namespace
+
+asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string head, Body body,
+                                             std::chrono::seconds patience) {
+  const auto* text = std::get_if<std::string>(&body);
+  if (text != nullptr) head += *text;
+  const std::uint64_t text_size = text != nullptr ? text->size() : 0;
+  const int flags = text == nullptr && body_size(body) > 0 ? MSG_MORE : 0;
+  const std::uint64_t sent = co_await send_memory(connection, bytes_of(head), flags, patience);
+  if (text != nullptr) co_return sent - std::min(sent, head.size() - text_size);
+  if (sent < head.size()) co_return 0;
+  if (const auto* shared = std::get_if<SharedBytes>(&body)) {
+    co_return co_await send_memory(connection, shared->bytes, 0, patience);
+  }
+  co_return co_await send_stored(connection, std::get<StoredBytes>(body), patience);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sends a response's head and body.
+#pragma once
+
+#include <chrono>
+
+#include "server/http/connection.h"
+#include "server/http/response.h"
+
+namespace vitrine {
+
+// Returns the body bytes sent; fewer than body_size(body) where the peer went away or let
+// `patience` pass without taking a byte. Memory per connection does not grow with the body: what is
+// stored in a file goes by sendfile(2).
+asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string head, Body body,
+                                             std::chrono::seconds patience);
+
+}  // namespace vitrine

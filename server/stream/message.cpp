@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/stream/message.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace vitrine {
+namespace {
+
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr int kMaxDepth = 4;
+
+Unexpected malformed(const char* why) {
+  return fail(ErrorCode::kBadInput, why);
+}
+
+std::optional<std::uint64_t> whole(const Json& value) {
+  if (!value.is_number_unsigned()) return std::nullopt;
+  return value.get<std::uint64_t>();
+}
+
+Expected<ClientMessage> parse_want(const Json& json) {
+  std::optional<Want> want;
+  for (const char* const name : {"triangles", "bytes", "level", "error"}) {
+    const auto member = json.find(name);
+    if (member == json.end()) continue;
+    if (want) return malformed("want: give one of triangles, bytes, level, error");
+    const std::string_view key = name;
+    const auto count = whole(*member);
+    if (key == "error") {
+      if (!member->is_number() || !(member->get<double>() >= 0)) {
+        return malformed("want: error is a number, 0 or more");
+      }
+      want = WantError{member->get<double>()};
+    } else if (!count) {
+      return malformed("want: triangles, bytes and level are whole numbers, 0 or more");
+    } else if (key == "triangles") {
+      want = WantTriangles{*count};
+    } else if (key == "bytes") {
+      want = WantBytes{*count};
+    } else {
+      want = WantLevel{static_cast<std::uint32_t>(std::min<std::uint64_t>(*count, UINT32_MAX))};
+    }
+  }
+  if (!want) return malformed("want: give one of triangles, bytes, level, error");
+  return *want;
+}
+
+Expected<ClientMessage> parse_have(const Json& json) {
+  const auto chunks = json.find("chunks");
+  if (chunks == json.end() || !chunks->is_array() || chunks->size() > kMaxHaveRanges) {
+    return malformed("have: chunks is a list of at most 4096 ranges");
+  }
+  HaveMessage have;
+  for (const Json& range : *chunks) {
+    if (!range.is_array() || range.size() != 2) return malformed("have: a range is [first, last]");
+    const auto first = whole(range[0]);
+    const auto last = whole(range[1]);
+    if (!first || !last || *last < *first) return malformed("have: a range is [first, last]");
+    if (!have.chunks.empty() && *first <= have.chunks.back().last) {
+      return malformed("have: the ranges ascend");
+    }
+    have.chunks.push_back({*first, *last});
+  }
+  return have;
+}
+
+Expected<ClientMessage> parse_ack(const Json& json) {
+  const auto bytes = json.find("bytes");
+  const auto count = bytes == json.end() ? std::nullopt : whole(*bytes);
+  if (!count || *count < 1 || *count > kMaxAck) {
+    return malformed("ack: bytes is a whole number from 1 to 16777216");
+  }
+  return AckMessage{*count};
+}
+
+}  // namespace
+
+Expected<ClientMessage> parse_message(std::string_view text) {
+  // Deeper values are dropped while parsing, so that nesting cannot exhaust the stack.
+  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < kMaxDepth; };
+  const Json json = Json::parse(text, shallow, /*allow_exceptions=*/false);
+  if (!json.is_object()) return malformed("a message is a JSON object");
+  const auto type = json.find("type");
+  if (type == json.end() || !type->is_string()) return malformed("a message has a type");
+  if (*type == "want") return parse_want(json);
+  if (*type == "have") return parse_have(json);
+  if (*type == "ack") return parse_ack(json);
+  return malformed("the type is want, have or ack");
+}
+
+std::string to_json(const ModelMessage& message) {
+  return OrderedJson{{"type", "model"},
+                     {"sha256", message.sha256},
+                     {"chunks", message.chunks},
+                     {"slice_bytes", message.slice_bytes},
+                     {"credit", message.credit}}
+      .dump();
+}
+
+std::string to_json(const DoneMessage& message) {
+  return OrderedJson{{"type", "done"}, {"bytes", message.bytes}, {"triangles", message.triangles}}
+      .dump();
+}
+
+}  // namespace vitrine

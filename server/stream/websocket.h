@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The I/O of pmesh.v1: one WebSocket from its handshake to its end.
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <chrono>
+#include <functional>
+#include <memory>
+
+#include "server/store/published_model.h"
+
+namespace vitrine {
+
+struct StreamOptions {
+  std::chrono::seconds patience{30};  // for handshakes, and before a silent peer is pinged and cut
+  // Called once with what to call on the socket's strand when the daemon stops (close 1012).
+  std::function<void(std::function<void()> stop)> on_drain;
+  std::function<void(std::uint64_t bytes)> sent;  // called with the chunk bytes of each slice
+};
+
+// Runs on the socket's strand. `request` is an upgrade that offers pmesh.v1. Memory per connection:
+// the session's state, and the one chunk that is being sent.
+boost::asio::awaitable<void> serve_stream(
+    boost::asio::ip::tcp::socket& socket,
+    boost::beast::http::request<boost::beast::http::string_body> request,
+    std::shared_ptr<const PublishedModel> model, StreamOptions options);
+
+}  // namespace vitrine

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every route of the real daemon, over sockets.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "served_folder.h"
+#include "support/daemon.h"
+#include "support/http_client.h"
+
+namespace vitrine::test {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+class DaemonTest : public ::testing::Test {
+ protected:
+  HttpAnswer get(const std::string& target, const std::string& fields = "",
+                 const std::string& method = "GET") const {
+    return http_get(daemon.port(), target, fields, method);
+  }
+  std::string model_url() const { return "/api/v1/models/" + id; }
+  std::string chunk_url() const {
+    return "/api/v1/chunks/" + to_hex(served_pmesh().manifest.chunks[0].sha256);
+  }
+
+  const Manifest& manifest = served_pmesh().manifest;
+  ServedFolder folder;
+  const std::string id = folder.publish("A small bust");
+  Daemon daemon{folder.path()};
+};
+
+TEST_F(DaemonTest, ListsModelsSearchesThemAndPages) {
+  folder.publish("Second bust");
+  folder.publish("A vase");
+  const Json all = Json::parse(get("/api/v1/models").body);
+  EXPECT_EQ(all["models"].size(), 3u);
+  EXPECT_TRUE(all["next"].is_null());
+  EXPECT_EQ(Json::parse(get("/api/v1/models?q=bust").body)["models"].size(), 2u);
+  EXPECT_EQ(Json::parse(get("/api/v1/models?q=small+bust").body)["models"][0]["id"], id);
+  const Json first = Json::parse(get("/api/v1/models?limit=2").body);
+  EXPECT_EQ(first["models"].size(), 2u);
+  const Json rest =
+      Json::parse(get("/api/v1/models?limit=2&cursor=" + first["next"].get<std::string>()).body);
+  ASSERT_EQ(rest["models"].size(), 1u);
+  EXPECT_EQ(rest["models"][0]["id"], id) << "newest first";
+}
+
+TEST_F(DaemonTest, RefusesParametersOutOfRangeByName) {
+  const HttpAnswer answer = get("/api/v1/models?limit=0&cursor=x");
+  EXPECT_EQ(answer.status, 400);
+  EXPECT_EQ(answer.field("content-type"), "application/problem+json");
+  const Json problem = Json::parse(answer.body);
+  EXPECT_EQ(problem["errors"][0]["parameter"], "limit");
+  EXPECT_EQ(problem["errors"][1]["parameter"], "cursor");
+  EXPECT_EQ(get("/api/v1/models?q=%zz").status, 400);
+}
+
+TEST_F(DaemonTest, DescribesAModelAndItsManifest) {
+  const Json model = Json::parse(get(model_url()).body);
+  EXPECT_EQ(model["title"], "A small bust");
+  EXPECT_EQ(model["bytes"], manifest.file_bytes);
+  const HttpAnswer answer = get(model_url() + "/manifest");
+  EXPECT_EQ(answer.field("cache-control"), "no-cache");
+  const Json json = Json::parse(answer.body);
+  EXPECT_EQ(json["levels"].size(), 2u);
+  EXPECT_EQ(json["levels"][1]["cumulative_bytes"], manifest.file_bytes);
+  EXPECT_EQ(json["chunks"][0]["sha256"], to_hex(manifest.chunks[0].sha256));
+  EXPECT_EQ(json["head_bytes"], manifest.head_bytes());
+  const HttpAnswer again =
+      get(model_url() + "/manifest", "If-None-Match: " + answer.field("etag") + "\r\n");
+  EXPECT_EQ(again.status, 304);
+  EXPECT_EQ(again.body, "");
+}
+
+TEST_F(DaemonTest, ServesHeadChunkAndFile) {
+  const HttpAnswer head = get(model_url() + "/head");
+  EXPECT_EQ(head.body, file_bytes(0, manifest.head_bytes()));
+  const HttpAnswer chunk = get(chunk_url());
+  EXPECT_EQ(chunk.body, file_bytes(manifest.chunks[0].offset, manifest.chunks[0].length));
+  EXPECT_EQ(chunk.field("cache-control"), "public, max-age=31536000, immutable");
+  EXPECT_EQ(chunk.field("access-control-allow-origin"), "*");
+  EXPECT_EQ(get("/api/v1/chunks/" + to_hex(manifest.base_sha256)).body, "a base mesh");
+  EXPECT_EQ(get(model_url() + "/file.pmesh").body, file_bytes(0, manifest.file_bytes));
+}
+
+TEST_F(DaemonTest, ServesRangesOfTheFile) {
+  const std::string url = model_url() + "/file.pmesh";
+  const std::string size = std::to_string(manifest.file_bytes);
+  const HttpAnswer part = get(url, "Range: bytes=10-19\r\n");
+  EXPECT_EQ(part.status, 206);
+  EXPECT_EQ(part.field("content-range"), "bytes 10-19/" + size);
+  EXPECT_EQ(part.body, file_bytes(10, 10));
+  EXPECT_EQ(get(url, "Range: bytes=10-19\r\nIf-Range: \"other\"\r\n").status, 200);
+  const HttpAnswer beyond = get(url, "Range: bytes=" + size + "-\r\n");
+  EXPECT_EQ(beyond.status, 416);
+  EXPECT_EQ(beyond.field("content-range"), "bytes */" + size);
+}
+
+TEST_F(DaemonTest, HeadTellsTheLengthWithoutTheBody) {
+  HttpClient client(daemon.port());
+  const HttpAnswer answer = client.get(model_url() + "/file.pmesh", "", "HEAD");
+  EXPECT_EQ(answer.field("content-length"), std::to_string(manifest.file_bytes));
+  EXPECT_EQ(client.get(model_url()).status, 200) << "nothing followed the head";
+}
+
+TEST_F(DaemonTest, AnswersPreflightsAndRefusesOtherMethods) {
+  const HttpAnswer preflight = get(chunk_url(), "Origin: https://museum.example\r\n", "OPTIONS");
+  EXPECT_EQ(preflight.status, 204);
+  EXPECT_THAT(preflight.field("access-control-allow-methods"), HasSubstr("GET"));
+  const HttpAnswer answer = get(model_url(), "Content-Length: 0\r\n", "DELETE");
+  EXPECT_EQ(answer.status, 405);
+  EXPECT_EQ(answer.field("allow"), "GET, HEAD, OPTIONS");
+}
+
+TEST_F(DaemonTest, WhatDoesNotExistIsAProblemWithTheRequestsId) {
+  const std::string none = "00000000000000000000000001";
+  for (const std::string& target :
+       {std::string("/nothing"), "/api/v1/models/" + none, "/api/v1/models/" + none + "/manifest",
+        "/api/v1/models/" + none + "/export.glb", "/api/v1/models/" + none + "/head",
+        "/models/" + none, "/api/v1/chunks/" + std::string(64, '0'), model_url() + "/export.exe",
+        std::string("/api/v1/models/..%2f..%2fetc"), std::string("/../../etc/passwd")}) {
+    const HttpAnswer answer = get(target);
+    EXPECT_EQ(answer.status, 404) << target;
+    EXPECT_EQ(Json::parse(answer.body)["request_id"], answer.field("x-request-id")) << target;
+  }
+}
+
+TEST_F(DaemonTest, KeepsTheConnectionAndAnswersPipelinedRequestsInOrder) {
+  HttpClient client(daemon.port());
+  client.send(
+      "GET " + chunk_url() + " HTTP/1.1\r\nHost: a\r\n\r\nGET " + model_url() +
+      " HTTP/1.1\r\nHost: a\r\n\r\nGET /nothing HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+  EXPECT_EQ(client.receive().body.size(), manifest.chunks[0].length);
+  EXPECT_EQ(client.receive().field("content-type"), "application/json");
+  EXPECT_EQ(client.receive().status, 404);
+  EXPECT_TRUE(client.is_closed());
+}
+
+TEST_F(DaemonTest, ClosesAfterARequestWhoseEndIsAmbiguousOrThatIsTooLarge) {
+  const std::pair<std::string, int> cases[] = {
+      {"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nTransfer-Encoding: chunked\r\n\r\n", 400},
+      {"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", 400},
+      {"GET / HTTP/1.1\r\n\r\n", 400},
+      {"GET / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400},
+      {"nonsense\r\n\r\n", 400},
+      {"GET / HTTP/1.1\r\nHost: a\r\nX: " + std::string(20'000, 'x') + "\r\n\r\n", 431},
+      {"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 1000000\r\n\r\n", 413},
+      {"GET nowhere HTTP/1.1\r\nHost: a\r\n\r\n", 400},
+  };
+  for (const auto& [request, status] : cases) {
+    HttpClient client(daemon.port());
+    client.send(request + "GET /after HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_EQ(client.receive().status, status) << request.substr(0, 60);
+    EXPECT_TRUE(client.is_closed()) << request.substr(0, 60);
+  }
+}
+
+TEST_F(DaemonTest, SeesWhatAnotherProcessPublishes) {
+  ASSERT_EQ(Json::parse(get("/api/v1/models").body)["models"].size(), 1u);
+  const std::string other = folder.publish("From elsewhere");
+  EXPECT_EQ(get("/api/v1/models/" + other).status, 200);
+}
+
+TEST_F(DaemonTest, TheAdminListenerTellsHealthAndMetricsAndVisitorsCannotReachThem) {
+  EXPECT_EQ(http_get(daemon.admin_port(), "/livez").status, 200);
+  EXPECT_EQ(http_get(daemon.admin_port(), "/readyz").status, 200);
+  get(chunk_url());
+  get("/api/v1/models/nothing");
+  const HttpAnswer metrics = http_get(daemon.admin_port(), "/metrics");
+  EXPECT_THAT(metrics.field("content-type"), HasSubstr("text/plain; version=0.0.4"));
+  EXPECT_THAT(
+      metrics.body,
+      HasSubstr(
+          "vitrine_http_requests_total{route=\"/api/v1/chunks/{sha256}\",status=\"2xx\"} 1\n"));
+  for (const char* target : {"/livez", "/readyz", "/metrics"})
+    EXPECT_EQ(get(target).status, 404);
+  EXPECT_EQ(http_get(daemon.admin_port(), "/api/v1/models").status, 404);
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the real daemon starts, refuses to start, and ends.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "served_folder.h"
+#include "support/daemon.h"
+#include "support/http_client.h"
+
+namespace vitrine::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string slurp(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(Start, SaysItsVersionAndItsOptions) {
+  EXPECT_THAT(run_vitrined({"--version"}).output, HasSubstr("vitrined 0."));
+  const ProgramResult help = run_vitrined({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.output, HasSubstr("--admin-listen HOST:PORT"));
+}
+
+TEST(Start, WrongUsageIsOneLineWithASuggestionAndExitCode2) {
+  const ProgramResult result = run_vitrined({"--lisen", "127.0.0.1:0"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(lines(result.output), 1u);
+  EXPECT_THAT(result.output, HasSubstr("did you mean '--listen'?"));
+}
+
+TEST(Start, ChecksAConfigurationWithoutServing) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "vitrine.conf").string();
+  std::ofstream(file) << "listen = 127.0.0.1:0\n";
+  EXPECT_EQ(run_vitrined({"--config", file, "--check-config"}).exit_code, 0);
+  EXPECT_THAT(run_vitrined({"--config", file, "--print-config"}).output,
+              HasSubstr("listen = \"127.0.0.1:0\""));
+  std::ofstream(file) << "listne = 127.0.0.1:0\n";
+  const ProgramResult result = run_vitrined({"--config", file, "--check-config"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.output, HasSubstr(file + ":1: unknown key 'listne'; did you mean 'listen'?"));
+}
+
+TEST(Start, APortInUseIsOneLineWithTheNextStepAndExitCode1) {
+  const ServedFolder folder;
+  const Daemon daemon(folder.path());
+  const std::string address = "127.0.0.1:" + std::to_string(daemon.port());
+  const ProgramResult result =
+      run_vitrined({"--listen", address, "--data", folder.path().string()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(lines(result.output), 1u);
+  EXPECT_THAT(result.output,
+              HasSubstr("cannot listen on " + address + ": Address already in use; "));
+}
+
+TEST(Start, ADataFolderThatCannotBeUsedIsOneLineAndExitCode1) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "file").string();
+  std::ofstream(file) << "not a folder";
+  const ProgramResult result = run_vitrined({"--listen", "127.0.0.1:0", "--data", file});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(lines(result.output), 1u);
+  EXPECT_THAT(result.output, HasSubstr(file));
+}
+
+TEST(Start, WritesThePortsToFiles) {
+  const ServedFolder folder;
+  const auto port_file = folder.path() / "port", admin_file = folder.path() / "admin-port";
+  const Daemon daemon(
+      folder.path(), {"--port-file", port_file.string(), "--admin-port-file", admin_file.string()});
+  EXPECT_EQ(slurp(port_file), std::to_string(daemon.port()) + "\n");
+  EXPECT_EQ(slurp(admin_file), std::to_string(daemon.admin_port()) + "\n");
+}
+
+TEST(Stop, SigtermEndsIdleConnectionsAndTheDaemonWithACleanLog) {
+  ServedFolder folder;
+  const std::string id = folder.publish("A small bust");
+  Daemon daemon(folder.path());
+  HttpClient idle(daemon.port());
+  EXPECT_EQ(idle.get("/api/v1/models/" + id).status, 200);
+  EXPECT_EQ(http_get(daemon.port(), "/nothing\"here").status, 404);
+  daemon.signal(SIGTERM);
+  EXPECT_TRUE(idle.is_closed());
+  const ProgramResult result = daemon.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output, HasSubstr("message=stopped\n"));
+  EXPECT_THAT(result.output, Not(HasSubstr("event=error")));
+  const std::regex line(
+      R"(time=\S+Z event=access id=[0-9a-f]{16} remote=127\.0\.0\.1 method=GET route=\S+ )"
+      R"(target=(\S+|"(\\.|[^"\\])*") status=\d+ bytes=\d+ seconds=\d+\.\d{6})");
+  std::istringstream log(daemon.access_log());
+  std::size_t count = 0;
+  for (std::string text; std::getline(log, text); ++count) {
+    EXPECT_TRUE(std::regex_match(text, line)) << text;
+  }
+  EXPECT_EQ(count, 2u);
+}
+
+TEST(Stop, FinishesATransferThatIsUnderWay) {
+  ServedFolder folder;
+  const std::string id = folder.publish("A small bust");
+  Daemon daemon(folder.path());
+  // Far more answers than the sockets' buffers hold: the daemon is still sending when it is told
+  // to stop. It finishes the answer under way and drops the requests behind it.
+  HttpClient client(daemon.port());
+  std::string requests;
+  for (int i = 0; i < 1000; ++i) {
+    requests += "GET /api/v1/models/" + id + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n";
+  }
+  client.send(requests);
+  EXPECT_EQ(client.receive().status, 200);
+  daemon.signal(SIGTERM);
+  HttpAnswer last;
+  do {
+    last = client.receive();
+    EXPECT_EQ(last.body.size(), served_pmesh().manifest.file_bytes);
+  } while (last.field("connection") != "close" && !client.is_closed());
+  EXPECT_EQ(daemon.wait().exit_code, 0);
+}
+
+TEST(Stop, ASecondSignalEndsTheDaemonAtOnce) {
+  ServedFolder folder;
+  const std::string id = folder.publish("A small bust");
+  Daemon daemon(folder.path(), {"--stop-timeout", "3600"});
+  WebSocketClient stuck(daemon.port(), "/api/v1/models/" + id + "/stream", "pmesh.v1");
+  stuck.receive();
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(stuck.receive().close_code(), 1012);  // and never answers it
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait().exit_code, 0);
+}
+
+TEST(Stop, TheDeadlineCutsWhatDoesNotEnd) {
+  ServedFolder folder;
+  const std::string id = folder.publish("A small bust");
+  Daemon daemon(folder.path(), {"--stop-timeout", "0"});
+  WebSocketClient stuck(daemon.port(), "/api/v1/models/" + id + "/stream", "pmesh.v1");
+  stuck.receive();
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait().exit_code, 0);
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/problem.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vitrine {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string text(const Response& response) {
+  return std::get<std::string>(response.body);
+}
+
+TEST(Problem, TellsTheClientWhatIsWrong) {
+  const Response response =
+      problem(400, "a parameter is out of range", "42", {{"limit", "1 to 200"}});
+  EXPECT_EQ(response.status, 400u);
+  EXPECT_EQ(response.type, "application/problem+json");
+  EXPECT_EQ(
+      text(response),
+      "{\"type\":\"about:blank\",\"title\":\"Bad Request\",\"status\":400,\"request_id\":\"42\","
+      "\"detail\":\"a parameter is out of range\","
+      "\"errors\":[{\"parameter\":\"limit\",\"detail\":\"1 to 200\"}]}");
+}
+
+TEST(Problem, KeepsTheReasonOfAServerErrorToItself) {
+  const std::string body = text(problem(500, "cannot read /srv/data/secret", "42"));
+  EXPECT_THAT(body, HasSubstr("\"request_id\":\"42\""));
+  EXPECT_THAT(body, Not(HasSubstr("secret")));
+}
+
+TEST(Problem, IsValidJsonWhateverBytesTheDetailHolds) {
+  EXPECT_THAT(text(problem(400, "\xff\"\n", "42")), HasSubstr("\xEF\xBF\xBD\\\"\\n"));
+}
+
+}  // namespace
+}  // namespace vitrine

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real daemon as a child process.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vitrine::test {
+
+struct ProgramResult {
+  int exit_code = -1;
+  std::string output;  // standard output and standard error
+};
+// Runs vitrined to its end.
+ProgramResult run_vitrined(const std::vector<std::string>& arguments);
+
+// A daemon on free ports of 127.0.0.1 that serves `data`. Killed at the end of its scope.
+class Daemon {
+ public:
+  // Returns once it listens. Throws with what it printed where it ends instead.
+  explicit Daemon(const std::filesystem::path& data, std::vector<std::string> more = {});
+  ~Daemon();
+  Daemon(const Daemon&) = delete;
+  Daemon& operator=(const Daemon&) = delete;
+
+  std::uint16_t port() const { return port_; }
+  std::uint16_t admin_port() const { return admin_port_; }
+  void signal(int number) const;
+  ProgramResult wait();  // for its end; all that it printed
+  std::string access_log() const;
+
+ private:
+  std::string read_line();
+
+  std::filesystem::path access_log_;
+  pid_t child_ = -1;
+  int pipe_ = -1;
+  std::string printed_;
+  std::size_t read_ = 0;  // how much of it read_line has returned
+  std::uint16_t port_ = 0, admin_port_ = 0;
+};
+
+}  // namespace vitrine::test

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// A client that sends exactly the bytes it is told to, and a WebSocket on top of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vitrine::test {
+
+struct HttpAnswer {
+  int status = 0;
+  std::map<std::string, std::string> fields;  // names in lower case
+  std::string body;
+
+  std::string field(const std::string& name) const {
+    const auto found = fields.find(name);
+    return found == fields.end() ? "" : found->second;
+  }
+};
+
+// One connection to 127.0.0.1. Blocking; every call throws after 20 s without an answer.
+class HttpClient {
+ public:
+  explicit HttpClient(std::uint16_t port);
+  ~HttpClient();
+  HttpClient(const HttpClient&) = delete;
+  HttpClient& operator=(const HttpClient&) = delete;
+
+  void send(std::string_view bytes);
+  HttpAnswer receive(bool with_body = true);
+  // A request with a Host and `fields` ("Name: value\r\n"...).
+  HttpAnswer get(const std::string& target, const std::string& fields = "",
+                 const std::string& method = "GET");
+  bool is_closed();  // waits until the peer sends something or closes
+
+  std::string read_exactly(std::size_t count);
+
+ private:
+  bool fill();  // false at the end
+
+  int socket_;
+  std::string buffer_;
+};
+
+// A new connection for one request.
+HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::string& fields = "",
+                    const std::string& method = "GET");
+
+struct WebSocketFrame {
+  enum Kind { kText = 1, kBinary = 2, kClose = 8, kPing = 9 } kind;
+  std::string payload;
+
+  int close_code() const {  // of kClose
+    return (static_cast<unsigned char>(payload.at(0)) << 8) |
+           static_cast<unsigned char>(payload.at(1));
+  }
+};
+
+class WebSocketClient {
+ public:
+  // Throws unless the answer is 101 with the subprotocol.
+  WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocol);
+
+  void send_text(std::string_view text) { send(0x81, text); }
+  void send_binary(std::string_view bytes) { send(0x82, bytes); }
+  WebSocketFrame receive();
+  void send_close() { send(0x88, std::string_view("\x03\xe8", 2)); }
+
+ private:
+  void send(std::uint8_t first, std::string_view payload);
+
+  HttpClient client_;
+};
+
+}  // namespace vitrine::test
