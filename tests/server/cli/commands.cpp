@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(VitrineCommand, build_reports_what_it_read_and_wrote) {
+  const std::string in = write("in.ply", bumpy_ply(3'000));
+  const json report = vitrine_json({"build", in, "-o", path("out.pmesh"), "--bits", "12"});
+  EXPECT_EQ(report["input"]["faces"], 2'888);
+  EXPECT_EQ(report["input"]["vertices"], 1'444);
+  EXPECT_EQ(report["input"]["boundary_edges"], 0);
+  EXPECT_EQ(report["input"]["components"], 1);
+  EXPECT_EQ(report["input"]["repairs"], json::array());
+  EXPECT_EQ(report["bits"], 12);
+  const json& bytes = report["bytes"];
+  EXPECT_EQ(bytes["total"], std::filesystem::file_size(path("out.pmesh")));
+  EXPECT_EQ(bytes["total"].get<int>(),
+            bytes["header"].get<int>() + bytes["base"].get<int>() + bytes["layers"].get<int>());
+  EXPECT_NEAR(report["bits_per_vertex"].get<double>(), bytes["total"].get<int>() * 8 / 1'444.0,
+              1e-6);
+  for (const char* stage : {"read", "simplify", "encode", "write"}) {
+    EXPECT_GE(report["seconds"][stage].get<double>(), 0) << stage;
+  }
+  EXPECT_GT(report["peak_rss_bytes"].get<std::uint64_t>(), 1'000'000u);
+  EXPECT_EQ(report["levels"].back()["faces"], 2'888);
+  EXPECT_EQ(report["levels"].back()["cumulative_bytes"], bytes["total"]);
+}
+
+TEST_F(VitrineCommand, info_prints_the_levels_that_build_printed) {
+  const std::string in = write("in.ply", bumpy_ply(2'000));
+  const json built = vitrine_json({"build", in, "-o", path("out.pmesh")});
+  const json info = vitrine_json({"info", path("out.pmesh")});
+  EXPECT_EQ(info["levels"], built["levels"]);
+  EXPECT_EQ(info["bytes"], built["bytes"]);
+  EXPECT_EQ(info["bits"], built["bits"]);
+}
+
+TEST_F(VitrineCommand, counts_and_bytes_rise_with_the_levels) {
+  const json levels = vitrine_json({"info", model()})["levels"];
+  ASSERT_GE(levels.size(), 3u);
+  for (std::size_t l = 1; l < levels.size(); ++l) {
+    for (const char* key : {"faces", "vertices", "cumulative_bytes"}) {
+      EXPECT_GT(levels[l][key], levels[l - 1][key]);
+    }
+  }
+}
+
+TEST_F(VitrineCommand, verify_proves_lossless_only_against_the_input) {
+  const std::string file = model();
+  EXPECT_EQ(vitrine_json({"verify", file})["lossless"], nullptr);
+  const json report = vitrine_json({"verify", file, "--against", path("model.ply")});
+  EXPECT_EQ(report["ok"], true);
+  EXPECT_EQ(report["lossless"], true);
+  EXPECT_EQ(report["faces"], 2'888);
+}
+
+TEST_F(VitrineCommand, open_and_coloured_models_are_lossless_with_both_placements) {
+  const std::string in = write("in.ply", bumpy_ply(2'500, true, true));
+  for (const char* placement : {"midpoint", "pyramid"}) {
+    for (const char* bits : {"10", "16"}) {
+      vitrine_json(
+          {"build", in, "-o", path("out.pmesh"), "--placement", placement, "--bits", bits});
+      EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in})["lossless"], true)
+          << placement << ' ' << bits;
+    }
+  }
+}
+
+TEST_F(VitrineCommand, a_model_with_regions_is_verified_in_several_orders) {
+  const std::string file = model(40'000);
+  const json report = vitrine_json({"verify", file, "--against", path("model.ply")});
+  EXPECT_EQ(report["lossless"], true);
+  EXPECT_GT(vitrine_json({"info", file})["regions"], 1);
+  EXPECT_GT(report["orders"], 1);
+}
+
+TEST_F(VitrineCommand, verify_tells_a_moved_vertex_and_lost_colours_from_the_input) {
+  const std::string file = model();
+  std::string text = read("model.ply");
+  text[text.find("end_header\n") + 11] = '3';  // the first coordinate was 4.…
+  const ProgramResult moved =
+      vitrine({"verify", file, "--against", write("moved.ply", text), "--json"});
+  expect_fault(moved, 1);
+  EXPECT_EQ(json::parse(moved.output)["ok"], false);
+  EXPECT_EQ(json::parse(moved.output)["lossless"], false);
+  const std::string coloured = write("coloured.ply", bumpy_ply(3'000, false, true));
+  expect_fault(vitrine({"verify", file, "--against", coloured}), 1);
+}
+
+TEST_F(VitrineCommand, verify_tells_a_missing_face_from_the_input) {
+  const std::string file = model(3'000, true);
+  std::string text = read("model.ply");
+  text.erase(text.rfind("3 ", text.size() - 3));
+  const std::string count = "element face 2812";
+  text.replace(text.find(count), count.size(), "element face 2811");
+  expect_fault(vitrine({"verify", file, "--against", write("other.ply", text)}), 1);
+}
+
+TEST_F(VitrineCommand, decode_gives_each_level_as_the_table_says) {
+  const std::string file = model();
+  const json levels = vitrine_json({"info", file})["levels"];
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    const json report =
+        vitrine_json({"decode", file, "-o", path("out.ply"), "--level", std::to_string(l)});
+    EXPECT_EQ(report["faces"], levels[l]["faces"]);
+    EXPECT_EQ(report["vertices"], levels[l]["vertices"]);
+    EXPECT_EQ(report["bytes"], levels[l]["cumulative_bytes"]);
+  }
+}
+
+TEST_F(VitrineCommand, decode_gives_the_finest_level_when_nothing_is_asked) {
+  EXPECT_EQ(vitrine_json({"decode", model(), "-o", path("out.ply")})["faces"], 2'888);
+}
+
+TEST_F(VitrineCommand, decode_meets_a_number_of_triangles) {
+  const std::string file = model();
+  for (const int wanted : {1'000, 1'234, 2'500}) {
+    const json report = vitrine_json(
+        {"decode", file, "-o", path("out.ply"), "--triangles", std::to_string(wanted)});
+    EXPECT_LE(report["faces"].get<int>(), wanted);
+    EXPECT_GE(report["faces"].get<int>(), wanted * 0.9);
+  }
+}
+
+TEST_F(VitrineCommand, decode_meets_bytes_and_error) {
+  const std::string file = model();
+  const json levels = vitrine_json({"info", file})["levels"];
+  const int budget = levels[2]["cumulative_bytes"].get<int>() - 1;
+  const json by_bytes =
+      vitrine_json({"decode", file, "-o", path("out.ply"), "--bytes", std::to_string(budget)});
+  EXPECT_LE(by_bytes["bytes"].get<int>(), budget);
+  EXPECT_GE(by_bytes["bytes"], levels[1]["cumulative_bytes"]);
+  const std::string error = levels[1]["max_error"].dump();
+  const json by_error = vitrine_json({"decode", file, "-o", path("out.ply"), "--error", error});
+  EXPECT_LE(by_error["faces"], levels[1]["faces"]);
+}
+
+TEST_F(VitrineCommand, a_want_that_no_level_meets_is_refused) {
+  const std::string file = model();
+  const std::vector<std::vector<std::string>> wants = {
+      {"--level", "99"}, {"--triangles", "3"}, {"--bytes", "10"}, {"--error", "0"}};
+  for (auto words : wants) {
+    words.insert(words.begin(), {"decode", file, "-o", path("out.ply")});
+    expect_fault(vitrine(words), 1);
+    EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+  }
+}
+
+TEST_F(VitrineCommand, the_error_of_the_table_bounds_what_measure_finds) {
+  const std::string file = model();
+  const json levels = vitrine_json({"info", file})["levels"];
+  vitrine_json({"decode", file, "-o", path("out.ply"), "--level", "1"});
+  const json measured =
+      vitrine_json({"measure", path("out.ply"), path("model.ply"), "--samples", "20000"});
+  EXPECT_LE(measured["max"].get<double>(), levels[1]["max_error"].get<double>());
+  EXPECT_GT(measured["max"].get<double>(), 0);
+}
+
+TEST_F(VitrineCommand, measure_reads_models_and_meshes) {
+  const std::string file = model();
+  const json measured = vitrine_json({"measure", file, path("model.ply"), "--samples", "5000"});
+  EXPECT_LT(measured["rms_percent"].get<double>(), 0.2);
+  EXPECT_GE(measured["max_percent"].get<double>(), measured["rms_percent"].get<double>());
+  for (const char* side : {"a_to_b", "b_to_a"}) {
+    for (const char* key : {"rms", "p95", "max"})
+      EXPECT_TRUE(measured[side][key].is_number());
+  }
+}
+
+TEST_F(VitrineCommand, repairs_are_listed) {
+  std::string text = bumpy_ply(500);
+  const std::size_t face = text.find("\n3 ", text.find("end_header")) + 1;
+  const std::string line = text.substr(face, text.find('\n', face) - face + 1);
+  const std::string count = "element face 450";
+  text.replace(text.find(count), count.size(), "element face 451");
+  const std::string in = write("in.ply", text + line);  // one face twice
+  const json report = vitrine_json({"build", in, "-o", path("out.pmesh")});
+  EXPECT_EQ(report["input"]["repairs"].size(), 1u) << report["input"]["repairs"];
+  EXPECT_EQ(report["input"]["faces"], 450);
+}
+
+TEST_F(VitrineCommand, help_and_version_go_to_stdout) {
+  for (const char* command : {"build", "info", "decode", "verify", "measure", "publish"}) {
+    const ProgramResult help = vitrine({command, "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.output.find("usage: vitrine " + std::string(command)), std::string::npos);
+    EXPECT_NE(vitrine({"--help"}).output.find(command), std::string::npos);
+  }
+  EXPECT_EQ(vitrine({"--version"}).output.rfind("vitrine ", 0), 0u);
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Damaged .pmesh files end in one line, whatever is damaged.
+#include "codec/progressive/manifest.h"
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+std::vector<std::uint8_t> to_bytes(const std::string& text) {
+  return {text.begin(), text.end()};
+}
+
+char flipped(char byte, int bits) {
+  return static_cast<char>(byte ^ bits);
+}
+
+TEST_F(VitrineCommand, a_flipped_byte_in_a_chunk_is_found_and_placed) {
+  model();
+  std::string bytes = read("model.pmesh");
+  bytes[bytes.size() - 10] = flipped(bytes[bytes.size() - 10], 4);
+  const ProgramResult result = vitrine({"verify", write("bad.pmesh", bytes), "--json"});
+  expect_fault(result, 1);
+  EXPECT_EQ(nlohmann::json::parse(result.output)["ok"], false);
+  EXPECT_NE(result.errors.find("SHA-256"), std::string::npos);
+}
+
+TEST_F(VitrineCommand, a_prefix_still_decodes_to_a_coarser_level) {
+  model();
+  const auto levels = vitrine_json({"info", path("model.pmesh")})["levels"];
+  const std::string prefix = read("model.pmesh").substr(0, levels[1]["cumulative_bytes"]);
+  const std::string file = write("prefix.pmesh", prefix);
+  EXPECT_EQ(vitrine_json({"decode", file, "-o", path("out.ply"), "--level", "1"})["faces"],
+            levels[1]["faces"]);
+  expect_fault(vitrine({"decode", file, "-o", path("finest.ply")}), 1);
+  EXPECT_FALSE(std::filesystem::exists(path("finest.ply")));
+  expect_fault(vitrine({"verify", file}), 1);
+}
+
+TEST_F(VitrineCommand, every_way_to_cut_the_head_is_an_error) {
+  model(600);
+  const std::string bytes = read("model.pmesh");
+  const std::size_t head = parse_header(to_bytes(bytes))->head_bytes();
+  for (std::size_t length = 1; length < head; length += head / 23) {
+    expect_fault(vitrine({"verify", write("cut.pmesh", bytes.substr(0, length))}), 1);
+  }
+}
+
+// Draco gets to see the damage, because the SHA-256 is made to fit.
+TEST_F(VitrineCommand, a_hostile_base_mesh_is_an_error_or_a_mesh_but_never_a_crash) {
+  model(600);
+  const std::string bytes = read("model.pmesh");
+  Manifest manifest = parse_header(to_bytes(bytes)).value();
+  const std::uint64_t offset = manifest.base_offset, length = manifest.base_length;
+  for (std::uint64_t at = 0; at < length; at += length / 31 + 1) {
+    std::string rest = bytes.substr(offset);
+    rest[at] = flipped(rest[at], 0x55);
+    manifest.base_sha256 = sha256(to_bytes(rest.substr(0, length)));
+    const auto header = write_header(manifest);
+    const ProgramResult result =
+        vitrine({"verify", write("bad.pmesh", std::string(header.begin(), header.end()) + rest)});
+    if (result.exit_code != 0) expect_fault(result, 1);
+  }
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/installation.h"
+#include "server/store/published_model.h"
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+TEST_F(VitrineCommand, what_is_published_is_served_by_an_installation_that_is_open_already) {
+  const auto installation = open_installation(path("data")).value();
+  PublishedModels models(*installation.store, *installation.catalogue);
+  const std::string in = write("Bust of a girl.ply", bumpy_ply(2'000));
+  const nlohmann::json report = vitrine_json({"publish", in, "--data", path("data")});
+  EXPECT_EQ(report.size(), 2u);
+  EXPECT_EQ(report["url"], nullptr);
+  const auto id = ModelId::parse(report["id"].get<std::string>());
+  ASSERT_TRUE(id);
+  const auto model = models.find(*id).value();
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->record().title, "Bust of a girl");
+  EXPECT_EQ(model->record().faces, 1'922u);
+}
+
+TEST_F(VitrineCommand, a_pmesh_is_published_as_it_is) {
+  const std::string file = model(800);
+  const nlohmann::json report =
+      vitrine_json({"publish", file, "--data", path("data"), "--title", "Torus"});
+  const auto installation = open_installation(path("data")).value();
+  PublishedModels models(*installation.store, *installation.catalogue);
+  const auto found = models.find(*ModelId::parse(report["id"].get<std::string>())).value();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->record().title, "Torus");
+  const auto bytes = found->read(found->whole()).value();
+  EXPECT_EQ(std::string(bytes.begin(), bytes.end()), read("model.pmesh"));
+}
+
+TEST_F(VitrineCommand, a_damaged_pmesh_is_not_published) {
+  model(800);
+  const std::string cut = read("model.pmesh").substr(0, 2'000);
+  expect_fault(vitrine({"publish", write("bad.pmesh", cut), "--data", path("data")}), 1);
+  EXPECT_FALSE(std::filesystem::exists(path("data")));
+}
+
+TEST_F(VitrineCommand, a_remote_server_is_refused_with_the_way_round) {
+  const std::string in = write("in.ply", bumpy_ply(100));
+  const ProgramResult result =
+      vitrine({"publish", in, "--server", "http://127.0.0.1:1", "--token", "t"});
+  expect_fault(result, 1);
+  EXPECT_NE(result.errors.find("--data"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real binary, in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine::test {
+
+// A bumpy torus of about `faces` faces, closed or open, as an ascii PLY; coloured on request.
+std::string bumpy_ply(int faces, bool open = false, bool coloured = false);
+
+class VitrineCommand : public testing::Test {
+ protected:
+  const TemporaryFolder folder_;
+
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  std::string write(const std::string& name, const std::string& contents) const {
+    std::ofstream(path(name), std::ios::binary) << contents;
+    return path(name);
+  }
+  std::string read(const std::string& name) const {
+    std::ifstream in(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  static ProgramResult vitrine(std::vector<std::string> words) {
+    words.insert(words.begin(), VITRINE_BIN_DIR "/vitrine");
+    return run_program(words);
+  }
+  // The one JSON object that a command prints; nothing else may be printed.
+  static nlohmann::json vitrine_json(std::vector<std::string> words) {
+    words.push_back("--json");
+    const ProgramResult result = vitrine(words);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(result.errors, "");
+    return nlohmann::json::parse(result.output, nullptr, false);
+  }
+  // Builds model.pmesh from model.ply and returns its path.
+  std::string model(int faces = 3'000, bool open = false, bool coloured = false) {
+    const std::string in = write("model.ply", bumpy_ply(faces, open, coloured));
+    vitrine_json({"build", in, "-o", path("model.pmesh")});
+    return path("model.pmesh");
+  }
+};
+
+// One line, as "vitrine: …", and the exit code.
+inline void expect_fault(const ProgramResult& result, int exit_code) {
+  EXPECT_EQ(result.exit_code, exit_code) << result.errors;
+  EXPECT_EQ(result.errors.rfind("vitrine: ", 0), 0u) << result.errors;
+  EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+}
+
+}  // namespace vitrine::test

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each fault: one line with the cause and the next step, the right exit code, nothing half-written.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST_F(VitrineCommand, wrong_usage_is_exit_code_2) {
+  const std::vector<std::vector<std::string>> lines = {
+      {},
+      {"bild"},
+      {"build"},
+      {"build", "in.ply"},
+      {"build", "in.ply", "-o"},
+      {"build", "in.ply", "-o", "out.pmesh", "--bits", "9"},
+      {"build", "in.ply", "-o", "out.pmesh", "--bits", "17"},
+      {"build", "in.ply", "-o", "out.pmesh", "--placement", "centre"},
+      {"build", "in.ply", "-o", "out.pmesh", "--threads", "0"},
+      {"decode", "in.pmesh", "-o", "out.xyz"},
+      {"decode", "in.pmesh", "-o", "out.ply", "--level", "1", "--bytes", "5"},
+      {"decode", "in.pmesh", "-o", "out.ply", "--error", "-1"},
+      {"measure", "only-one.ply"},
+      {"measure", "a.ply", "b.ply", "--samples", "0"},
+      {"publish", "in.ply"}};
+  for (const auto& words : lines)
+    expect_fault(vitrine(words), 2);
+}
+
+TEST_F(VitrineCommand, a_mistyped_command_or_flag_is_answered_with_the_right_one) {
+  EXPECT_THAT(vitrine({"verfy", "x"}).errors, HasSubstr("did you mean verify?"));
+  EXPECT_THAT(vitrine({"info", "x", "--jsno"}).errors, HasSubstr("did you mean --json?"));
+}
+
+TEST_F(VitrineCommand, a_missing_file_is_named) {
+  for (const std::string command : {"build", "info", "decode", "verify", "publish"}) {
+    std::vector<std::string> words = {command, path("absent.ply")};
+    if (command == "build" || command == "decode") words.insert(words.end(), {"-o", path("o.ply")});
+    if (command == "publish") words.insert(words.end(), {"--data", path("data")});
+    const ProgramResult result = vitrine(words);
+    expect_fault(result, 1);
+    EXPECT_THAT(result.errors, HasSubstr("absent.ply: No such file or directory; check its name"));
+  }
+  EXPECT_THAT(files(), ElementsAre());
+}
+
+TEST_F(VitrineCommand, inputs_that_are_no_mesh_are_refused_and_nothing_is_written) {
+  const std::vector<std::pair<std::string, std::string>> inputs = {
+      {"empty.ply", ""},
+      {"text.ply", "Dear Sir or Madam,\nplease find attached no mesh at all.\n"},
+      {"cut.ply", bumpy_ply(500).substr(0, 3'000)},
+      {"huge.ply",
+       "ply\nformat binary_little_endian 1.0\nelement vertex 10737418240\nproperty float x\n"
+       "property float y\nproperty float z\nelement face 10737418240\n"
+       "property list uchar int vertex_indices\nend_header\n0123456789"},
+      {"huge.stl", std::string(80, ' ') + "\xFF\xFF\xFF\xFF" + std::string(50, '\0')}};
+  for (const auto& [name, contents] : inputs) {
+    const std::string in = write(name, contents);
+    const ProgramResult built = vitrine({"build", in, "-o", path("out.pmesh")});
+    expect_fault(built, 1);
+    EXPECT_THAT(built.errors, HasSubstr(name));
+    expect_fault(vitrine({"publish", in, "--data", path("data")}), 1);
+    expect_fault(vitrine({"measure", in, in}), 1);
+    expect_fault(vitrine({"info", in}), 1);
+    std::filesystem::remove(in);
+  }
+  EXPECT_THAT(files(), ElementsAre());
+}
+
+TEST_F(VitrineCommand, a_folder_is_no_input) {
+  expect_fault(vitrine({"info", folder_.path().string()}), 1);
+}
+
+TEST_F(VitrineCommand, a_missing_output_folder_is_named) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  const ProgramResult result = vitrine({"build", in, "-o", path("absent/out.pmesh")});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("create the folder"));
+}
+
+TEST_F(VitrineCommand, a_full_stdout_is_an_error) {
+  const ProgramResult result = run_program(
+      {"sh", "-c", "\"$0\" info \"$1\" > /dev/full", VITRINE_BIN_DIR "/vitrine", model(500)});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("No space left on device"));
+}
+
+// Runs the command with `out` on a small disk of its own, in a private mount namespace: `prepare`
+// runs first, and the names of the files left there are added to the output.
+ProgramResult run_on_small_disk(const std::string& prepare, const std::string& out,
+                                const std::vector<std::string>& words) {
+  std::vector<std::string> line = {"unshare"};
+  if (::geteuid() != 0) line.push_back("--map-root-user");
+  const std::string script = "out=$1; shift; mount -t tmpfs -o size=1m tmpfs \"$out\" && " +
+                             prepare + " && { \"$@\"; code=$?; ls -A \"$out\"; exit $code; }";
+  line.insert(line.end(), {"--mount", "sh", "-c", script, "sh", out, VITRINE_BIN_DIR "/vitrine"});
+  line.insert(line.end(), words.begin(), words.end());
+  return run_program(line);
+}
+
+TEST_F(VitrineCommand, a_full_disk_is_an_error_and_leaves_no_part_of_a_file) {
+  const std::string in = write("in.ply", bumpy_ply(20'000));
+  std::filesystem::create_directory(path("out"));
+  const ProgramResult result =
+      run_on_small_disk("head -c 1040000 /dev/zero > \"$out/filler\"", path("out"),
+                        {"build", in, "-o", path("out/model.pmesh")});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("No space left on device; free some space"));
+  EXPECT_EQ(result.output, "filler\n");
+}
+
+TEST_F(VitrineCommand, a_read_only_folder_is_an_error) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  std::filesystem::create_directory(path("out"));
+  for (const std::string command : {"build", "publish"}) {
+    const ProgramResult result =
+        run_on_small_disk("mount -o remount,ro \"$out\"", path("out"),
+                          {command, in, command == "build" ? "-o" : "--data", path("out/model")});
+    expect_fault(result, 1);
+    EXPECT_THAT(result.errors, HasSubstr("Read-only file system"));
+    EXPECT_EQ(result.output, "");
+  }
+}
+
+TEST_F(VitrineCommand, an_older_output_survives_a_failure) {
+  const std::string out = write("out.pmesh", "precious");
+  expect_fault(vitrine({"build", write("in.ply", "ply\n"), "-o", out}), 1);
+  EXPECT_EQ(read("out.pmesh"), "precious");
+}
+
+}  // namespace
+}  // namespace vitrine::test

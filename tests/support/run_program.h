@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs a program as a user would and keeps what it printed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vitrine::test {
+
+struct ProgramResult {
+  int exit_code = -1;  // -1 where a signal ended it
+  std::string output;  // stdout
+  std::string errors;  // stderr
+};
+
+// `words` are the program and its arguments; stdin is empty.
+ProgramResult run_program(const std::vector<std::string>& words);
+
+}  // namespace vitrine::test
