@@ -48,8 +48,8 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-json describe(const BuildReport& report) {
-  const Manifest& m = report.manifest;
+// `m` is the header as a reader of the file sees it.
+json describe(const BuildReport& report, const Manifest& m) {
   const auto& [read, simplify, encode, write] = report.seconds;
   return {
       {"input",
@@ -87,7 +87,9 @@ Outcome build(const Arguments& arguments) {
   auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
     auto result = build_model(file->bytes(), *options, progress);
     if (!result) return tl::unexpected(result.error());
-    return Product{describe(result->report), std::move(result->file)};
+    const auto manifest = parse_header(result->file);
+    if (!manifest) return tl::unexpected(manifest.error());
+    return Product{describe(result->report, *manifest), std::move(result->file)};
   });
   if (!product) return tl::unexpected(product.error());
   const auto start = Clock::now();

@@ -70,7 +70,7 @@ TEST_F(VitrineCommand, open_and_coloured_models_are_lossless_with_both_placement
 }
 
 TEST_F(VitrineCommand, a_model_with_regions_is_verified_in_several_orders) {
-  const std::string file = model(40'000);
+  const std::string file = model(130'000);
   const json report = vitrine_json({"verify", file, "--against", path("model.ply")});
   EXPECT_EQ(report["lossless"], true);
   EXPECT_GT(vitrine_json({"info", file})["regions"], 1);
