@@ -4,8 +4,6 @@ import { readAll, unreachable, type ByteRange, type Source } from "./source.ts";
 import { ModelError } from "./types.ts";
 
 export class ApiSource implements Source {
-  readonly #life = new AbortController();
-
   /** `api` is the address of /api/v1 without a slash at its end. */
   constructor(
     private readonly api: string,
@@ -23,26 +21,14 @@ export class ApiSource implements Source {
     throw new ModelError(`a part of the model has ${bytes.length} bytes instead of ${range.length}`);
   }
 
-  close(): void {
-    this.#life.abort();
-  }
+  /** Every request ends by its own signal. */
+  close(): void {}
 
   async #get(url: string, what: string, signal: AbortSignal): Promise<Uint8Array> {
-    const either = anySignal(signal, this.#life.signal);
     try {
-      return await readAll(await fetch(url, { signal: either }), what);
+      return await readAll(await fetch(url, { signal }), what);
     } catch (error) {
       throw unreachable(error, what);
     }
   }
-}
-
-/** Aborts as soon as one of the two does. */
-export function anySignal(a: AbortSignal, b: AbortSignal): AbortSignal {
-  const both = new AbortController();
-  for (const signal of [a, b]) {
-    if (signal.aborted) both.abort();
-    else signal.addEventListener("abort", () => both.abort(), { once: true, signal: both.signal });
-  }
-  return both.signal;
 }

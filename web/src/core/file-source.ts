@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A bare .pmesh on any static host. With Range each part is one request; a host that ignores Range
 // sends the whole file once, and its parts are taken as they arrive: a prefix is a coarser model.
-import { anySignal } from "./api-source.ts";
 import { refused, unreachable, type ByteRange, type Source } from "./source.ts";
 import { ModelError } from "./types.ts";
 
@@ -9,7 +8,7 @@ import { ModelError } from "./types.ts";
 const kHeadBytes = 32 * 1024;
 
 export class FileSource implements Source {
-  readonly #life = new AbortController();
+  readonly #life = new AbortController(); // of a download of the whole file
   #whole: Download | undefined;
 
   constructor(private readonly url: string) {}
@@ -25,7 +24,7 @@ export class FileSource implements Source {
   async getBytes({ offset, length }: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
     const bytes = this.#whole
       ? await this.#whole.slice(offset, offset + length, signal)
-      : await this.#range(offset, length, anySignal(signal, this.#life.signal));
+      : await this.#range(offset, length, signal);
     if (bytes.length === length) return bytes;
     throw new ModelError("the model file ends too early: upload it again");
   }
@@ -78,13 +77,12 @@ class Download {
 
   /** The bytes [begin, end) once they are here; fewer where the file ends before. */
   async slice(begin: number, end: number, signal: AbortSignal): Promise<Uint8Array> {
-    while (this.#size < end && !this.#ended) {
-      signal.throwIfAborted();
-      await new Promise<void>((resolve) => {
-        this.#wake.push(resolve);
-        signal.addEventListener("abort", () => resolve(), { once: true });
-      });
+    const wake = () => this.#notify();
+    signal.addEventListener("abort", wake);
+    while (this.#size < end && !this.#ended && !signal.aborted) {
+      await new Promise<void>((resolve) => this.#wake.push(resolve));
     }
+    signal.removeEventListener("abort", wake);
     signal.throwIfAborted();
     if (this.#size < end && this.#failure) throw this.#failure;
     return this.#bytes.slice(begin, Math.min(end, this.#size));

@@ -24,7 +24,7 @@ export interface Source {
 /** The source for the URL of a .pmesh file, of a model page or of an API model. */
 export function openSource(url: string): Source {
   const address = new URL(url);
-  const model = /^(.*)\/(?:api\/v1\/)?models\/([^/]+)\/?$/.exec(address.pathname);
+  const model = /^(.*?)\/(?:api\/v1\/)?models\/([^/]+)\/?$/.exec(address.pathname);
   if (!model) return new FileSource(url);
   return new ApiSource(`${address.origin}${model[1]}/api/v1`, model[2] ?? "");
 }

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+import { DamagedError } from "@core/decoder.ts";
+import { Session } from "@core/session.ts";
+import { ModelError } from "@core/types.ts";
+import { ControlledSource, FakeDecoder, RecordingSink, fakeInfo, kHeader, settle } from "../support/fake_model.ts";
+
+const base = { positions: new Int32Array(), faces: new Uint32Array(), colours: undefined };
+
+function setUp(chunks: number, headBytes?: number) {
+  const source = new ControlledSource(headBytes);
+  const decoder = new FakeDecoder(fakeInfo(chunks));
+  const sink = new RecordingSink();
+  const session = new Session(source, decoder, async () => base, sink);
+  return { source, decoder, sink, session };
+}
+
+async function opened(chunks: number) {
+  const parts = setUp(chunks);
+  await parts.session.open();
+  return parts;
+}
+
+describe("Session", () => {
+  test("shows the base mesh and requests no layer by itself", async () => {
+    const { source, sink } = await opened(5);
+    await settle();
+    expect(sink.triangles).toEqual([100]);
+    expect(source.requests).toEqual([]);
+  });
+
+  test("fetches the rest of a head that does not fit the first request", async () => {
+    const { source, session, decoder } = setUp(1, kHeader);
+    const open = session.open();
+    await settle();
+    expect(source.requests.map(({ range }) => range)).toEqual([{ offset: kHeader, length: 8 }]);
+    source.requests[0]?.answer(new Uint8Array(8));
+    await open;
+    expect(decoder.starts).toBe(1);
+  });
+
+  test("applies chunks in the planner's order whatever order they arrive in", async () => {
+    const { source, decoder, session } = await opened(3);
+    const done = session.refine({ level: 3 });
+    await settle();
+    for (const chunk of [2, 1]) source.answer(chunk);
+    await settle();
+    expect(decoder.applied).toEqual([]);
+    source.answer(0);
+    expect(await done).toBe(true);
+    expect(decoder.applied).toEqual([0, 1, 2]);
+  });
+
+  test("keeps a window of requests under way and no more", async () => {
+    const { source, session } = await opened(20);
+    void session.refine({ level: 20 });
+    await settle();
+    expect(source.asked).toEqual([0, 1, 2, 3, 4, 5]);
+    source.answer(0);
+    await settle();
+    expect(source.asked).toEqual([0, 1, 2, 3, 4, 5, 6]);
+  });
+
+  test("gives up a want when another comes, and the requests that only it needed", async () => {
+    const { source, decoder, session } = await opened(4);
+    const first = session.refine({ level: 4 });
+    await settle();
+    const second = session.refine({ level: 2 });
+    await settle();
+    expect(source.find(0).signal.aborted).toBe(false);
+    expect(source.find(3).signal.aborted).toBe(true);
+    source.answer(0);
+    source.answer(1);
+    expect(await first).toBe(false);
+    expect(await second).toBe(true);
+    expect(decoder.applied).toEqual([0, 1]);
+  });
+
+  test("asks again for a chunk whose request it had given up", async () => {
+    const { source, decoder, session } = await opened(2);
+    void session.refine({ level: 2 });
+    await settle();
+    void session.refine({ level: 0 });
+    const third = session.refine({ level: 1 });
+    await settle();
+    source.answer(0);
+    expect(await third).toBe(true);
+    expect(decoder.applied).toEqual([0]);
+    expect(source.asked).toEqual([0, 1, 0]);
+  });
+
+  test("goes back to a coarser state and forth again without fetching twice", async () => {
+    const { source, decoder, session, sink } = await opened(3);
+    const fine = session.refine({ level: 3 });
+    await settle();
+    for (const chunk of [0, 1, 2]) source.answer(chunk);
+    await fine;
+    expect(await session.refine({ level: 1 })).toBe(true);
+    expect(decoder.applied).toEqual([0]);
+    expect(sink.triangles.at(-1)).toBe(200);
+    expect(await session.refine({ level: 3 })).toBe(true);
+    expect(source.asked).toEqual([0, 1, 2]);
+    expect(sink.triangles.at(-1)).toBe(400);
+  });
+
+  test("sends the next surface only when the last is on display, and then the newest", async () => {
+    const { source, session, sink } = await opened(4);
+    sink.hold = true;
+    const done = session.refine({ level: 4 });
+    await settle();
+    for (const chunk of [0, 1, 2, 3]) source.answer(chunk);
+    await settle();
+    expect(sink.triangles).toEqual([100, 200]);
+    sink.hold = false;
+    sink.release();
+    expect(await done).toBe(true);
+    expect(sink.triangles).toEqual([100, 200, 500]);
+  });
+
+  test("fetches a damaged chunk once more", async () => {
+    const { source, decoder, session } = await opened(1);
+    decoder.damaged = [{ chunk: 0, error: new DamagedError("flipped") }];
+    const done = session.refine({ level: 1 });
+    await settle();
+    source.answer(0);
+    await settle();
+    expect(source.asked).toEqual([0, 0]);
+    source.answer(0);
+    expect(await done).toBe(true);
+  });
+
+  test("names a chunk that stays damaged and keeps what it has", async () => {
+    const { source, decoder, session, sink } = await opened(2);
+    decoder.damaged = [1, 2].map(() => ({ chunk: 1, error: new DamagedError("level 2 is damaged") }));
+    const done = session.refine({ level: 2 });
+    const failure = expect(done).rejects.toThrow("level 2 is damaged");
+    await settle();
+    source.answer(0);
+    source.answer(1);
+    await settle();
+    source.answer(1);
+    await failure;
+    expect(sink.triangles.at(-1)).toBe(200);
+  });
+
+  test("does not feed the decoder again after it has refused a chunk's content", async () => {
+    const { source, decoder, session } = await opened(1);
+    decoder.damaged = [{ chunk: 0, error: new ModelError("impossible split") }];
+    const failure = expect(session.refine({ level: 1 })).rejects.toThrow("impossible split");
+    await settle();
+    source.answer(0);
+    await failure;
+    expect(source.asked).toEqual([0]);
+  });
+
+  test("tries a lost request once more", async () => {
+    const { source, session } = await opened(1);
+    const done = session.refine({ level: 1 });
+    await settle();
+    source.find(0).fail(new ModelError("the connection broke"));
+    await settle();
+    source.answer(0);
+    expect(await done).toBe(true);
+  });
+
+  test("ends its requests and closes its source", async () => {
+    const { source, session } = await opened(2);
+    const done = session.refine({ level: 2 });
+    await settle();
+    session.close();
+    expect(source.closed).toBe(true);
+    expect(source.find(0).signal.aborted).toBe(true);
+    expect(await done).toBe(false);
+  });
+});

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// A model whose decoder only keeps account, and a source whose answers the test gives one by one:
+// every interleaving can be played without a clock.
+import type { ModelDecoder, Sink } from "@core/session.ts";
+import type { ByteRange, Source } from "@core/source.ts";
+import type { ModelInfo, Surface, Want } from "@core/types.ts";
+
+export const kHeader = 16, kBase = 8, kChunk = 10;
+
+/** `chunks` layers of one region, kChunk bytes each; level i has 100 (i + 1) faces. */
+export function fakeInfo(chunks: number): ModelInfo {
+  const head = kHeader + kBase;
+  return {
+    levels: Array.from({ length: chunks + 1 }, (_, i) => ({
+      vertices: 50 * (i + 1), faces: 100 * (i + 1), maxError: chunks - i, rmsError: 0, cumulativeBytes: head + kChunk * i,
+    })),
+    chunks: Array.from({ length: chunks }, (_, i) => ({
+      level: i + 1, region: 0, offset: head + kChunk * i, length: kChunk, sha256: `${i}`,
+    })),
+    baseOffset: kHeader, baseLength: kBase, fileBytes: head + kChunk * chunks,
+    coloured: false, bits: 12, step: 1, unit: "mm", centre: [0, 0, 0],
+  };
+}
+
+export class FakeDecoder implements ModelDecoder {
+  applied: number[] = [];
+  starts = 0;
+  /** Chunks whose bytes count as damaged: thrown once for each entry. */
+  damaged: { chunk: number; error: Error }[] = [];
+  #goal = 0;
+  #requested = 0;
+
+  constructor(readonly info: ModelInfo) {}
+
+  headerLength = () => kHeader;
+  open = () => this.info;
+  checkBase = () => undefined;
+  start = () => void ++this.starts;
+  trim = () => undefined;
+
+  want(want: Want): boolean {
+    this.#goal = "level" in want ? want.level : 0;
+    const back = this.applied.length > this.#goal;
+    if (back) this.applied = [];
+    this.#requested = this.applied.length;
+    return back;
+  }
+
+  nextChunk(): number | undefined {
+    return this.#requested < this.#goal ? this.#requested++ : undefined;
+  }
+
+  apply(chunk: number, bytes: Uint8Array): void {
+    const fault = this.damaged.findIndex((entry) => entry.chunk === chunk);
+    if (fault >= 0) throw (this.damaged.splice(fault, 1)[0] as { error: Error }).error;
+    if (chunk !== this.applied.length) throw new Error(`chunk ${chunk} came out of order`);
+    if (bytes[0] !== chunk) throw new Error(`chunk ${chunk} has the bytes of ${bytes[0]}`);
+    this.applied.push(chunk);
+  }
+
+  get bytesHeld(): number {
+    return kHeader + kBase + kChunk * this.applied.length;
+  }
+
+  surface(): Surface {
+    return {
+      triangles: 100 * (this.applied.length + 1), vertices: 0, bytes: this.bytesHeld,
+      positions: new Float32Array(), normals: new Int16Array(), colours: undefined, indices: new Uint32Array(),
+    };
+  }
+
+  latticeSurface = () => ({ positions: new Int32Array(), faces: new Uint32Array(), colours: undefined });
+}
+
+/** A request that waits for the test. */
+export interface Request {
+  range: ByteRange;
+  signal: AbortSignal;
+  answer(bytes: Uint8Array): void;
+  fail(error: Error): void;
+}
+
+export class ControlledSource implements Source {
+  readonly requests: Request[] = [];
+  closed = false;
+
+  constructor(private readonly headBytes = kHeader + kBase) {}
+
+  head(): Promise<Uint8Array> {
+    return Promise.resolve(new Uint8Array(this.headBytes));
+  }
+
+  getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
+    return new Promise((resolve, reject) => {
+      signal.addEventListener("abort", () => reject(signal.reason as Error));
+      this.requests.push({ range, signal, answer: resolve, fail: reject });
+    });
+  }
+
+  close(): void {
+    this.closed = true;
+  }
+
+  /** Answers the newest request for a chunk. */
+  answer(chunk: number): void {
+    this.find(chunk).answer(new Uint8Array(kChunk).fill(chunk));
+  }
+
+  find(chunk: number): Request {
+    const found = this.requests.findLast(({ range }) => range.sha256 === `${chunk}`);
+    if (!found) throw new Error(`chunk ${chunk} was not requested`);
+    return found;
+  }
+
+  get asked(): number[] {
+    return this.requests.map(({ range }) => Number(range.sha256));
+  }
+}
+
+/** Keeps what is shown. With `hold`, a surface counts as displayed when the test releases it. */
+export class RecordingSink implements Sink {
+  readonly triangles: number[] = [];
+  hold = false;
+  #release: (() => void) | undefined;
+
+  opened = () => undefined;
+  progress = () => undefined;
+
+  show(surface: Surface): Promise<void> {
+    this.triangles.push(surface.triangles);
+    return this.hold ? new Promise((resolve) => (this.#release = resolve)) : Promise.resolve();
+  }
+
+  release(): void {
+    this.#release?.();
+  }
+}
+
+/** Lets everything run that waits for nothing but its turn. */
+export async function settle(): Promise<void> {
+  for (let i = 0; i < 30; ++i) await new Promise((resolve) => setImmediate(resolve));
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tests lie in tests/web, beside those of the other folders.
+import { fileURLToPath } from "node:url";
+import { defineConfig } from "vitest/config";
+
+const path = (relative: string) => fileURLToPath(new URL(relative, import.meta.url));
+
+export default defineConfig({
+  root: path("../tests/web"),
+  cacheDir: path("node_modules/.vite"),
+  resolve: { alias: { "@core": path("src/core"), "@three": path("src/three"), three: path("node_modules/three") } },
+  test: { globals: true, include: ["**/*.test.ts"] },
+});
