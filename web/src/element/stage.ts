@@ -10,7 +10,7 @@ import type { Assets } from "../core/messages.ts";
 
 const kFieldOfView = 35;
 /** Where the camera stands at first, seen from the model's centre. */
-const kViewpoint = new Vector3(0.35, 0.25, 1).normalize();
+const kViewpoint = new Vector3(0.35, 0.15, 1).normalize();
 
 export class Stage {
   readonly mesh: ProgressiveMesh;
@@ -28,7 +28,8 @@ export class Stage {
 
   /** Throws where WebGL is missing. */
   constructor(canvas: HTMLCanvasElement, url: string, assets: Assets) {
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    // What is drawn once must stay, for print and screenshots too.
+    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.addEventListener("change", () => {
@@ -62,7 +63,7 @@ export class Stage {
   frame(): void {
     const radius = this.mesh.geometry.boundingSphere?.radius ?? 1;
     const half = Math.atan(Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, this.#camera.aspect));
-    const distance = (radius * 0.95) / Math.sin(half);
+    const distance = (radius * 0.85) / Math.sin(half);
     this.#camera.near = radius / 100;
     this.#camera.far = distance + 20 * radius;
     this.#camera.position.copy(kViewpoint).multiplyScalar(distance);

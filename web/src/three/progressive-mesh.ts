@@ -101,7 +101,7 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
 
   /** The base mesh's box bounds all levels, but for what refinement adds: some slack. */
   #bound(surface: Surface): void {
-    if (this.geometry.boundingSphere) return;
+    if (!this.#base) return;
     const box = new Box3().setFromArray(surface.positions);
     const centre = box.getCenter(new Vector3());
     this.geometry.boundingBox = box;

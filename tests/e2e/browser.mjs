@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Debian's Chromium, and what a test wants to know of a viewer page.
+import { createRequire } from "node:module";
+
+const require = createRequire(new URL("../../web/package.json", import.meta.url));
+const { chromium } = require("playwright-core");
+
+export function launch() {
+  return chromium.launch({
+    executablePath: process.env.VITRINE_CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
+           "--disable-component-update", "--disable-sync"],
+  });
+}
+
+const kEvents = ["first-paint", "refine", "progress", "load", "error", "camera-change"];
+
+/** A page with one <progressive-mesh>, its events, requests and complaints. */
+export class ViewerPage {
+  static async open(browser, url, { colorScheme = "light", width = 1100, height = 760 } = {}) {
+    const context = await browser.newContext({ viewport: { width, height }, colorScheme });
+    const viewer = new ViewerPage(await context.newPage());
+    await viewer.#listen();
+    await viewer.page.goto(url, { waitUntil: "commit" });
+    return viewer;
+  }
+
+  errors = [];
+  held = [];
+  holding = true;
+  finishedChunks = 0;
+
+  constructor(page) {
+    this.page = page;
+  }
+
+  /** Lets the requests for enhancement layers go, those held so far and all later ones. */
+  async releaseLayers() {
+    this.holding = false;
+    await Promise.all(this.held.splice(0).map((route) => route.continue()));
+  }
+
+  /** Waits until `type` has been fired `count` times since the page began; returns all details. */
+  async events(type, count = 1) {
+    await this.page.waitForFunction(([name, n]) => window.seen.filter((event) => event.type === name).length >= n,
+      [type, count], { timeout: 60_000 });
+    return (await this.seen()).filter((event) => event.type === type);
+  }
+
+  seen() {
+    return this.page.evaluate(() => window.seen);
+  }
+
+  /** Does `action` and waits for the state it leads to. */
+  async settled(action) {
+    const before = (await this.seen()).filter(({ type }) => type === "load").length;
+    await action();
+    await this.events("load", before + 1);
+  }
+
+  slide(fraction) {
+    return this.settled(() => this.page.locator("input[name=detail]").evaluate((slider, value) => {
+      slider.value = String(value);
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+    }, Math.round(1000 * fraction)));
+  }
+
+  async triangles() {
+    const shown = (await this.seen()).filter(({ type }) => type === "refine");
+    return shown.at(-1).detail.triangles;
+  }
+
+  /** What stands in the panel. */
+  async counts() {
+    return this.page.locator("output .triangles").textContent();
+  }
+
+  /** The picture without its controls. */
+  async picture(path) {
+    await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    return this.page.locator("progressive-mesh").screenshot(path ? { path } : {});
+  }
+
+  async #listen() {
+    const { page } = this;
+    page.on("pageerror", (error) => this.errors.push(String(error)));
+    page.on("console", (message) => message.type() === "error" && this.errors.push(message.text()));
+    page.on("requestfinished", (request) => request.url().includes("/chunks/") && ++this.finishedChunks);
+    await page.context().route("**/api/v1/chunks/*", (route) => (this.holding ? void this.held.push(route) : route.continue()));
+    await page.addInitScript((types) => {
+      window.seen = [];
+      for (const type of types) {
+        const keep = (event) => event.target.localName === "progressive-mesh" && window.seen.push({ type, detail: event.detail });
+        document.addEventListener(type, keep, true);
+      }
+    }, kEvents);
+  }
+}

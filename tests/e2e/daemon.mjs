@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shipped binaries with a data folder of their own, for the time of a test.
+import { execFile, spawn } from "node:child_process";
+import { once } from "node:events";
+import { watch } from "node:fs";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+
+const run = promisify(execFile);
+
+export class Daemon {
+  static async start(bin) {
+    const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
+    const portFile = join(folder, "port");
+    const appeared = watched(folder, portFile);
+    const data = join(folder, "data");
+    const child = spawn(
+      join(bin, "vitrined"),
+      ["--listen", "127.0.0.1:0", "--admin-listen", "127.0.0.1:0", "--data", data, "--port-file", portFile],
+      { cwd: folder, stdio: ["ignore", "ignore", "pipe"] },
+    );
+    let log = "";
+    child.stderr.on("data", (text) => (log += text));
+    const ended = once(child, "exit").then(([code]) => Promise.reject(new Error(`vitrined ended with ${code}: ${log}`)));
+    ended.catch(() => undefined);
+    const port = await Promise.race([appeared, ended]);
+    return new Daemon(bin, folder, data, child, `http://127.0.0.1:${port}`);
+  }
+
+  constructor(bin, folder, data, child, url) {
+    Object.assign(this, { bin, folder, data, child, url });
+  }
+
+  /** Publishes a mesh; returns the address of its page. */
+  async publish(mesh, title) {
+    const { stdout } = await run(join(this.bin, "vitrine"), ["publish", mesh, "--data", this.data, "--title", title, "--json"]);
+    return `${this.url}/models/${JSON.parse(stdout).id}`;
+  }
+
+  /** Ends the daemon as an operator would; it must leave cleanly. */
+  async stop() {
+    const exit = this.child.exitCode === null ? once(this.child, "exit") : [this.child.exitCode];
+    this.child.kill("SIGTERM");
+    const [code] = await exit;
+    await rm(this.folder, { recursive: true, force: true });
+    if (code !== 0) throw new Error(`vitrined ended with ${code}`);
+  }
+}
+
+/** The content of `file` once it is there; it appears in one piece. */
+function watched(folder, file) {
+  return new Promise((resolve) => {
+    const watcher = watch(folder, async () => {
+      const text = await readFile(file, "utf8").catch(() => "");
+      if (text.trim() === "") return;
+      watcher.close();
+      resolve(Number(text));
+    });
+  });
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// A visitor's way through the viewer page, in a real browser against the real daemon. Environment:
+// VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+import assert from "node:assert/strict";
+import { mkdir } from "node:fs/promises";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { ViewerPage, launch } from "./browser.mjs";
+import { Daemon } from "./daemon.mjs";
+import { readObj, writeColoured } from "./models.mjs";
+
+const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
+
+let daemon, browser, mesh;
+const pages = {};
+
+before(async () => {
+  await mkdir(pictures, { recursive: true });
+  [daemon, browser, mesh] = await Promise.all([Daemon.start(bin), launch(), readObj(scan)]);
+  const coloured = join(daemon.folder, "coloured.ply");
+  await writeColoured(mesh, coloured);
+  pages.plain = await daemon.publish(scan, "Demosthenes");
+  pages.coloured = await daemon.publish(coloured, "Demosthenes, coloured");
+});
+
+after(async () => {
+  await browser?.close();
+  await daemon?.stop();
+});
+
+for (const kind of ["plain", "coloured"]) {
+  describe(`the ${kind} model`, () => {
+    let viewer;
+    const picture = (name) => viewer.picture(join(pictures, `${kind}-${name}.png`));
+
+    before(async () => (viewer = await ViewerPage.open(browser, pages[kind])));
+    after(() => viewer?.page.context().close());
+
+    test("paints the base mesh before any enhancement layer has arrived", async () => {
+      await viewer.events("first-paint");
+      const seen = await viewer.seen();
+      const paint = seen.findIndex(({ type }) => type === "first-paint");
+      const shown = seen.slice(0, paint).filter(({ type }) => type === "refine");
+      assert.equal(shown.length, 1);
+      assert.ok(shown[0].detail.triangles < mesh.faces.length / 10);
+      assert.equal(viewer.finishedChunks, 0);
+      const base = await picture("base");
+      assert.ok(await differs(viewer, base), "the canvas shows something");
+      assert.equal(viewer.finishedChunks, 0);
+    });
+
+    test("sharpens to every triangle of the source", async () => {
+      const [before] = await viewer.events("refine");
+      await viewer.releaseLayers();
+      await viewer.events("load");
+      assert.equal(await viewer.triangles(), mesh.faces.length);
+      assert.ok(viewer.finishedChunks > 0);
+      assert.ok(before.detail.triangles < mesh.faces.length);
+      const number = new Intl.NumberFormat("en").format(mesh.faces.length);
+      assert.equal(await viewer.counts(), `${number} of ${number} triangles`);
+      await picture("full");
+    });
+
+    test("goes coarser and finer with the slider", async () => {
+      const fetched = viewer.finishedChunks;
+      await viewer.slide(0);
+      const base = await viewer.triangles();
+      await viewer.slide(0.6);
+      const asked = Math.round(base * (mesh.faces.length / base) ** 0.6);
+      const middle = await viewer.triangles();
+      assert.ok(middle <= asked && middle >= 0.9 * asked, `${middle} triangles for ${asked}`);
+      await picture("mid");
+      await viewer.slide(1);
+      assert.equal(await viewer.triangles(), mesh.faces.length);
+      assert.equal(viewer.finishedChunks, fetched, "nothing is fetched twice");
+    });
+
+    for (const toggle of ["facets", "wireframe"]) {
+      test(`shows ${toggle} and takes them back`, async () => {
+        const box = viewer.page.locator(`input[name=${toggle}]`);
+        const plain = await canvas(viewer);
+        await box.check();
+        const changed = await canvas(viewer, `${kind}-${toggle}`);
+        assert.notDeepEqual(changed, plain);
+        await box.uncheck();
+        assert.deepEqual(await canvas(viewer), plain);
+      });
+    }
+
+    test("offers colours only where there are some", async () => {
+      const box = viewer.page.locator("input[name=colours]");
+      assert.equal(await box.isVisible(), kind === "coloured");
+      if (kind === "plain") return;
+      const coloured = await canvas(viewer);
+      await box.uncheck();
+      assert.notDeepEqual(await canvas(viewer), coloured);
+      await box.check();
+      assert.deepEqual(await canvas(viewer), coloured);
+    });
+
+    test("turns with the pointer and tells the page", async () => {
+      const box = await viewer.page.locator("progressive-mesh").boundingBox();
+      const still = await canvas(viewer);
+      const moves = (await viewer.seen()).filter(({ type }) => type === "camera-change").length;
+      await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 3);
+      await viewer.page.mouse.down();
+      await viewer.page.mouse.move(box.x + box.width / 3, box.y + box.height / 3, { steps: 4 });
+      await viewer.page.mouse.up();
+      await viewer.events("camera-change", moves + 1);
+      assert.notDeepEqual(await canvas(viewer), still);
+    });
+
+    test("leaves no error in the console", () => assert.deepEqual(viewer.errors, []));
+  });
+}
+
+test("the gallery lists what is published", async () => {
+  const viewer = await ViewerPage.open(browser, daemon.url);
+  await viewer.page.getByRole("link", { name: "Demosthenes, coloured" }).waitFor();
+  await viewer.page.screenshot({ path: join(pictures, "gallery.png") });
+  assert.equal(await viewer.page.locator("#models li").count(), 2);
+  assert.deepEqual(viewer.errors, []);
+  await viewer.page.context().close();
+});
+
+test("a page for a narrow, dark screen shows the whole model", async () => {
+  const viewer = await ViewerPage.open(browser, pages.coloured, { colorScheme: "dark", width: 360, height: 640 });
+  await viewer.releaseLayers();
+  await viewer.events("load");
+  await viewer.page.screenshot({ path: join(pictures, "narrow-dark.png") });
+  const overflow = await viewer.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert.equal(overflow, 0);
+  assert.deepEqual(viewer.errors, []);
+  await viewer.page.context().close();
+});
+
+/** The middle of the viewer, free of controls. */
+async function canvas(viewer, name) {
+  const bytes = await viewer.picture(name && join(pictures, `${name}.png`));
+  return crop(viewer, bytes);
+}
+
+/** Raw pixels of the middle of a picture, without the panel at its foot. */
+function crop(viewer, png) {
+  return viewer.page.evaluate(async (base64) => {
+    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+    const surface = new OffscreenCanvas(image.width, Math.floor(image.height * 0.7));
+    const context = surface.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, surface.width, surface.height);
+    const digest = await crypto.subtle.digest("SHA-256", data);
+    return Array.from(new Uint8Array(digest));
+  }, png.toString("base64"));
+}
+
+/** Whether a picture has more than a smooth background: its middle differs from its corner. */
+function differs(viewer, png) {
+  return viewer.page.evaluate(async (base64) => {
+    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+    const surface = new OffscreenCanvas(image.width, image.height);
+    const context = surface.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const at = (x, y) => context.getImageData(x, y, 1, 1).data;
+    const middle = at(image.width / 2, image.height * 0.45), corner = at(3, 3);
+    return [0, 1, 2].some((i) => Math.abs(middle[i] - corner[i]) > 12);
+  }, png.toString("base64"));
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builds every model with both placements and compares each state on the way from the base mesh to
+// full resolution between the native decoder and WebAssembly, bit by bit:
+// node native_equal.mjs VITRINE STATE_HASH DECODER.wasm MODELS
+import { execFile } from "node:child_process";
+import { createHash } from "node:crypto";
+import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { loadCore, openFile } from "./support/core.mjs";
+
+const run = promisify(execFile);
+const [vitrine, stateHash, wasm, models] = process.argv.slice(2);
+const core = await loadCore(wasm);
+
+function state(decoder) {
+  const { positions, faces, colours } = decoder.latticeSurface();
+  const shown = decoder.surface();
+  const hash = createHash("sha256");
+  for (const array of [positions, faces, colours, shown.positions, shown.normals]) {
+    if (array) hash.update(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
+  }
+  return `${shown.triangles} ${hash.digest("hex")}`;
+}
+
+async function inWasm(path) {
+  const file = await readFile(path);
+  const { decoder, info } = await openFile(core, file);
+  const states = [state(decoder)];
+  decoder.want({ level: info.levels.length });
+  for (let chunk = decoder.nextChunk(); chunk !== undefined; chunk = decoder.nextChunk()) {
+    const { offset, length } = info.chunks[chunk];
+    decoder.apply(chunk, file.subarray(offset, offset + length));
+    states.push(state(decoder));
+  }
+  return states;
+}
+
+async function compare(model, placement, folder) {
+  const pmesh = join(folder, "model.pmesh");
+  await run(vitrine, ["build", model, "-o", pmesh, "--bits", "12", "--placement", placement]);
+  const native = (await run(stateHash, [pmesh])).stdout.trim().split("\n");
+  const browser = await inWasm(pmesh);
+  const first = native.findIndex((line, i) => line !== browser[i]);
+  const equal = first < 0 && native.length === browser.length;
+  console.log(`${equal ? "equal" : "DIFFERENT"}: ${model}, ${placement}, ${native.length} states`);
+  if (!equal) console.log(`  state ${first}: native ${native[first]}, WebAssembly ${browser[first]}`);
+  return equal;
+}
+
+const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
+try {
+  const files = (await readdir(models)).filter((name) => /\.(ply|obj|stl|off|glb)$/.test(name)).sort();
+  if (files.length === 0) throw new Error(`there is no model in ${models}`);
+  let equal = true;
+  for (const file of files) {
+    for (const placement of ["midpoint", "pyramid"]) {
+      equal = (await compare(join(models, file), placement, folder)) && equal;
+    }
+  }
+  process.exitCode = equal ? 0 : 1;
+} finally {
+  await rm(folder, { recursive: true, force: true });
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// state-hash FILE.pmesh: applies every chunk in the planner's order with the browser's own model,
+// natively, and prints the SHA-256 of each state: lattice positions, faces, colours, and what is
+// displayed. tests/web/native_equal.mjs prints the same from WebAssembly.
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "codec/base/base_decoder.h"
+#include "codec/core/sha256.h"
+#include "codec/wasm/model.h"
+
+namespace vitrine {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+template <class T>
+void append(Bytes& out, std::span<const T> values) {
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(values.data());
+  out.insert(out.end(), begin, begin + values.size_bytes());
+}
+
+void print_state(Model& model) {
+  model.display();
+  Bytes state;
+  append(state, model.refiner().positions());
+  append<std::uint32_t>(state, model.display_indices());
+  append<Colour>(state, model.display_colours());
+  append<float>(state, model.display_positions());
+  append<std::int16_t>(state, model.display_normals());
+  std::printf("%u %s\n", model.refiner().face_count(), to_hex(sha256(state)).c_str());
+}
+
+Expected<void> replay(std::span<const std::uint8_t> file) {
+  auto model = Model::open(file);
+  if (!model) return Unexpected(model.error());
+  const Manifest& manifest = model->manifest();
+  const auto base_bytes = file.subspan(manifest.base_offset, manifest.base_length);
+  if (auto fits = model->check_base(base_bytes); !fits) return fits;
+  auto base = decode_base(base_bytes, manifest);
+  if (!base) return Unexpected(base.error());
+  if (auto started = model->start(std::move(*base)); !started) return started;
+  print_state(*model);
+  constexpr std::uint32_t kLevel = 3;
+  if (auto wanted = model->want(kLevel, 1e9); !wanted) return Unexpected(wanted.error());
+  for (int chunk = model->next_chunk(); chunk >= 0; chunk = model->next_chunk()) {
+    const ChunkInfo& info = manifest.chunks[static_cast<std::size_t>(chunk)];
+    const auto bytes = file.subspan(info.offset, info.length);
+    if (auto fits = model->check_chunk(static_cast<std::size_t>(chunk), bytes); !fits) return fits;
+    if (auto done = model->apply(static_cast<std::size_t>(chunk), bytes); !done) return done;
+    print_state(*model);
+  }
+  return {};
+}
+
+}  // namespace
+}  // namespace vitrine
+
+int main(int argc, char** argv) {
+  if (argc != 2) return std::fputs("usage: state-hash FILE.pmesh\n", stderr), 2;
+  std::ifstream in(argv[1], std::ios::binary);
+  const vitrine::Bytes file{std::istreambuf_iterator<char>(in), {}};
+  const auto done = vitrine::replay(file);
+  if (done) return 0;
+  std::fprintf(stderr, "%s\n", done.error().message.c_str());
+  return 1;
+}
