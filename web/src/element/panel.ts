@@ -6,9 +6,11 @@ import style from "./element.css?text";
 export type Toggle = "colours" | "facets" | "wireframe";
 
 const kTemplate = `
-  <canvas part="canvas" tabindex="0" role="img"></canvas>
-  <slot name="poster"><img part="poster" class="poster" alt="" hidden></slot>
-  <p class="message" part="message" role="alert" hidden></p>
+  <div class="view">
+    <canvas part="canvas" tabindex="0" role="img"></canvas>
+    <slot name="poster"><img part="poster" class="poster" alt="" hidden></slot>
+    <p class="message" part="message" role="alert" hidden></p>
+  </div>
   <div class="progress" part="progress" role="progressbar" aria-label="${texts.loading}"><div></div></div>
   <form class="controls" part="controls">
     <label class="detail"><span>${texts.detail}</span>
@@ -28,8 +30,12 @@ export class Panel {
   onReset: () => void = () => undefined;
   #held = false;
 
+  /** The place of the picture. */
+  readonly view: HTMLElement;
+
   constructor(private readonly root: ShadowRoot) {
     root.innerHTML = `<style>${style}</style>${kTemplate}`;
+    this.view = this.#find(".view");
     this.#detail.addEventListener("input", () => {
       this.#held = true;
       this.onDetail(Number(this.#detail.value) / 1000);

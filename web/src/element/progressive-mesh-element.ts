@@ -16,7 +16,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   static readonly observedAttributes = ["src", "poster", "alt", "max-triangles", "max-bytes", "target-error"];
 
   readonly #panel = new Panel(this.attachShadow({ mode: "open" }));
-  readonly #size = new ResizeObserver(() => this.#stage?.resize(this.clientWidth, this.clientHeight));
+  readonly #size = new ResizeObserver(() => this.#fit());
   #stage: Stage | undefined;
   #loads = 0;
 
@@ -24,7 +24,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     this.#panel.onDetail = (fraction) => void this.#refine(this.#wantAt(fraction));
     this.#panel.onToggle = (which, on) => this.#stage && (this.#stage[which] = on);
     this.#panel.onReset = () => this.#stage?.frame();
-    this.#size.observe(this);
+    this.#size.observe(this.#panel.view);
     void this.#load();
   }
 
@@ -67,7 +67,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   }
 
   async #firstPaint(stage: Stage): Promise<void> {
-    stage.resize(this.clientWidth, this.clientHeight);
+    this.#fit();
     stage.frame();
     this.#panel.enable(stage.mesh.info.coloured);
     await stage.draw();
@@ -96,6 +96,11 @@ export class ProgressiveMeshElement extends HTMLElement {
     );
     this.#panel.follow(this.#fractionOf(surface.triangles));
     this.#emit("refine", surface);
+  }
+
+  #fit(): void {
+    const { clientWidth, clientHeight } = this.#panel.view;
+    this.#stage?.resize(clientWidth, clientHeight);
   }
 
   #progress(bytes: number, total: number): void {

@@ -63,7 +63,7 @@ export class Stage {
   frame(): void {
     const radius = this.mesh.geometry.boundingSphere?.radius ?? 1;
     const half = Math.atan(Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, this.#camera.aspect));
-    const distance = (radius * 0.85) / Math.sin(half);
+    const distance = (radius * 0.9) / Math.sin(half);
     this.#camera.near = radius / 100;
     this.#camera.far = distance + 20 * radius;
     this.#camera.position.copy(kViewpoint).multiplyScalar(distance);
