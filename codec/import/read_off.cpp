@@ -45,7 +45,7 @@ class OffReader {
       return fail(ErrorCode::kUnsupported,
                   "OFF with four or n dimensions is not read; export three dimensions");
     }
-    if (textured) mesh_.repairs.push_back("texture coordinates not carried");
+    if (textured) mesh_.repairs.emplace_back("texture coordinates not carried");
     double edges = 0;
     if (!text_.seek_word() || !text_.number(vertices_)) {
       if (text_.word() == "BINARY") {

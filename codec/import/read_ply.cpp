@@ -181,7 +181,7 @@ class BodyReader {
     bool has_list = false;
     for (const PlyProperty& p : element.properties) {
       has_list = has_list || (p.is_list && p.name.starts_with(list));
-      if (p.name == "texcoord") mesh_.repairs.push_back("texture coordinates not carried");
+      if (p.name == "texcoord") mesh_.repairs.emplace_back("texture coordinates not carried");
     }
     if (!has_list) return bad_input("the PLY faces have no list vertex_indices");
     std::vector<std::uint32_t> corners;

@@ -40,8 +40,7 @@ TEST(ReadMesh, DropsPointsThatAreNotFiniteWhereNoFaceUsesThem) {
   const auto result = read_text("v nan nan nan\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n");
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
   EXPECT_EQ(result.mesh.positions.size(), 3u);
-  EXPECT_THAT(result.repairs,
-              ElementsAre(HasSubstr("1 point without finite coordinates dropped")));
+  EXPECT_THAT(result.repairs, ElementsAre(HasSubstr("1 point without finite coordinates dropped")));
 }
 
 TEST(ReadMesh, NamesFacesOfFewerThanThreeCorners) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <numeric>
 #include <random>
 #include <set>
@@ -189,6 +191,18 @@ TEST(Repair, AnIndexOutOfRangeIsRefusedByName) {
   const auto result = repair({mesh, {}});
   ASSERT_FALSE(result.has_value());
   EXPECT_THAT(result.error().message, HasSubstr("face 2"));
+}
+
+TEST(Repair, TheSampleScanNeedsNone) {
+  std::ifstream file(VITRINE_SOURCE_DIR "/tests/models/demosthenes.obj", std::ios::binary);
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
+  auto read = read_mesh({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  const auto result = repaired(read->mesh);
+  EXPECT_EQ(result.mesh.positions.size(), 8394u);
+  EXPECT_EQ(result.mesh.faces.size(), 16719u);
+  EXPECT_EQ(result.components, 1u);
+  EXPECT_THAT(result.repairs, IsEmpty());
 }
 
 // The faces that repair must keep: all but degenerate ones and exact duplicates.
