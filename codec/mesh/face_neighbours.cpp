@@ -12,6 +12,7 @@ struct Waiting {
   std::uint32_t other;  // its larger vertex
   std::uint32_t face;
   std::uint32_t edge;
+  bool upwards;  // the face runs from the smaller vertex to the larger
 };
 
 std::vector<std::uint32_t> bucket_starts(std::span<const Triangle> faces,
@@ -39,12 +40,14 @@ std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triang
     across[f] = {f, f, f};
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
+      const Waiting own{high, f, k, faces[f][k] == low};
       Waiting* const bucket = waiting.data() + start[low];
       std::uint32_t& n = size[low];
-      Waiting* const twin = std::find_if(
-          bucket, bucket + n, [high = high](const Waiting& w) { return w.other == high; });
+      Waiting* const twin = std::find_if(bucket, bucket + n, [&own](const Waiting& w) {
+        return w.other == own.other && w.upwards != own.upwards;
+      });
       if (twin == bucket + n) {
-        bucket[n++] = {high, f, k};
+        bucket[n++] = own;
       } else {
         across[f][k] = twin->face, across[twin->face][twin->edge] = f;
         *twin = bucket[--n];

@@ -12,7 +12,8 @@
 namespace vitrine {
 
 // across[f][k] is the face on the other side of the edge from corner k to corner k + 1 of face f,
-// f itself where there is none. Where an edge has more than two faces, they are paired as found.
+// f itself where there is none. Only faces that run along the edge in opposite directions are
+// paired, as found where there are more than two.
 std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triangle> faces,
                                                           std::size_t vertex_count);
 

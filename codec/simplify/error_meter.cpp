@@ -73,8 +73,8 @@ LevelError ErrorMeter::measure(const TriangleMesh& level) const {
   HausdorffBound bound(kTolerance, negligible_);
   add_worst(bound, there, bvh, surface_);
   add_worst(bound, back, bvh_, surface);
-  bound.add(bvh, surface_);
-  bound.add(bvh_, surface);
+  const std::vector<std::uint8_t> settled = bound.add(bvh, surface_);
+  bound.add(bvh_, surface, settled);
   return {.max_error = bound.bound(), .rms_error = std::max(there.rms, back.rms)};
 }
 

@@ -45,25 +45,48 @@ void HausdorffBound::add(const Corners& triangle, const WitnessSurface& target) 
   cover(ConvexPiece(triangle), last_);
 }
 
-void HausdorffBound::add(const TriangleBvh& source, const WitnessSurface& target) {
+struct HausdorffBound::Visit {
+  const TriangleBvh& source;
+  std::span<const std::uint8_t> settled;
+  PatchCover patches;
+};
+
+std::vector<std::uint8_t> HausdorffBound::add(const TriangleBvh& source,
+                                              const WitnessSurface& target,
+                                              std::span<const std::uint8_t> settled) {
   target_ = &target;
   last_ = 0;
-  visit(source, 0);
+  Visit all{source, settled, PatchCover(target)};
+  visit(all, 0);
+  return std::move(all.patches).marks();
 }
 
-void HausdorffBound::visit(const TriangleBvh& source, std::uint32_t index) {
-  const TriangleBvh::Node& node = source.nodes()[index];
+void HausdorffBound::visit(Visit& all, std::uint32_t index) {
+  const TriangleBvh::Node& node = all.source.nodes()[index];
   if (settle_box(node)) return;
   if (node.count == 0) {
-    visit(source, node.first);
-    visit(source, node.first + 1);
+    visit(all, node.first);
+    visit(all, node.first + 1);
     return;
   }
-  const auto triangles = source.triangles().subspan(node.first, node.count);
-  approach(centre_of(triangles[0]));
-  for (const Corners& t : triangles) {
-    if (!settle(std::array{t.a, t.b, t.c}, last_)) cover(ConvexPiece(t), last_);
+  bool near = false;
+  for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+    if (!all.settled.empty() && all.settled[t] != 0) continue;
+    const Corners& triangle = all.source.triangles()[t];
+    if (!near) approach(centre_of(triangle));
+    near = true;
+    visit_triangle(triangle, all.patches);
   }
+}
+
+void HausdorffBound::visit_triangle(const Corners& triangle, PatchCover& patches) {
+  const std::array corners = {triangle.a, triangle.b, triangle.c};
+  if (settle(corners, last_)) return;
+  last_ = target_->walk(centre_of(triangle), last_);
+  if (settle(corners, last_)) return;
+  const PatchCover::Result patch = patches.cover(triangle, last_, limit());
+  bound_ = std::max(bound_, patch.height);
+  if (!patch.covered) cover(ConvexPiece(triangle), last_);
 }
 
 // True if one witness serves the whole box.

@@ -4,15 +4,18 @@
 // The distance to one triangle S, a "witness", is convex, so over a convex piece of the surface it
 // is largest at a corner: the largest corner distance bounds the piece's distance to the whole
 // target. A piece with too weak a bound is cut along an edge of S, beyond which the neighbour of S
-// takes over, and halved where that does not help.
+// takes over, and halved where that does not help. Most triangles never come to that: they lie
+// under a patch of the target (see patch_cover.h).
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "codec/mesh/triangle_bvh.h"
 #include "codec/simplify/convex_piece.h"
+#include "codec/simplify/patch_cover.h"
 #include "codec/simplify/witness_surface.h"
 
 namespace vitrine {
@@ -27,9 +30,14 @@ class HausdorffBound {
   // A distance that occurs between the two surfaces. Many and large ones save time.
   void know(double distance) { known_ = std::max(known_, distance); }
 
-  // Adds the distances from every point of a triangle, or of all of `source`, to `target`.
+  // Adds the distances from every point of a triangle to `target`.
   void add(const Corners& triangle, const WitnessSurface& target);
-  void add(const TriangleBvh& source, const WitnessSurface& target);
+
+  // Adds the distances from every point of `source` to `target`, save for the triangles marked in
+  // `settled` (empty: none). Returns marks for the triangles of `target`: those whose distance to
+  // `source` is found to be within bound() on the way, for the call in the other direction.
+  std::vector<std::uint8_t> add(const TriangleBvh& source, const WitnessSurface& target,
+                                std::span<const std::uint8_t> settled = {});
 
   // No distance added so far is larger. At most tolerance * the largest one, or `negligible`.
   double bound() const { return std::max(known_, bound_); }
@@ -38,7 +46,9 @@ class HausdorffBound {
   static constexpr int kCuts = 16;  // in a row; rounding must not let them go on for ever
 
   double limit() const { return std::max(tolerance_ * known_, negligible_); }
-  void visit(const TriangleBvh& source, std::uint32_t node);
+  struct Visit;
+  void visit(Visit& visit, std::uint32_t node);
+  void visit_triangle(const Corners& triangle, PatchCover& patches);
   bool settle_box(const TriangleBvh::Node& node);
   void approach(const Vec3& p);
   bool settle(std::span<const Vec3> corners, std::uint32_t witness);

@@ -15,6 +15,7 @@ class WitnessSurface {
   // `bvh` was built from `mesh` and outlives this.
   WitnessSurface(const TriangleBvh& bvh, const TriangleMesh& mesh);
 
+  std::size_t size() const { return across_.size(); }
   const Corners& triangle(std::uint32_t t) const { return bvh_->triangles()[t]; }
   // The triangle across edge k, from corner k to the next; t itself at a border.
   std::uint32_t across(std::uint32_t t, std::uint32_t edge) const { return across_[t][edge]; }

@@ -78,6 +78,20 @@ TEST(ErrorMeter, FindsAPartThatTheLevelLost) {
   EXPECT_NEAR(ErrorMeter(with_speck).measure(sheet(30, 30)).max_error, 60, 10);
 }
 
+TEST(ErrorMeter, SeesAHoleThatTheLevelClosedAndAFoldThatItLost) {
+  TriangleMesh torn = sheet(30, 30);
+  std::erase_if(torn.faces, [&](const Triangle& f) {
+    const Vec3& p = torn.positions[f[0]];
+    return std::abs(p.x - 15) < 3 && std::abs(p.y - 15) < 3;
+  });
+  expect_tight(sheet(30, 30), torn);
+  TriangleMesh folded = sheet(30, 30);
+  for (Vec3& p : folded.positions) {
+    if (p.x > 12 && p.x < 16) p.x = 28 - p.x, p.z += 2;
+  }
+  expect_tight(sheet(30, 30), folded);
+}
+
 TEST(ErrorMeter, TheSameSurfaceHasNoError) {
   const TriangleMesh mesh = torus(20, 12);
   const LevelError error = ErrorMeter(mesh).measure(mesh);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounds the distance of a triangle to a surface by a patch of the surface that lies over it.
+//
+// The patch is what one meets from a first triangle on across edges, as long as it reaches into
+// the prism over T (the points whose projection to T's plane lies in T). If none of its triangles
+// faces away from T and no border edge reaches into the prism, then its projection to T is open
+// and closed in T, and so all of T if it is not empty: each point of T has a point of the patch at
+// right angles above or below it, no farther away than the highest corner of the patch.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/simplify/witness_surface.h"
+
+namespace vitrine {
+
+class PatchCover {
+ public:
+  explicit PatchCover(const WitnessSurface& surface);
+
+  struct Result {
+    bool covered = false;  // every point of the triangle is within `height` of the surface
+    double height = 0;     // at most `limit`; bounds what was marked, too
+  };
+  // `start` is a triangle of the surface near the centre of `triangle`.
+  Result cover(const Corners& triangle, std::uint32_t start, double limit);
+
+  // Per triangle of the surface, 1 where it was seen to lie wholly over a triangle given, within
+  // the limit.
+  std::vector<std::uint8_t> marks() && { return std::move(marks_); }
+
+ private:
+  struct Prism;
+  bool step(const Prism& prism, std::uint32_t t, double limit, Result& result, bool& over_centre);
+
+  const WitnessSurface& surface_;
+  std::vector<std::uint8_t> marks_;
+  std::vector<std::uint32_t> seen_;  // per triangle: the newest call that met it
+  std::uint32_t call_ = 0;
+  std::vector<std::uint32_t> open_;
+};
+
+}  // namespace vitrine
