@@ -53,9 +53,10 @@ def length(root):
 
 
 def functions(lines):
-    """(first, last) line of each block that opens after `)`, found by indentation (code is formatted)."""
+    """(first, last) line of each block that opens after `)`, found by indentation (code is formatted).
+    A test suite's describe() is a list of functions, not one."""
     for start, line in enumerate(lines):
-        if re.search(r"\)[^;{}]*\{$", line):
+        if re.search(r"\)[^;{}]*\{$", line) and not re.match(r"\s*describe\(", line):
             indent = line[:len(line) - len(line.lstrip())]
             closing = re.compile(re.escape(indent) + r"\}")
             end = next((i for i in range(start + 1, len(lines)) if closing.match(lines[i])), start)
