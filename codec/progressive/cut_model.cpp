@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/cut_model.h"
 
+#include <algorithm>
+
+#include "codec/progressive/trained_tables.h"
+
 namespace vitrine {
 namespace {
 
@@ -44,7 +48,10 @@ double square(double x) {
 
 }  // namespace
 
-const CutModel::Features CutModel::kTrainedWeights = {-1, -1, -1, -1, -1, -1, 0, -1, -2, 0, 0, 0};
+CutModel::CutModel() {
+  std::copy_n(trained::kCutWeights, kFeatures, weights_.begin());
+  trained::load(trained::kCutBits, bits_);
+}
 
 Vec3 CutModel::estimate(const CutRing& ring, const Cut& cut) {
   const Prefix prefix = prefix_of(ring);

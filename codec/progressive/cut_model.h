@@ -34,6 +34,8 @@ class CutModel {
   // D as the two arcs of the ring suggest it, lattice units.
   static Vec3 estimate(const CutRing& ring, const Cut& cut);
 
+  CutModel();
+
   template <class Coder>
   Cut code(Coder& coder, const CutRing& ring, Cut truth) {
     evaluate(ring);
@@ -47,8 +49,13 @@ class CutModel {
     return candidates_[chosen].cut;
   }
 
- private:
   static constexpr std::size_t kFeatures = 12;
+  static constexpr int kOdds = 28;
+  static constexpr std::size_t kBits = 4 * kOdds;
+  const std::array<AdaptiveBit, kBits>& bits() const { return bits_; }
+  const std::array<double, kFeatures>& weights() const { return weights_; }
+
+ private:
   static constexpr std::size_t kMaxPairs = kMaxSplitValence * (kMaxSplitValence - 1) / 2;
   using Features = std::array<double, kFeatures>;
 
@@ -72,8 +79,8 @@ class CutModel {
       const double p = candidates_[best].probability;
       const double others = std::max(left - p, 1e-9);
       left = others;
-      const int odds = std::clamp(exact::log2_bucket<1>(p / others) + 14, 0, 27);
-      AdaptiveBit& bit = bits_[std::min(rank, 3u)][static_cast<std::size_t>(odds)];
+      const int odds = std::clamp(exact::log2_bucket<1>(p / others) + 14, 0, kOdds - 1);
+      AdaptiveBit& bit = bits_[std::min(rank, 3u) * kOdds + static_cast<std::size_t>(odds)];
       if (coder.bit(bit, best == wanted ? 1 : 0) != 0) return best;
     }
   }
@@ -89,13 +96,11 @@ class CutModel {
     return best;
   }
 
-  static const Features kTrainedWeights;
-
-  Features weights_ = kTrainedWeights;
+  Features weights_;
   std::uint32_t learned_ = 0;
   std::uint32_t count_ = 0;
   std::array<Candidate, kMaxPairs> candidates_;
-  std::array<std::array<AdaptiveBit, 28>, 4> bits_;
+  std::array<AdaptiveBit, kBits> bits_;
 };
 
 }  // namespace vitrine

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/displacement_model.h"
 
+#include <algorithm>
+
+#include "codec/progressive/trained_tables.h"
+
 namespace vitrine {
 namespace {
 
-constexpr std::array<double, SplitSurroundings::kFeatures> kStartWeights = {0.35, 0.15, 0.25,
-                                                                            0.05, 0.1,  0.0};
 constexpr double kRidge = 4;  // how many splits the start weights count for
 constexpr std::uint32_t kSolveEvery = 16;
-constexpr double kMemory = 300;  // splits that an error energy remembers
+constexpr double kPriorWeight = 12;  // how many splits a start energy counts for
+constexpr double kMemory = 300;      // splits that an error energy remembers
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double l = length(v);
@@ -22,8 +25,8 @@ Vec3 any_perpendicular(const Vec3& n) {
 
 }  // namespace
 
-void DisplacementModel::Regression::start(const std::array<double, kFeatures>& prior) {
-  weights = prior;
+void DisplacementModel::Regression::start(const double* prior) {
+  std::copy_n(prior, kFeatures, weights.begin());
   for (std::size_t k = 0; k < kFeatures; ++k) {
     matrix[k][k] = kRidge;
     right_side[k] = kRidge * prior[k];
@@ -31,12 +34,12 @@ void DisplacementModel::Regression::start(const std::array<double, kFeatures>& p
 }
 
 DisplacementModel::DisplacementModel() {
-  tangential_.start(kStartWeights);
-  normal_.start(kStartWeights);
-  for (auto& e : energy_)
-    e = {0.03, 0.01, 0.03};
-  for (auto& w : weight_)
-    w = {4, 4, 4};
+  tangential_.start(trained::kTangentialWeights);
+  normal_.start(trained::kNormalWeights);
+  for (std::size_t k = 0; k < energy_.size(); ++k) {
+    std::copy_n(trained::kEnergy + 3 * k, 3, energy_[k].begin());
+    weight_[k].fill(kPriorWeight);
+  }
 }
 
 Vec3 DisplacementModel::predict(const SplitSurroundings& s) const {

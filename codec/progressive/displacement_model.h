@@ -37,10 +37,16 @@ class DisplacementModel {
     return d;
   }
 
-  Vec3 predict(const SplitSurroundings& s) const;
+  static constexpr std::size_t kFeatures = SplitSurroundings::kFeatures;
+  using Weights = std::array<double, kFeatures>;
+  const Weights& tangential_weights() const { return tangential_.weights; }
+  const Weights& normal_weights() const { return normal_.weights; }
+  const auto& energy() const { return energy_; }
+  const auto& energy_weight() const { return weight_; }
+  const ResidualCoder& residuals() const { return coder_; }
 
  private:
-  static constexpr std::size_t kFeatures = SplitSurroundings::kFeatures;
+  Vec3 predict(const SplitSurroundings& s) const;
 
   struct Spread {
     std::array<Vec3, 3> frame;           // unit: along the prediction, normal, across
@@ -74,7 +80,7 @@ class DisplacementModel {
     std::array<std::array<double, kFeatures>, kFeatures> matrix{};
     std::array<double, kFeatures> right_side{};
 
-    void start(const std::array<double, kFeatures>& prior);
+    void start(const double* prior);
     void solve();
   };
 

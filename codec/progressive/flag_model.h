@@ -22,30 +22,39 @@ struct FlagFeatures {
 
 class FlagModel {
  public:
+  FlagModel();
+
   template <class Coder>
   bool code(Coder& coder, const FlagFeatures& f, bool truth) {
-    AdaptiveBit& bit = f.border ? border_[std::clamp(f.age, 1, 4) - 1] : context(f);
-    const bool split = coder.bit(bit, truth ? 1 : 0) != 0;
+    const bool split =
+        coder.bit(bits_[f.border ? border_context(f) : context(f)], truth ? 1 : 0) != 0;
     if (!f.border) average_ += (f.square_length - average_) / std::min(++seen_, kMemory);
     return split;
   }
 
+  static constexpr std::size_t kBorderBits = 4, kBits = kBorderBits + 8 * 9 * 8 * 2;
+  const std::array<AdaptiveBit, kBits>& bits() const { return bits_; }
+
  private:
   static constexpr double kMemory = 200;
 
-  AdaptiveBit& context(const FlagFeatures& f) {
+  static std::size_t border_context(const FlagFeatures& f) {
+    return static_cast<std::size_t>(std::clamp(f.age, 1, 4) - 1);
+  }
+
+  std::size_t context(const FlagFeatures& f) {
     if (seen_ == 0) average_ = f.square_length;
     const double ratio = (f.square_length + 0.01) / (average_ + 0.01);
-    const int length = std::clamp(exact::log2_bucket<1>(ratio) + 5, 0, 9);
+    const int length = std::clamp(exact::log2_bucket<1>(ratio) + 4, 0, 7);
     const int valence = std::clamp(f.valence - 3, 0, 7);
     const int around = std::min(f.unsplit, 2) * 3 + std::min(f.split, 2);
-    return bits_[valence][around][length][std::min(f.age, 2) - 1];
+    const int age = std::min(f.age, 2) - 1;
+    return kBorderBits + static_cast<std::size_t>(((valence * 9 + around) * 8 + length) * 2 + age);
   }
 
   double average_ = 0;
   double seen_ = 0;
-  std::array<AdaptiveBit, 4> border_;
-  std::array<std::array<std::array<std::array<AdaptiveBit, 2>, 10>, 9>, 8> bits_;
+  std::array<AdaptiveBit, kBits> bits_;
 };
 
 }  // namespace vitrine

@@ -1,52 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/layer_encoder.h"
 
-#include <memory>
-
-#include "codec/progressive/layer_pass.h"
-#include "codec/progressive/region_fork.h"
-
 namespace vitrine {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
-
-// Tells the pass what the recorded collapses of one level undo.
-class Replay {
- public:
-  Replay(const CollapseLevel& collapses, const std::vector<std::uint32_t>& collapse_of,
-         std::vector<VertexId>& fine, std::vector<VertexId>& state,
-         const std::vector<VertexId>& loop)
-      : collapses_(collapses), collapse_of_(collapse_of), fine_(fine), state_(state), loop_(loop) {}
-
-  bool find(VertexId v, SplitTruth& told) {
-    const std::uint32_t k = collapse_of_[fine_[v]];
-    if (k == kNone) return false;
-    const Collapse& c = collapses_[k];
-    // The new vertex is v2: its faces run from apex21 round to apex12.
-    told = {to_state(c.apex21), to_state(c.apex12), c.p1 - c.p2, c.c1 - c.c2};
-    return true;
-  }
-
-  void applied(VertexId v, VertexId w, bool swapped) {
-    const Collapse& c = collapses_[collapse_of_[fine_[v]]];
-    fine_.push_back(swapped ? c.v1 : c.v2);
-    fine_[v] = swapped ? c.v2 : c.v1;
-    state_[fine_[v]] = v;
-    state_[fine_[w]] = w;
-  }
-
- private:
-  VertexId to_state(VertexId fine) const {
-    return is_virtual(fine) ? loop_[fine & ~kVirtualBit] : state_[fine];
-  }
-
-  const CollapseLevel& collapses_;
-  const std::vector<std::uint32_t>& collapse_of_;
-  std::vector<VertexId>& fine_;
-  std::vector<VertexId>& state_;
-  const std::vector<VertexId>& loop_;
-};
 
 VertexId virtual_neighbour(const Connectivity& mesh, VertexId v) {
   Corner c = mesh.corner_at(v);
@@ -74,39 +32,34 @@ Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const Bas
   return encoder;
 }
 
-Expected<std::vector<EncodedChunk>> LayerEncoder::encode_level() {
-  const CollapseLevel& collapses = hierarchy_->levels[level_];
-  ++level_;
+std::vector<EncodedChunk> LayerEncoder::begin_level() {
+  const CollapseLevel& collapses = hierarchy_->levels[level_++];
   const bool forked = level_ >= hierarchy_->fork_level;
-  const std::uint32_t regions = forked ? hierarchy_->regions : 1;
-  std::vector<EncodedChunk> chunks(regions);
+  std::vector<EncodedChunk> chunks(forked ? hierarchy_->regions : 1);
+  for (std::uint16_t k = 0; k < chunks.size(); ++k)
+    chunks[k].region = k;
   for (std::uint32_t k = 0; k < collapses.size(); ++k) {
     collapse_of_[collapses[k].v1] = k;
     ++chunks[forked ? hierarchy_->region[collapses[k].v1] : 0].splits;
   }
-  Replay replay(collapses, collapse_of_, fine_, state_, loop_);
-  const auto last = static_cast<std::uint32_t>(hierarchy_->levels.size());
-  for (std::uint32_t k = 0; k < regions; ++k) {
-    const ChunkFrame frame{.level = level_,
-                           .region = static_cast<std::uint16_t>(k),
-                           .splits = chunks[k].splits,
-                           .placement = hierarchy_->placement,
-                           .parity = level_parity(level_, last)};
-    RangeEncoder coder;
-    const auto pass =
-        std::make_unique<LayerPass<RangeEncoder, Replay>>(mesh_, frame, coder, replay);
-    if (auto ok = pass->run(); !ok) return tl::unexpected(ok.error());
-    if (hierarchy_->regions > 1 && level_ + 1 == hierarchy_->fork_level) {
-      const auto label = [&](VertexId v) { return hierarchy_->region[fine_[v]]; };
-      if (auto ok = code_fork(mesh_, coder, hierarchy_->planes, label); !ok) {
-        return tl::unexpected(ok.error());
-      }
-    }
-    chunks[k].region = static_cast<std::uint16_t>(k);
-    chunks[k].bytes = coder.finish();
-  }
-  for (const Collapse& c : collapses)
+  return chunks;
+}
+
+void LayerEncoder::end_level() {
+  for (const Collapse& c : hierarchy_->levels[level_ - 1])
     collapse_of_[c.v1] = kNone;
+}
+
+Expected<std::vector<EncodedChunk>> LayerEncoder::encode_level() {
+  std::vector<EncodedChunk> chunks = begin_level();
+  for (EncodedChunk& chunk : chunks) {
+    RangeEncoder coder;
+    if (auto ok = code_chunk(coder, chunk, [](const auto&) {}); !ok) {
+      return tl::unexpected(ok.error());
+    }
+    chunk.bytes = coder.finish();
+  }
+  end_level();
   return chunks;
 }
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "codec/core/expected.h"
 #include "codec/progressive/hierarchy.h"
 #include "codec/progressive/mesh_state.h"
+#include "codec/progressive/region_fork.h"
+#include "codec/progressive/replay.h"
 
 namespace vitrine {
 
@@ -27,6 +30,14 @@ class LayerEncoder {
   // Codes the next level, 1 first.
   Expected<std::vector<EncodedChunk>> encode_level();
 
+  // The parts of encode_level(), for a coder other than the RangeEncoder: begin_level() once, then
+  // code_chunk() for each chunk it gives, then end_level(). `observe` sees the pass after the
+  // chunk.
+  std::vector<EncodedChunk> begin_level();
+  template <class Coder, class Observer>
+  Expected<void> code_chunk(Coder& coder, const EncodedChunk& chunk, const Observer& observe);
+  void end_level();
+
   std::uint32_t level() const { return level_; }  // 0: the base
   const MeshState& mesh() const { return mesh_; }
 
@@ -42,5 +53,23 @@ class LayerEncoder {
   std::vector<std::uint32_t> collapse_of_;  // per fine id: its collapse in the level being coded
   std::uint32_t level_ = 0;
 };
+
+template <class Coder, class Observer>
+Expected<void> LayerEncoder::code_chunk(Coder& coder, const EncodedChunk& chunk,
+                                        const Observer& observe) {
+  const ChunkFrame frame{
+      .level = level_,
+      .region = chunk.region,
+      .splits = chunk.splits,
+      .placement = hierarchy_->placement,
+      .parity = level_parity(level_, static_cast<std::uint32_t>(hierarchy_->levels.size()))};
+  Replay replay(hierarchy_->levels[level_ - 1], collapse_of_, fine_, state_, loop_);
+  const auto pass = std::make_unique<LayerPass<Coder, Replay>>(mesh_, frame, coder, replay);
+  if (auto ok = pass->run(); !ok) return tl::unexpected(ok.error());
+  observe(*pass);
+  if (hierarchy_->regions == 1 || level_ + 1 != hierarchy_->fork_level) return {};
+  const auto label = [&](VertexId v) { return hierarchy_->region[fine_[v]]; };
+  return code_fork(mesh_, coder, hierarchy_->planes, label);
+}
 
 }  // namespace vitrine

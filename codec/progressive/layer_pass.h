@@ -70,6 +70,10 @@ class LayerPass {
     return std::move(splits_);
   }
 
+  const FlagModel& flags() const { return flags_; }
+  const CutModel& cuts() const { return cuts_; }
+  const DisplacementModel& displacements() const { return displacements_; }
+
  private:
   Unexpected damaged(const char* what) const {
     return fail(ErrorCode::kBadInput, "damaged chunk (level " + std::to_string(frame_.level) +

@@ -15,6 +15,8 @@ namespace vitrine {
 
 class ResidualCoder {
  public:
+  ResidualCoder();
+
   // Codes `value` given its expected `centre` and standard deviation `width` (> 0).
   template <class Coder>
   std::int32_t code(Coder& coder, std::int32_t value, double centre, double width) {
@@ -24,42 +26,57 @@ class ResidualCoder {
     const int side = std::clamp(static_cast<int>((offset + 0.5) * 5), 0, 4);
     const std::int32_t residual = Coder::kEncodes ? value - whole : 0;
 
-    if (coder.bit(zero_[w][std::abs(side - 2)], residual == 0 ? 1 : 0) != 0) return whole;
-    const bool negative = coder.bit(sign_[w / 2][side], residual < 0 ? 1 : 0) != 0;
+    if (coder.bit(bits_[zero(w, std::abs(side - 2))], residual == 0 ? 1 : 0) != 0) return whole;
+    const bool negative = coder.bit(bits_[sign(w, side)], residual < 0 ? 1 : 0) != 0;
     const auto magnitude = static_cast<std::uint32_t>(negative ? -residual : residual);
     const auto coded = static_cast<std::int32_t>(code_magnitude(coder, magnitude, w));
     return negative ? whole - coded : whole + coded;
   }
 
+  static constexpr int kWidths = 48;     // width 2^-2 to 2^10 in quarter octaves
+  static constexpr int kExponents = 12;  // the contexts of larger exponents are one
+  static constexpr int kRanges = 8;      // exponent against width, for the mantissa
+  static constexpr std::size_t kBits =
+      kWidths * 3 + kWidths / 2 * 5 + kWidths * kExponents + kRanges * 4;
+  const std::array<AdaptiveBit, kBits>& bits() const { return bits_; }
+
  private:
-  static constexpr int kWidths = 48;     // width 2^-2 … 2^10 in quarter octaves
-  static constexpr int kExponents = 21;  // magnitudes below 2^21
+  static constexpr int kMaxExponent = 20;  // magnitudes are below 2^21
+
+  static std::size_t zero(int w, int offset) { return static_cast<std::size_t>(w * 3 + offset); }
+  static std::size_t sign(int w, int side) {
+    return static_cast<std::size_t>(kWidths * 3 + w / 2 * 5 + side);
+  }
+  static std::size_t more(int w, int exponent) {
+    return static_cast<std::size_t>(kWidths * 3 + kWidths / 2 * 5 + w * kExponents +
+                                    std::min(exponent, kExponents - 1));
+  }
+  static std::size_t mantissa(int w, int exponent, int node) {
+    const int range = std::clamp(exponent - (w - 8) / 4 + 5, 0, kRanges - 1);
+    return kBits - kRanges * 4 + static_cast<std::size_t>(range * 4 + node);
+  }
 
   template <class Coder>
   std::uint32_t code_magnitude(Coder& coder, std::uint32_t magnitude, int w) {  // >= 1
     const int wanted = Coder::kEncodes ? std::bit_width(magnitude) - 1 : 0;
     int exponent = 0;
-    while (exponent < kExponents - 1 &&
-           coder.bit(exponent_[w][exponent], exponent < wanted ? 1 : 0) != 0) {
+    while (exponent < kMaxExponent &&
+           coder.bit(bits_[more(w, exponent)], exponent < wanted ? 1 : 0) != 0) {
       ++exponent;
     }
     std::uint32_t coded = 1;
     for (int place = exponent - 1; place >= 0; --place) {
       const auto bit = static_cast<int>(magnitude >> place & 1u);
       const int depth = exponent - 1 - place;
-      coded =
-          coded << 1 |
-          static_cast<std::uint32_t>(
-              depth < 2 ? coder.bit(mantissa_[w / 2][exponent][depth * 2 + (coded & depth)], bit)
-                        : static_cast<int>(coder.raw(static_cast<std::uint32_t>(bit), 1)));
+      const int node = depth == 0 ? 0 : static_cast<int>(2 + (coded & 1u));
+      const int got = depth < 2 ? coder.bit(bits_[mantissa(w, exponent, node)], bit)
+                                : static_cast<int>(coder.raw(static_cast<std::uint32_t>(bit), 1));
+      coded = coded << 1 | static_cast<std::uint32_t>(got);
     }
     return coded;
   }
 
-  std::array<std::array<AdaptiveBit, 3>, kWidths> zero_;
-  std::array<std::array<AdaptiveBit, 5>, kWidths / 2> sign_;
-  std::array<std::array<AdaptiveBit, kExponents>, kWidths> exponent_;
-  std::array<std::array<std::array<AdaptiveBit, 4>, kExponents>, kWidths / 2> mantissa_;
+  std::array<AdaptiveBit, kBits> bits_;
 };
 
 }  // namespace vitrine

