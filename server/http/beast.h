@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of Boost.Asio and Boost.Beast that this room uses, precompiled.
+// Boost.Asio with coroutines, and the parts of Boost.Beast that read requests: heavy, for few
+// files.
 #pragma once
 
 #include <boost/asio/as_tuple.hpp>
@@ -15,20 +16,17 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/http/fields.hpp>
-#include <boost/beast/http/message.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/string_body.hpp>
-#include <boost/beast/websocket/rfc6455.hpp>
+
+#include "server/http/http_header.h"
 
 namespace vitrine {
 
 namespace asio = boost::asio;
-namespace beast = boost::beast;
 
 using Tcp = asio::ip::tcp;
-using RequestHeader = beast::http::request_header<beast::http::fields>;
 
 // Awaits without exceptions: co_await gives a tuple that starts with the error code.
 inline constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);

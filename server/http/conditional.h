@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "server/http/beast.h"
+#include "server/http/http_header.h"
 #include "server/http/response.h"
 
 namespace vitrine {

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "server/http/beast.h"
+#include "server/http/http_header.h"
 
 namespace vitrine {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/http/beast.h"
+#include "server/http/http_header.h"
 
 namespace vitrine {
 

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <iterator>
 
-#include "server/http/beast.h"
+#include "server/http/http_header.h"
 
 namespace vitrine {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "codec/core/sha256.h"
 #include "server/catalogue/model_id.h"
-#include "server/http/beast.h"
+#include "server/http/http_header.h"
 #include "server/http/response.h"
 
 namespace vitrine {

@@ -15,7 +15,7 @@ struct WebAsset {
   std::span<const std::uint8_t> bytes;
 };
 
-// Defined by the web client (target vitrine_web), or empty where the build has none (VITRINE_WEB=OFF).
+// Defined by the web client (target vitrine_web); empty in a build without it (VITRINE_WEB=OFF).
 std::span<const WebAsset> web_assets();
 
 }  // namespace vitrine

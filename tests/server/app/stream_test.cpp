@@ -84,13 +84,15 @@ TEST_F(StreamTest, NeedsTheUpgradeAndTheSubprotocol) {
 }
 
 TEST_F(StreamTest, AShutdownTellsClientsToComeBack) {
-  WebSocketClient client = connect();
-  client.receive();
-  daemon.signal(SIGTERM);
-  const WebSocketFrame frame = client.receive();
-  ASSERT_EQ(frame.kind, WebSocketFrame::kClose);
-  EXPECT_EQ(frame.close_code(), 1012);
-  client.send_close();
+  {
+    WebSocketClient client = connect();
+    client.receive();
+    daemon.signal(SIGTERM);
+    const WebSocketFrame frame = client.receive();
+    ASSERT_EQ(frame.kind, WebSocketFrame::kClose);
+    EXPECT_EQ(frame.close_code(), 1012);
+    client.send_close();
+  }
   EXPECT_EQ(daemon.wait().exit_code, 0);
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "server/http/beast.h"
+
 namespace vitrine {
 namespace {
 
