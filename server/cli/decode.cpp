@@ -26,10 +26,10 @@ tl::expected<std::optional<Want>, Fault> read_want(const Arguments& arguments) {
   if (!error) return tl::unexpected(error.error());
 
   std::vector<Want> wants;
-  if (*level) wants.push_back(WantLevel{static_cast<std::uint32_t>(**level)});
-  if (*triangles) wants.push_back(WantTriangles{**triangles});
-  if (*bytes) wants.push_back(WantBytes{**bytes});
-  if (*error) wants.push_back(WantError{**error});
+  if (*level) wants.emplace_back(WantLevel{static_cast<std::uint32_t>(**level)});
+  if (*triangles) wants.emplace_back(WantTriangles{**triangles});
+  if (*bytes) wants.emplace_back(WantBytes{**bytes});
+  if (*error) wants.emplace_back(WantError{**error});
   if (wants.size() > 1) return misused("give one of --level, --triangles, --bytes and --error");
   return wants.empty() ? std::nullopt : std::optional(wants[0]);
 }

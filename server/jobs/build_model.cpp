@@ -50,7 +50,8 @@ double median_edge(const TriangleMesh& mesh) {
 int automatic_bits(const TriangleMesh& mesh) {
   const double edge = median_edge(mesh);
   int bits = kMinBits;
-  while (bits < kMaxBits && fit_lattice(mesh.positions, bits).step > edge / 32) ++bits;
+  while (bits < kMaxBits && fit_lattice(mesh.positions, bits).step > edge / 32)
+    ++bits;
   return bits;
 }
 
@@ -85,7 +86,8 @@ std::vector<std::vector<std::uint32_t>> region_adjacency(const LatticeMesh& fine
     }
   }
   std::vector<std::vector<std::uint32_t>> adjacency;
-  for (const auto& set : sets) adjacency.emplace_back(set.begin(), set.end());
+  for (const auto& set : sets)
+    adjacency.emplace_back(set.begin(), set.end());
   return adjacency;
 }
 
@@ -101,18 +103,22 @@ class LevelErrors {
     if (!last) info.display_filter = fit_display_filter(level, lattice_, meter_.original());
     info.display_filter = static_cast<float>(info.display_filter);  // as the header stores it
     auto mesh = std::make_shared<TriangleMesh>();
-    filter_for_display(level, [&](VertexId) { return info.display_filter; }, mesh->positions);
-    for (Vec3& p : mesh->positions) p = lattice_.origin + p * lattice_.step;
+    filter_for_display(
+        level, [&](VertexId) { return info.display_filter; }, mesh->positions);
+    for (Vec3& p : mesh->positions)
+      p = lattice_.origin + p * lattice_.step;
     mesh->faces = level.real_faces();
     info.faces = static_cast<std::uint32_t>(mesh->faces.size());
     manifest.levels.push_back(info);
-    while (pending_.size() + 1 >= threads_ && !pending_.empty()) settle(manifest);
+    while (pending_.size() + 1 >= threads_ && !pending_.empty())
+      settle(manifest);
     pending_.push_back(std::async(threads_ > 1 ? std::launch::async : std::launch::deferred,
                                   [this, mesh] { return meter_.measure(*mesh); }));
   }
 
   void finish(Manifest& manifest) {
-    while (!pending_.empty()) settle(manifest);
+    while (!pending_.empty())
+      settle(manifest);
   }
 
  private:
@@ -172,7 +178,8 @@ Expected<void> encode(const Hierarchy& hierarchy, const LatticeMesh& fine,
   body = base->bytes;
 
   std::vector<VertexId> fine_ids;
-  for (const std::uint32_t v : base->original) fine_ids.push_back(hierarchy.base_ids[v]);
+  for (const std::uint32_t v : base->original)
+    fine_ids.push_back(hierarchy.base_ids[v]);
   auto encoder = LayerEncoder::start(hierarchy, base->decoded, std::move(fine_ids));
   if (!encoder) return tl::unexpected(encoder.error());
   const std::size_t levels = hierarchy.levels.size();

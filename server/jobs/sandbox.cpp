@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/sandbox.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sched.h>
 #include <seccomp.h>
-#include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <initializer_list>
 #include <memory>
@@ -93,6 +93,11 @@ class Rules {
   int result_ = 0;
 };
 
+// The library's own macros for this are C only.
+scmp_arg_cmp argument(unsigned index, scmp_compare how, scmp_datum_t a, scmp_datum_t b = 0) {
+  return {index, how, a, b};
+}
+
 Expected<void> install_filter() {
   // Anything not listed ends the process: sockets, programs, processes, ptrace.
   const Filter filter(seccomp_init(SCMP_ACT_KILL_PROCESS), seccomp_release);
@@ -103,11 +108,11 @@ Expected<void> install_filter() {
   for (const int call : kDenied)
     rules.deny(call, EACCES);
   // Memory is never both data and code, and threads are not processes.
-  rules.allow_if(SCMP_SYS(mmap), SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
-  rules.allow_if(SCMP_SYS(mprotect), SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
-  rules.allow_if(SCMP_SYS(clone), SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD));
+  rules.allow_if(SCMP_SYS(mmap), argument(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
+  rules.allow_if(SCMP_SYS(mprotect), argument(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
+  rules.allow_if(SCMP_SYS(clone), argument(0, SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD));
   rules.deny(SCMP_SYS(clone3), ENOSYS);  // its flags are out of a filter's sight; libc uses clone
-  rules.allow_if(SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid())));
+  rules.allow_if(SCMP_SYS(tgkill), argument(0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid())));
   if (const int error = rules.load(); error != 0)
     return refused("install a system call filter", error);
   return {};

@@ -21,6 +21,8 @@ namespace vitrine::test {
 // A bumpy torus of about `faces` faces, closed or open, as an ascii PLY; coloured on request.
 std::string bumpy_ply(int faces, bool open = false, bool coloured = false);
 
+inline const std::string kVitrine = VITRINE_BIN_DIR "/vitrine";
+
 class VitrineCommand : public testing::Test {
  protected:
   const TemporaryFolder folder_;
@@ -45,12 +47,12 @@ class VitrineCommand : public testing::Test {
   }
 
   static ProgramResult vitrine(std::vector<std::string> words) {
-    words.insert(words.begin(), VITRINE_BIN_DIR "/vitrine");
+    words.insert(words.begin(), kVitrine);
     return run_program(words);
   }
   // The one JSON object that a command prints; nothing else may be printed.
   static nlohmann::json vitrine_json(std::vector<std::string> words) {
-    words.push_back("--json");
+    words.emplace_back("--json");
     const ProgramResult result = vitrine(words);
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_EQ(result.errors, "");

@@ -84,8 +84,8 @@ TEST_F(VitrineCommand, a_missing_output_folder_is_named) {
 }
 
 TEST_F(VitrineCommand, a_full_stdout_is_an_error) {
-  const ProgramResult result = run_program(
-      {"sh", "-c", "\"$0\" info \"$1\" > /dev/full", VITRINE_BIN_DIR "/vitrine", model(500)});
+  const ProgramResult result =
+      run_program({"sh", "-c", "\"$0\" info \"$1\" > /dev/full", kVitrine, model(500)});
   expect_fault(result, 1);
   EXPECT_THAT(result.errors, HasSubstr("No space left on device"));
 }
@@ -95,10 +95,10 @@ TEST_F(VitrineCommand, a_full_stdout_is_an_error) {
 ProgramResult run_on_small_disk(const std::string& prepare, const std::string& out,
                                 const std::vector<std::string>& words) {
   std::vector<std::string> line = {"unshare"};
-  if (::geteuid() != 0) line.push_back("--map-root-user");
+  if (::geteuid() != 0) line.emplace_back("--map-root-user");
   const std::string script = "out=$1; shift; mount -t tmpfs -o size=1m tmpfs \"$out\" && " +
                              prepare + " && { \"$@\"; code=$?; ls -A \"$out\"; exit $code; }";
-  line.insert(line.end(), {"--mount", "sh", "-c", script, "sh", out, VITRINE_BIN_DIR "/vitrine"});
+  line.insert(line.end(), {"--mount", "sh", "-c", script, "sh", out, kVitrine});
   line.insert(line.end(), words.begin(), words.end());
   return run_program(line);
 }
