@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 namespace vitrine {
 namespace {
@@ -18,9 +19,13 @@ constexpr std::uint64_t edge_key(VertexId from, VertexId to) {
   return std::uint64_t{from} << 32 | to;
 }
 
-std::string at_face(Corner c) { return " at face " + std::to_string(c / 3); }
+std::string at_face(Corner c) {
+  return " at face " + std::to_string(c / 3);
+}
 
-Unexpected bad(std::string what) { return fail(ErrorCode::kBadInput, std::move(what)); }
+Unexpected bad(std::string what) {
+  return fail(ErrorCode::kBadInput, std::move(what));
+}
 
 Expected<void> check_faces(std::uint32_t vertex_count, std::span<const Triangle> faces) {
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -33,19 +38,41 @@ Expected<void> check_faces(std::uint32_t vertex_count, std::span<const Triangle>
   return {};
 }
 
-std::vector<DirectedEdge> sorted_edges(std::span<const Triangle> faces) {
+// Edges sorted by key, then corner; those that leave v are [start[v], start[v + 1]).
+struct EdgeTable {
   std::vector<DirectedEdge> edges;
-  edges.reserve(faces.size() * 3);
+  std::vector<std::uint32_t> start;
+
+  std::span<const DirectedEdge> leaving(VertexId v) const {
+    return std::span(edges).subspan(start[v], start[v + 1] - start[v]);
+  }
+};
+
+// A counting sort by the vertex left, and then few edges at each vertex.
+EdgeTable edge_table(std::uint32_t vertex_count, std::span<const Triangle> faces) {
+  EdgeTable table{.edges = std::vector<DirectedEdge>(faces.size() * 3),
+                  .start = std::vector<std::uint32_t>(std::size_t{vertex_count} + 1, 0)};
+  for (const Triangle& f : faces) {
+    for (VertexId v : f)
+      ++table.start[v];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& s : table.start)
+    sum += std::exchange(s, sum);
+  std::vector<std::uint32_t> free(table.start);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const Corner c = static_cast<Corner>(3 * f + k);
-      edges.push_back({edge_key(faces[f][(k + 1) % 3], faces[f][(k + 2) % 3]), c});
+      const VertexId from = faces[f][(k + 1) % 3], to = faces[f][(k + 2) % 3];
+      table.edges[free[from]++] = {edge_key(from, to), static_cast<Corner>(3 * f + k)};
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-    return a.key != b.key ? a.key < b.key : a.corner < b.corner;
-  });
-  return edges;
+  for (VertexId v = 0; v < vertex_count; ++v) {
+    std::sort(table.edges.begin() + table.start[v], table.edges.begin() + table.start[v + 1],
+              [](const DirectedEdge& a, const DirectedEdge& b) {
+                return a.key != b.key ? a.key < b.key : a.corner < b.corner;
+              });
+  }
+  return table;
 }
 
 }  // namespace
@@ -56,10 +83,12 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
   Connectivity mesh;
   mesh.corner_at_.assign(vertex_count, kNoCorner);
   mesh.vertex_.reserve(faces.size() * 3);
-  for (const Triangle& f : faces) mesh.vertex_.insert(mesh.vertex_.end(), f.begin(), f.end());
+  for (const Triangle& f : faces)
+    mesh.vertex_.insert(mesh.vertex_.end(), f.begin(), f.end());
   mesh.opposite_.assign(mesh.vertex_.size(), kNoCorner);
 
-  const auto edges = sorted_edges(faces);
+  const EdgeTable table = edge_table(vertex_count, faces);
+  const std::vector<DirectedEdge>& edges = table.edges;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (i + 1 < edges.size() && edges[i].key == edges[i + 1].key) {
       return bad("non-manifold or inconsistently oriented edge" + at_face(edges[i + 1].corner));
@@ -69,10 +98,11 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
   std::vector<Corner> border(vertex_count, kNoCorner);
   for (const DirectedEdge& e : edges) {
     const std::uint64_t twin = e.key >> 32 | e.key << 32;
+    const auto candidates = table.leaving(static_cast<VertexId>(twin >> 32));
     const auto it = std::lower_bound(
-        edges.begin(), edges.end(), twin,
-        [](const DirectedEdge& a, std::uint64_t key) { return a.key < key; });
-    if (it != edges.end() && it->key == twin) {
+        candidates.begin(), candidates.end(), twin,
+        [](const DirectedEdge& other, std::uint64_t key) { return other.key < key; });
+    if (it != candidates.end() && it->key == twin) {
       mesh.opposite_[e.corner] = it->corner;
       continue;
     }
@@ -158,7 +188,8 @@ VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::u
   const VertexId w = vertex_count();
 
   corner_at_.push_back(at_i);
-  for (std::uint32_t k = i; k != j; k = (k + 1) % n) vertex_[corners[k]] = w;
+  for (std::uint32_t k = i; k != j; k = (k + 1) % n)
+    vertex_[corners[k]] = w;
   const Corner a = static_cast<Corner>(vertex_.size()), b = a + 3;
   vertex_.insert(vertex_.end(), {v, qi, w, v, w, qj});
   opposite_.resize(vertex_.size());
@@ -192,7 +223,8 @@ void Connectivity::collapse(Corner c) {
   anchor(apex12, prev(over_b2));
   anchor(apex21, prev(over_a1));
   corner_at_[v2] = kNoCorner;
-  for (Corner dead : {b1, b2, b3, a1, a2, a3}) vertex_[dead] = kNoCorner;
+  for (Corner dead : {b1, b2, b3, a1, a2, a3})
+    vertex_[dead] = kNoCorner;
   add_valence(apex12, -1);
   add_valence(apex21, -1);
 }
