@@ -3,7 +3,8 @@
 //
 // Every boundary loop is closed by one virtual vertex, so that each vertex has a full one-ring and
 // no operation has a boundary case. Corner c belongs to face c / 3; the face of the corners
-// 3f, 3f+1, 3f+2 lists its vertices counter-clockwise; the edge opposite to a corner is named by it.
+// 3f, 3f+1, 3f+2 lists its vertices counter-clockwise; the edge opposite to a corner is named by
+// it.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +23,15 @@ using Corner = std::uint32_t;
 inline constexpr VertexId kVirtualBit = 0x8000'0000u;  // kVirtualBit + k closes boundary loop k
 inline constexpr Corner kNoCorner = 0xFFFF'FFFFu;
 
-constexpr bool is_virtual(VertexId v) { return (v & kVirtualBit) != 0; }
-constexpr Corner next(Corner c) { return c % 3 == 2 ? c - 2 : c + 1; }
-constexpr Corner prev(Corner c) { return c % 3 == 0 ? c + 2 : c - 1; }
+constexpr bool is_virtual(VertexId v) {
+  return (v & kVirtualBit) != 0;
+}
+constexpr Corner next(Corner c) {
+  return c % 3 == 2 ? c - 2 : c + 1;
+}
+constexpr Corner prev(Corner c) {
+  return c % 3 == 0 ? c + 2 : c - 1;
+}
 
 class Connectivity {
  public:
@@ -85,9 +92,9 @@ class Connectivity {
   void add_valence(VertexId v, int delta);
   void anchor(VertexId v, Corner c);
 
-  std::vector<VertexId> vertex_;      // per corner; kNoCorner in all three where the face is dead
-  std::vector<Corner> opposite_;      // per corner
-  std::vector<Corner> corner_at_;     // per real vertex
+  std::vector<VertexId> vertex_;   // per corner; kNoCorner in all three where the face is dead
+  std::vector<Corner> opposite_;   // per corner
+  std::vector<Corner> corner_at_;  // per real vertex
   std::vector<std::uint32_t> loop_length_;  // per virtual vertex
 };
 

@@ -4,16 +4,19 @@
 namespace vitrine {
 
 LatticeMesh quantise(const TriangleMesh& mesh, const Lattice& lattice) {
-  LatticeMesh out{.lattice = lattice, .positions = {}, .faces = mesh.faces, .colours = mesh.colours};
+  LatticeMesh out{
+      .lattice = lattice, .positions = {}, .faces = mesh.faces, .colours = mesh.colours};
   out.positions.reserve(mesh.positions.size());
-  for (const Vec3& p : mesh.positions) out.positions.push_back(lattice.to_lattice(p));
+  for (const Vec3& p : mesh.positions)
+    out.positions.push_back(lattice.to_lattice(p));
   return out;
 }
 
 TriangleMesh to_model(const LatticeMesh& mesh) {
   TriangleMesh out{.positions = {}, .faces = mesh.faces, .colours = mesh.colours};
   out.positions.reserve(mesh.positions.size());
-  for (const Vec3i& p : mesh.positions) out.positions.push_back(mesh.lattice.to_model(p));
+  for (const Vec3i& p : mesh.positions)
+    out.positions.push_back(mesh.lattice.to_model(p));
   return out;
 }
 

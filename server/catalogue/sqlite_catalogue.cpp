@@ -147,7 +147,8 @@ class SqliteCatalogue final : public Catalogue {
     return guarded<void>([&]() -> Expected<void> {
       update_state_.reset().bind(id.bytes()).bind(static_cast<std::int64_t>(state));
       bool found = false;
-      while (update_state_.step()) found = true;
+      while (update_state_.step())
+        found = true;
       if (!found) {
         return fail(ErrorCode::kState,
                     fmt::format("there is no model {}; list the models", id.to_string()));
