@@ -129,7 +129,9 @@ void DisplacementModel::Regression::solve() {
     double sum = y[i];
     for (std::size_t k = i + 1; k < kFeatures; ++k)
       sum -= l[k][i] * weights[k];
-    weights[i] = sum / l[i][i];
+    // Beyond the range only where hostile splits leave the matrix without a solution.
+    const double weight = sum / l[i][i];
+    weights[i] = std::fabs(weight) < 1e3 ? weight : 0;
   }
 }
 

@@ -58,6 +58,8 @@ Expected<std::vector<EncodedChunk>> LayerEncoder::encode_level() {
       return tl::unexpected(ok.error());
     }
     chunk.bytes = coder.finish();
+    while (chunk.splits > most_splits(chunk.bytes.size()))
+      chunk.bytes.push_back(0);
   }
   end_level();
   return chunks;

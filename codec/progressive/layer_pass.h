@@ -59,6 +59,8 @@ class LayerPass {
       : mesh_(mesh), frame_(frame), coder_(coder), truth_(truth) {}
 
   Expected<std::vector<Split>> run() {
+    // Each vertex splits at most once: memory follows the mesh, not what the header says.
+    if (frame_.splits > mesh_.members[frame_.region].size()) return damaged("too many splits");
     splits_.reserve(frame_.splits);
     for (const VertexId v : visiting_order()) {
       if (auto ok = visit(v); !ok) return tl::unexpected(ok.error());

@@ -75,7 +75,13 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
     }
   }
   for (std::size_t l = 1; l < m.levels.size(); ++l) {
-    if (m.levels[l].vertices < m.levels[l - 1].vertices) return bad("levels lose vertices");
+    const LevelInfo &fine = m.levels[l], &coarse = m.levels[l - 1];
+    if (fine.vertices < coarse.vertices) return bad("levels lose vertices");
+    // A split adds two faces, at a boundary one.
+    const std::uint64_t born = fine.vertices - coarse.vertices;
+    if (fine.faces < coarse.faces + born || fine.faces > coarse.faces + 2 * born) {
+      return bad("the faces of level " + std::to_string(l) + " do not fit its vertices");
+    }
   }
   return {};
 }
@@ -132,7 +138,8 @@ Expected<void> read_regions(ByteReader& in, const Limits& limits, Manifest& m) {
   m.adjacency.assign(1, {});
   if (m.regions == 1) return {};
   const std::uint64_t fork = in.varint();
-  if (fork == 0 || fork >= m.levels.size()) return bad("the region level does not exist");
+  // The regions are coded behind the splits of the level before.
+  if (fork < 2 || fork >= m.levels.size()) return bad("the region level does not exist");
   m.fork_level = static_cast<std::uint32_t>(fork);
   m.planes.resize(m.regions - 1);
   for (RegionPlane& plane : m.planes) {
@@ -170,7 +177,8 @@ Expected<void> read_chunks(ByteReader& in, Manifest& m) {
       splits += own;
       const auto digest = in.bytes(kHashBytes);
       const std::uint64_t born = m.levels[level].vertices - m.levels[level - 1].vertices;
-      if (!in.ok() || chunk.length > (1ull << 40) || own > born || splits > born) {
+      if (!in.ok() || chunk.length > (1ull << 40) || own > born || splits > born ||
+          own > most_splits(chunk.length)) {
         return bad("impossible chunk of level " + std::to_string(level));
       }
       chunk.splits = static_cast<std::uint32_t>(own);
@@ -210,6 +218,9 @@ Expected<void> read_frame(ByteReader& in, const Limits& limits, Manifest& m) {
   const std::size_t unit = in.u8();
   if (unit > kMaxUnitBytes) return bad("unit name too long");
   const auto name = in.bytes(unit);
+  if (!std::all_of(name.begin(), name.end(), [](auto c) { return c >= 0x20 && c < 0x7F; })) {
+    return bad("unit name is not printable ASCII");
+  }
   m.unit.assign(name.begin(), name.end());
   const std::uint64_t loops = in.varint();
   if (loops > limits.vertices / 3) return bad("impossible number of boundary loops");

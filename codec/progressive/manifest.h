@@ -36,6 +36,12 @@ struct ChunkInfo {
   Sha256 sha256{};
 };
 
+// A chunk of `length` bytes holds at most this many splits, so that what a decoder allocates is
+// bounded by what it was sent. An encoder that does better appends zero bytes.
+constexpr std::uint64_t most_splits(std::uint64_t length) {
+  return 16 * (length + 16);
+}
+
 // A plane of the region tree: vertices with coordinate[axis] < at go to the first child.
 struct RegionPlane {
   std::uint8_t axis = 0;  // 0 x, 1 y, 2 z

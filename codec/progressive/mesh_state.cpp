@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/mesh_state.h"
 
+#include <algorithm>
+
 #include "codec/progressive/colour.h"
 
 namespace vitrine {
@@ -9,8 +11,9 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base) {
   const auto n = static_cast<std::uint32_t>(base.positions.size());
   auto closed = Connectivity::close(n, base.faces);
   if (!closed) return tl::unexpected(closed.error());
-  for (const Vec3i& p : base.positions) {
-    if (!in_coordinate_bound(p)) return fail(ErrorCode::kBadInput, "the base leaves the lattice");
+  if (!std::all_of(base.positions.begin(), base.positions.end(), in_coordinate_bound) ||
+      !std::all_of(base.colours.begin(), base.colours.end(), in_coordinate_bound)) {
+    return fail(ErrorCode::kBadInput, "the base mesh leaves the lattice or the range of colours");
   }
   MeshState mesh{.connectivity = std::move(*closed), .positions = base.positions};
   mesh.colours = base.colours;

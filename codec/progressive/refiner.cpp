@@ -92,6 +92,11 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
     return fail(ErrorCode::kState, "this chunk cannot be applied in the present state");
   }
   const ChunkInfo& info = s.manifest.chunks[chunk];
+  if (bytes.size() != info.length) {
+    return fail(ErrorCode::kBadInput, "a chunk has " + std::to_string(bytes.size()) +
+                                          " bytes and the header says " +
+                                          std::to_string(info.length) + "; fetch it again");
+  }
   s.usable = false;
   const bool forks = s.manifest.regions > 1 && info.level + 1 == s.manifest.fork_level;
   auto splits = decode_layer(

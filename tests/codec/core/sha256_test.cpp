@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/core/sha256.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace vitrine {
+namespace {
+
+std::string hash(std::string_view text) {
+  return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+}
+
+// FIPS 180-4's examples, and one of each padding.
+TEST(Sha256, KnowsTheStandardVectors) {
+  EXPECT_EQ(hash(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(hash("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(hash("abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmnhijklmnoijklmnopjklmnopqk"
+                 "lmnopqrlmnopqrsmnopqrstnopqrstu"),
+            "cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1");
+  EXPECT_EQ(hash(std::string(1'000'000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST(Sha256, HexIsReadBackAndNothingElse) {
+  const Sha256 digest = sha256({});
+  Sha256 read{};
+  ASSERT_TRUE(from_hex(to_hex(digest), read));
+  EXPECT_EQ(read, digest);
+  EXPECT_FALSE(from_hex(to_hex(digest).substr(1), read));
+  EXPECT_FALSE(from_hex(std::string(64, 'G'), read));
+  EXPECT_FALSE(from_hex(std::string(64, 'A'), read));
+}
+
+}  // namespace
+}  // namespace vitrine

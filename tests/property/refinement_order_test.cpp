@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any order of chunks that obeys the region rule gives the same meshes, and splits can be undone.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "support/encoded_model.h"
+#include "support/property.h"
+#include "support/random_mesh.h"
+
+namespace vitrine::test {
+namespace {
+
+using Surface = std::vector<SurfaceFace>;
+
+constexpr std::uint32_t kOrders = 4;
+
+EncodedModel random_model(std::uint64_t seed) {
+  Dice dice(~seed);
+  return encode_model(random_mesh(seed, 400),
+                      {.placement = seed % 2 == 0 ? Placement::kMidpoint : Placement::kPyramid,
+                       .target_vertices = 6,
+                       .regions = 2 + dice.below(6),
+                       .vertices_per_region = 4 + dice.below(6)});
+}
+
+void expect_manifold(const Refiner& refiner) {
+  const LatticeMesh mesh = refiner.lattice_mesh();
+  ASSERT_EQ(mesh.faces.size(), refiner.face_count());
+  const auto closed = Connectivity::close(refiner.vertex_count(), mesh.faces);
+  ASSERT_TRUE(closed) << closed.error().message;
+  ASSERT_EQ(closed->loop_count(), refiner.manifest().loops);
+}
+
+// Refines in a random order; every state must be the one that its set of chunks had before.
+void refine_at_random(const EncodedModel& model, Dice& dice,
+                      std::map<std::vector<bool>, Surface>& known) {
+  Refiner refiner = start_refiner(model);
+  std::vector<bool> applied(model.manifest.chunks.size(), false);
+  for (std::size_t step = 0; step < applied.size(); ++step) {
+    const auto ready = ready_chunks(refiner);
+    ASSERT_FALSE(ready.empty());
+    const std::size_t chunk = ready[dice.below(static_cast<std::uint32_t>(ready.size()))];
+    apply_chunk(refiner, model, chunk);
+    applied[chunk] = true;
+    expect_manifold(refiner);
+    Surface surface = canonical_surface(refiner.lattice_mesh());
+    const auto [before, is_new] = known.emplace(applied, surface);
+    ASSERT_TRUE(is_new || before->second == surface) << "after chunk " << chunk;
+  }
+}
+
+void expect_same_in_every_order(std::uint64_t seed) {
+  const EncodedModel model = random_model(seed);
+  Dice dice(seed);
+  std::map<std::vector<bool>, Surface> known;
+  for (std::uint32_t order = 0; order < kOrders; ++order) {
+    refine_at_random(model, dice, known);
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(RefinementOrder, MostRandomModelsFork) {
+  std::uint32_t forked = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    forked += random_model(seed).manifest.regions > 1 ? 1 : 0;
+  EXPECT_GE(forked, 10u);
+}
+
+TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
+  const std::uint64_t count = cases(600);
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    ASSERT_NO_THROW(expect_same_in_every_order(seed));
+    if (HasFatalFailure()) return;
+  }
+}
+
+// Applies `chunks` chunks in file order, shows the last one in part, then takes it back.
+void expect_undo(const EncodedModel& model, Dice& dice, std::size_t chunks) {
+  Refiner refiner = start_refiner(model);
+  for (std::size_t i = 0; i + 1 < chunks; ++i)
+    apply_chunk(refiner, model, i);
+  const Surface before = canonical_surface(refiner.lattice_mesh());
+  const std::uint32_t coarse = refiner.face_count();
+  apply_chunk(refiner, model, chunks - 1);
+  const std::uint32_t wanted = coarse + dice.below(refiner.face_count() - coarse + 1);
+  refiner.undo_to_faces(wanted);
+  ASSERT_LE(refiner.face_count(), wanted);
+  ASSERT_GE(refiner.face_count() + 1, wanted);  // a split has at most two faces
+  expect_manifold(refiner);
+  refiner.undo_to_faces(0);
+  ASSERT_EQ(canonical_surface(refiner.lattice_mesh()), before);
+}
+
+void expect_every_chunk_undone(std::uint64_t seed) {
+  const EncodedModel model = random_model(seed);
+  Dice dice(seed);
+  for (std::size_t chunks = 1; chunks <= model.manifest.chunks.size(); ++chunks) {
+    expect_undo(model, dice, chunks);
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(RefinementOrder, EveryChunkCanBeShownInPartAndTakenBack) {
+  const std::uint64_t count = cases(300);
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    ASSERT_NO_THROW(expect_every_chunk_undone(seed));
+    if (HasFatalFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace vitrine::test

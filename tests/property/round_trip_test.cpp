@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is coded comes back, for random meshes.
+#include <gtest/gtest.h>
+
+#include "support/encoded_model.h"
+#include "support/property.h"
+#include "support/random_mesh.h"
+
+namespace vitrine::test {
+namespace {
+
+// Small bases and small regions, so that little meshes have levels and forks too.
+SimplifyOptions random_options(Dice& dice) {
+  return {.placement = dice.one_in(2) ? Placement::kPyramid : Placement::kMidpoint,
+          .target_vertices = 4 + dice.below(20),
+          .regions = dice.one_in(2) ? 1 : 2 + dice.below(5),
+          .vertices_per_region = 4 + dice.below(12)};
+}
+
+void expect_counts(const Refiner& refiner, std::uint32_t level) {
+  const LevelInfo& stated = refiner.manifest().levels[level];
+  ASSERT_EQ(refiner.vertex_count(), stated.vertices);
+  ASSERT_EQ(refiner.face_count(), stated.faces);
+}
+
+void expect_round_trip(std::uint64_t seed) {
+  const LatticeMesh fine = random_mesh(seed);
+  Dice dice(~seed);
+  const EncodedModel model = encode_model(fine, random_options(dice));
+  Refiner refiner = start_refiner(model);
+  expect_counts(refiner, 0);
+  for (std::size_t i = 0; i < model.manifest.chunks.size(); ++i)
+    apply_chunk(refiner, model, i);
+  expect_counts(refiner, static_cast<std::uint32_t>(model.manifest.levels.size() - 1));
+  ASSERT_EQ(canonical_surface(refiner.lattice_mesh()), canonical_surface(fine));
+}
+
+TEST(RoundTrip, TenThousandRandomMeshesComeBackExactly) {
+  const std::uint64_t count = cases(10'000);
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    ASSERT_NO_THROW(expect_round_trip(seed));
+    if (HasFatalFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace vitrine::test

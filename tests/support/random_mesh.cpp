@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/random_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "codec/core/limits.h"
+
+namespace vitrine::test {
+namespace {
+
+// A component with positions in about [-1, 1].
+struct Part {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> faces;
+};
+
+Vec3 on_circle(std::uint32_t i, std::uint32_t n, double radius, double z) {
+  // A square instead of a circle: no libm, so the same on every machine.
+  const double t = 4.0 * i / n, f = t - std::floor(t);
+  const int side = static_cast<int>(t);
+  const double x[] = {1 - 2 * f, -1, -1 + 2 * f, 1}, y[] = {1, 1 - 2 * f, -1, -1 + 2 * f};
+  return {radius * x[side], radius * y[side], z};
+}
+
+// A cone over n rim vertices, whose centre is vertex 0; closed by a second apex where asked for.
+Part fan(std::uint32_t n, bool closed) {
+  Part part{.positions = {{0, 0, 0.5}}, .faces = {}};
+  for (std::uint32_t i = 0; i < n; ++i)
+    part.positions.push_back(on_circle(i, n, 1, 0));
+  if (closed) part.positions.push_back({0, 0, -0.5});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t a = 1 + i, b = 1 + (i + 1) % n;
+    part.faces.push_back({0, a, b});
+    if (closed) part.faces.push_back({n + 1, b, a});
+  }
+  return part;
+}
+
+Part few_triangles(std::uint32_t count) {
+  Part part{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}};
+  if (count > 1) part.positions.push_back({1, 1, 0.3}), part.faces.push_back({2, 1, 3});
+  return part;
+}
+
+void add_quad(Part& part, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  part.faces.push_back({a, b, c});
+  part.faces.push_back({a, c, d});
+}
+
+// u by v vertices; wrapped one way a tube, both ways a torus.
+Part grid(std::uint32_t u, std::uint32_t v, bool wrap_u, bool wrap_v) {
+  Part part;
+  for (std::uint32_t j = 0; j < v; ++j) {
+    for (std::uint32_t i = 0; i < u; ++i) {
+      const Vec3 across = on_circle(j, v, 0.3, 0);
+      const Vec3 flat = {2.0 * i / u - 1, 2.0 * j / v - 1, 0.1 * ((i * j) % 3)};
+      const double radius = 0.6 + (wrap_v ? across.x : 0);
+      part.positions.push_back(wrap_u ? on_circle(i, u, radius, wrap_v ? across.y : flat.y) : flat);
+    }
+  }
+  for (std::uint32_t j = 0; j + (wrap_v ? 0 : 1) < v; ++j) {
+    for (std::uint32_t i = 0; i + (wrap_u ? 0 : 1) < u; ++i) {
+      const std::uint32_t right = (i + 1) % u, up = (j + 1) % v;
+      add_quad(part, j * u + i, j * u + right, up * u + right, up * u + i);
+    }
+  }
+  return part;
+}
+
+// A plate of u by v cells with a tunnel through each cell of odd row and column: genus
+// floor(u/2) * floor(v/2) for odd u and v.
+Part plate(std::uint32_t u, std::uint32_t v) {
+  Part part;
+  const std::uint32_t layer = (u + 1) * (v + 1);
+  for (std::uint32_t k = 0; k < 2 * layer; ++k) {
+    const std::uint32_t i = k % layer % (u + 1), j = k % layer / (u + 1);
+    part.positions.push_back({2.0 * i / u - 1, 2.0 * j / v - 1, k < layer ? 0.1 : -0.1});
+  }
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return j * (u + 1) + i; };
+  const auto solid = [&](std::uint32_t i, std::uint32_t j) {  // wraps below zero
+    return i < u && j < v && !(i % 2 == 1 && j % 2 == 1);
+  };
+  // The wall below the upper edge a -> b of a solid cell whose other side is open.
+  const auto wall = [&](std::uint32_t a, std::uint32_t b) {
+    add_quad(part, a, a + layer, b + layer, b);
+  };
+  for (std::uint32_t j = 0; j < v; ++j) {
+    for (std::uint32_t i = 0; i < u; ++i) {
+      if (!solid(i, j)) continue;
+      const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+      add_quad(part, a, b, c, d);
+      add_quad(part, d + layer, c + layer, b + layer, a + layer);
+      if (!solid(i, j - 1)) wall(a, b);
+      if (!solid(i + 1, j)) wall(b, c);
+      if (!solid(i, j + 1)) wall(c, d);
+      if (!solid(i - 1, j)) wall(d, a);
+    }
+  }
+  return part;
+}
+
+Part random_part(Dice& dice, std::uint32_t size) {
+  const auto side = static_cast<std::int32_t>(std::max(4.0, std::sqrt(size)));
+  const auto u = static_cast<std::uint32_t>(dice.between(3, side));
+  const auto v = static_cast<std::uint32_t>(dice.between(3, side));
+  switch (dice.below(10)) {
+    case 0:
+      return few_triangles(1);
+    case 1:
+      return few_triangles(2);
+    case 2:
+      return fan(3, true);
+    case 3:
+      return fan(static_cast<std::uint32_t>(dice.between(3, 70)), false);
+    case 4:
+      return fan(static_cast<std::uint32_t>(dice.between(3, 70)), true);
+    case 5:
+      return grid(u, v, true, false);
+    case 6:
+      return grid(u, v, true, true);
+    case 7:
+      return plate(u / 2 * 2 - 1, v / 2 * 2 + 1);
+    default:
+      return grid(u, v, false, false);
+  }
+}
+
+// Puts a vertex into some faces, which makes valences irregular, many of them 3.
+void subdivide(Dice& dice, Part& part) {
+  const std::uint32_t count = dice.below(static_cast<std::uint32_t>(part.faces.size()) + 1) / 2;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t f = dice.below(static_cast<std::uint32_t>(part.faces.size()));
+    const auto [a, b, c] = part.faces[f];
+    const auto w = static_cast<std::uint32_t>(part.positions.size());
+    part.positions.push_back((part.positions[a] + part.positions[b] + part.positions[c]) *
+                             (1.0 / 3));
+    part.faces[f] = {a, b, w};
+    part.faces.push_back({b, c, w});
+    part.faces.push_back({c, a, w});
+  }
+}
+
+std::vector<bool> boundary_vertices(const Part& part) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const Triangle& t : part.faces) {
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.emplace_back(t[k], t[(k + 1) % 3]);
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<bool> boundary(part.positions.size(), false);
+  for (const auto& [a, b] : edges) {
+    if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a))) {
+      boundary[a] = boundary[b] = true;
+    }
+  }
+  return boundary;
+}
+
+// Takes out faces that share no vertex with each other or with a boundary.
+void cut_holes(Dice& dice, Part& part) {
+  std::vector<bool> taken = boundary_vertices(part);
+  std::vector<std::uint32_t> faces_of(part.positions.size(), 0);
+  for (const Triangle& t : part.faces) {
+    for (const std::uint32_t v : t)
+      ++faces_of[v];
+  }
+  std::erase_if(part.faces, [&](const Triangle& t) {
+    if (!dice.one_in(4)) return false;
+    for (const std::uint32_t v : t) {
+      if (taken[v] || faces_of[v] < 3) return false;
+    }
+    for (const std::uint32_t v : t)
+      taken[v] = true;
+    return true;
+  });
+}
+
+// A shuffled numbering, so that nothing rests on the order of construction.
+void shuffle(Dice& dice, LatticeMesh& mesh) {
+  const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+  std::vector<std::uint32_t> to(n);
+  for (std::uint32_t v = 0; v < n; ++v) {
+    to[v] = v;
+    std::swap(to[v], to[dice.below(v + 1)]);
+  }
+  std::vector<Vec3i> positions(n);
+  for (std::uint32_t v = 0; v < n; ++v)
+    positions[to[v]] = mesh.positions[v];
+  mesh.positions = std::move(positions);
+  for (Triangle& t : mesh.faces) {
+    t = {to[t[0]], to[t[1]], to[t[2]]};
+    std::rotate(t.begin(), t.begin() + dice.below(3), t.end());
+  }
+}
+
+enum class Spread { kSmooth, kNoisy, kCrowded, kCorners };
+
+Vec3i place(Dice& dice, const Vec3& p, Spread spread, std::int32_t top) {
+  const auto random = [&](std::int32_t low, std::int32_t high) {
+    return Vec3i{dice.between(low, high), dice.between(low, high), dice.between(low, high)};
+  };
+  if (spread == Spread::kCrowded) return random(0, 2);
+  if (spread == Spread::kCorners) {
+    const Vec3i bits = random(0, 1);
+    return {bits.x * top, bits.y * top, bits.z * top};
+  }
+  const double half = 0.4 * top;
+  const auto grid = [&](double c) {
+    return static_cast<std::int32_t>(std::floor((c + 1.2) * half));
+  };
+  const Vec3i at = {grid(p.x), grid(p.y), grid(p.z)};
+  const std::int32_t noise = spread == Spread::kNoisy ? top / 20 : top / 400;
+  const Vec3i moved = at + random(-noise, noise);
+  return {std::clamp(moved.x, 0, top), std::clamp(moved.y, 0, top), std::clamp(moved.z, 0, top)};
+}
+
+void colour(Dice& dice, LatticeMesh& mesh) {
+  const bool smooth = dice.one_in(2);
+  const int shift = mesh.lattice.bits - 8;
+  for (const Vec3i& p : mesh.positions) {
+    const auto byte = [&](std::int32_t c) {
+      return static_cast<std::uint8_t>(smooth ? c >> shift : dice.between(0, 255));
+    };
+    mesh.colours.push_back({byte(p.x), byte(p.y), byte(p.z)});
+  }
+}
+
+}  // namespace
+
+LatticeMesh random_mesh(std::uint64_t seed, std::uint32_t size) {
+  Dice dice(seed);
+  LatticeMesh mesh;
+  mesh.lattice.bits = dice.between(kMinBits, kMaxBits);
+  const std::int32_t top = (1 << mesh.lattice.bits) - 1;
+  const std::uint32_t parts = dice.one_in(3) ? 1 + dice.below(4) : 1;
+  for (std::uint32_t k = 0; k < parts; ++k) {
+    Part part = random_part(dice, size);
+    if (dice.one_in(2)) subdivide(dice, part);
+    if (dice.one_in(3)) cut_holes(dice, part);
+    constexpr std::array kSpreads = {Spread::kSmooth, Spread::kSmooth, Spread::kSmooth,
+                                     Spread::kNoisy,  Spread::kNoisy,  Spread::kCrowded,
+                                     Spread::kCorners};
+    const Spread spread = kSpreads[dice.below(kSpreads.size())];
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3& p : part.positions)
+      mesh.positions.push_back(place(dice, p, spread, top));
+    for (const auto& [a, b, c] : part.faces)
+      mesh.faces.push_back({first + a, first + b, first + c});
+  }
+  shuffle(dice, mesh);
+  if (dice.one_in(3)) colour(dice, mesh);
+  return mesh;
+}
+
+}  // namespace vitrine::test
