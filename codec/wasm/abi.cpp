@@ -102,10 +102,15 @@ VITRINE_EXPORT(next_chunk) int next_chunk(Model* model) {
   return model->next_chunk();
 }
 
-// Checks the SHA-256 and applies. -1: damaged in transit, the model is as before; 0: failed.
+// 0: damaged in transit, worth another request. To be called before apply().
+VITRINE_EXPORT(check_chunk)
+int check_chunk(Model* model, std::uint32_t chunk, const std::uint8_t* data, std::uint32_t size) {
+  return succeeded(model->check_chunk(chunk, bytes_at(data, size)));
+}
+
+// After a failure want() starts over.
 VITRINE_EXPORT(apply)
 int apply(Model* model, std::uint32_t chunk, const std::uint8_t* data, std::uint32_t size) {
-  if (!succeeded(model->check_chunk(chunk, bytes_at(data, size)))) return -1;
   return succeeded(model->apply(chunk, bytes_at(data, size)));
 }
 

@@ -127,6 +127,7 @@ int Model::next_chunk() {
 
 Expected<void> Model::apply(std::size_t chunk, std::span<const std::uint8_t> bytes) {
   if (!refiner_ || trimmed_) return fail(ErrorCode::kState, "the base mesh must come first");
+  if (chunk >= applied_.size()) return fail(ErrorCode::kState, "there is no such chunk");
   auto done = refiner_->apply(chunk, bytes);
   applied_[chunk] = done.has_value();
   trimmed_ = !done;

@@ -31,7 +31,9 @@ async function inWasm(path) {
   decoder.want({ level: info.levels.length });
   for (let chunk = decoder.nextChunk(); chunk !== undefined; chunk = decoder.nextChunk()) {
     const { offset, length } = info.chunks[chunk];
-    decoder.apply(chunk, file.subarray(offset, offset + length));
+    const bytes = file.subarray(offset, offset + length);
+    decoder.checkChunk(chunk, bytes);
+    decoder.apply(chunk, bytes);
     states.push(state(decoder));
   }
   return states;

@@ -50,6 +50,8 @@ export class FakeDecoder implements ModelDecoder {
     return this.#requested < this.#goal ? this.#requested++ : undefined;
   }
 
+  checkChunk = () => undefined;
+
   apply(chunk: number, bytes: Uint8Array): void {
     const fault = this.damaged.findIndex((entry) => entry.chunk === chunk);
     if (fault >= 0) throw (this.damaged.splice(fault, 1)[0] as { error: Error }).error;

@@ -22,6 +22,7 @@ interface Exports {
   start(model: Pointer, positions: Pointer, vertices: number, faces: Pointer, count: number, colours: Pointer): number;
   want(model: Pointer, kind: number, value: number): number;
   next_chunk(model: Pointer): number;
+  check_chunk(model: Pointer, chunk: number, data: Pointer, size: number): number;
   apply(model: Pointer, chunk: number, data: Pointer, size: number): number;
   trim(model: Pointer): number;
   bytes_held(model: Pointer): number;
@@ -116,11 +117,16 @@ export class Decoder {
     return chunk < 0 ? undefined : chunk;
   }
 
-  /** Throws DamagedError, with the surface as it was, or ModelError: then want() starts over. */
+  /** Throws DamagedError where the SHA-256 is another: fetch the chunk again. */
+  checkChunk(chunk: number, bytes: Uint8Array): void {
+    const fits = this.#lend(bytes, (data, size) => this.#wasm.check_chunk(this.#model, chunk, data, size));
+    if (!fits) throw new DamagedError(this.#error().message);
+  }
+
+  /** Applies a checked chunk. Throws ModelError where its content is impossible: then want() starts over. */
   apply(chunk: number, bytes: Uint8Array): void {
-    const answer = this.#lend(bytes, (data, size) => this.#wasm.apply(this.#model, chunk, data, size));
-    if (answer < 0) throw new DamagedError(this.#error().message);
-    if (answer === 0) throw this.#error();
+    const applied = this.#lend(bytes, (data, size) => this.#wasm.apply(this.#model, chunk, data, size));
+    if (!applied) throw this.#error();
   }
 
   /** At the goal: takes back the splits beyond it. */
@@ -130,6 +136,11 @@ export class Decoder {
 
   get bytesHeld(): number {
     return this.#wasm.bytes_held(this.#model);
+  }
+
+  /** Memory in use, in pages of 64 KiB. */
+  get pages(): number {
+    return this.#wasm.memory.buffer.byteLength >> 16;
   }
 
   surface(): Surface {

@@ -14,6 +14,7 @@ export interface ModelDecoder {
   start(base: BaseMesh): void;
   want(want: Want): boolean;
   nextChunk(): number | undefined;
+  checkChunk(chunk: number, bytes: Uint8Array): void;
   apply(chunk: number, bytes: Uint8Array): void;
   trim(): void;
   readonly bytesHeld: number;
@@ -159,6 +160,7 @@ export class Session {
         const bytes = await this.#fetch(chunk);
         arrived = true;
         if (!current()) return false;
+        this.decoder.checkChunk(chunk, bytes);
         this.decoder.apply(chunk, bytes);
         return true;
       } catch (error) {
