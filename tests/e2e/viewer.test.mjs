@@ -134,6 +134,18 @@ test("a page for a narrow, dark screen shows the whole model", async () => {
   await viewer.page.context().close();
 });
 
+test("the stream brings the whole model without a request for a chunk", async () => {
+  const viewer = await ViewerPage.open(browser, `${pages.coloured}?transport=ws`);
+  await viewer.events("load");
+  assert.equal(await viewer.triangles(), mesh.faces.length);
+  assert.equal(viewer.held.length + viewer.finishedChunks, 0);
+  await viewer.slide(0);
+  await viewer.slide(1);
+  assert.equal(await viewer.triangles(), mesh.faces.length);
+  assert.deepEqual(viewer.errors, []);
+  await viewer.page.context().close();
+});
+
 /** The middle of the viewer, free of controls. */
 async function canvas(viewer, name) {
   const bytes = await viewer.picture(name && join(pictures, `${name}.png`));

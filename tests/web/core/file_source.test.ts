@@ -90,7 +90,7 @@ describe("openSource", () => {
     answer = (_, response) => response.end(file);
     const { origin } = new URL(url());
     for (const path of ["/models/m1", "/api/v1/models/m1", "/api/v1/models/m1/file.pmesh", "/static/a.pmesh"]) {
-      await openSource(origin + path).head(never);
+      await openSource(origin + path, "http").head(never);
     }
     expect(asked).toEqual([
       "/api/v1/models/m1/head", "/api/v1/models/m1/head", "/api/v1/models/m1/file.pmesh", "/static/a.pmesh",

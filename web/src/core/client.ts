@@ -2,6 +2,7 @@
 // The page's side of the worker. All models of a page share one worker; it ends with the last.
 import workerText from "./worker.ts?text";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
+import type { Transport } from "./source.ts";
 import { ModelError, type ModelInfo, type Progress, type Surface, type Want } from "./types.ts";
 
 export interface ModelListener {
@@ -39,11 +40,12 @@ export class RemoteModel {
 
   constructor(
     url: string,
+    transport: Transport,
     assets: Assets,
     private readonly listener: ModelListener,
   ) {
     models.set(this.#id, this);
-    send({ type: "open", id: this.#id, url: new URL(url, document.baseURI).href, assets });
+    send({ type: "open", id: this.#id, url: new URL(url, document.baseURI).href, transport, assets });
   }
 
   /** Resolves with true when `want` is reached and shown, with false when superseded or closed. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page and the worker say to each other. `id` names a model, `turn` a want.
+import type { Transport } from "./source.ts";
 import type { ModelInfo, Progress, Surface, Want } from "./types.ts";
 
 /** Absolute URLs of what the worker loads. */
@@ -10,7 +11,7 @@ export interface Assets {
 }
 
 export type ToWorker =
-  | { type: "open"; id: number; url: string; assets: Assets }
+  | { type: "open"; id: number; url: string; transport: Transport; assets: Assets }
   | { type: "refine"; id: number; turn: number; want: Want }
   | { type: "shown"; id: number }
   | { type: "close"; id: number };

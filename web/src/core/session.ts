@@ -82,6 +82,7 @@ export class Session {
     const turn = ++this.#turn;
     this.decoder.want(want);
     const plan = this.#plan();
+    this.source.want?.(want, this.#held());
     this.#abandon(plan);
     const total = plan.reduce((sum, chunk) => sum + this.#chunk(chunk).length, this.decoder.bytesHeld);
     for (let i = 0; i < plan.length; ++i) {
@@ -127,12 +128,16 @@ export class Session {
     return plan;
   }
 
+  /** Chunks that need not come again, ascending. */
+  #held(): number[] {
+    return [...this.#fetches].flatMap(([chunk, { done }]) => (done ? [chunk] : [])).sort((a, b) => a - b);
+  }
+
   #fetch(chunk: number): Promise<Uint8Array> {
     const known = this.#fetches.get(chunk);
     if (known) return known.bytes;
     const abort = new AbortController();
-    const { offset, length, sha256 } = this.#chunk(chunk);
-    const bytes = this.source.getBytes({ offset, length, sha256 }, abort.signal);
+    const bytes = this.source.getBytes(this.#chunk(chunk), abort.signal);
     const fetch: Fetch = { bytes, abort, done: false };
     this.#fetches.set(chunk, fetch);
     bytes.then(

@@ -2,7 +2,11 @@
 // Where the bytes of a model come from: the daemon's interface, or a bare .pmesh on any host.
 import { FileSource } from "./file-source.ts";
 import { ApiSource } from "./api-source.ts";
-import { ModelError } from "./types.ts";
+import { StreamSource } from "./stream-source.ts";
+import { ModelError, type Want } from "./types.ts";
+
+/** How the daemon is asked: a URL per chunk, or a stream. "auto" is "http". */
+export type Transport = "auto" | "http" | "ws";
 
 export interface ByteRange {
   /** From the start of the .pmesh file. */
@@ -10,6 +14,9 @@ export interface ByteRange {
   length: number;
   /** The content's name, where it has one: 64 hexadecimal digits. */
   sha256?: string;
+  /** Of a chunk. */
+  level?: number;
+  region?: number;
 }
 
 export interface Source {
@@ -17,16 +24,19 @@ export interface Source {
   head(signal: AbortSignal): Promise<Uint8Array>;
   /** Exactly `range.length` bytes. Rejects with ModelError, or AbortError when aborted. */
   getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array>;
+  /** Tells a source that sends by itself what will be asked for; `have` is what need not come. */
+  want?(want: Want, have: number[]): void;
   /** Ends what is under way. */
   close(): void;
 }
 
 /** The source for the URL of a .pmesh file, of a model page or of an API model. */
-export function openSource(url: string): Source {
+export function openSource(url: string, transport: Transport): Source {
   const address = new URL(url);
   const model = /^(.*?)\/(?:api\/v1\/)?models\/([^/]+)\/?$/.exec(address.pathname);
   if (!model) return new FileSource(url);
-  return new ApiSource(`${address.origin}${model[1]}/api/v1`, model[2] ?? "");
+  const api = `${address.origin}${model[1]}/api/v1`, id = model[2] ?? "";
+  return transport === "ws" ? new StreamSource(api, id) : new ApiSource(api, id);
 }
 
 export async function readAll(response: Response, what: string): Promise<Uint8Array> {

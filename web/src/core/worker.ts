@@ -4,7 +4,7 @@ import { Decoder } from "./decoder.ts";
 import { decodeBase, type DracoModule } from "./draco.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import { Session, type Sink } from "./session.ts";
-import { openSource } from "./source.ts";
+import { openSource, type Source } from "./source.ts";
 import { ModelError, type Surface } from "./types.ts";
 
 declare const self: {
@@ -24,14 +24,14 @@ let wasm: Promise<WebAssembly.Module> | undefined;
 let draco: Promise<DracoModule> | undefined;
 
 self.onmessage = ({ data }) => {
-  if (data.type === "open") open(data.id, data.url, data.assets);
+  if (data.type === "open") open(data);
   else if (data.type === "refine") void refine(data);
   else if (data.type === "shown") models.get(data.id)?.shown();
   else close(data.id);
 };
 
-function open(id: number, url: string, assets: Assets): void {
-  const model: Model = { session: create(id, url, assets), shown: () => undefined };
+function open({ id, url, transport, assets }: Extract<ToWorker, { type: "open" }>): void {
+  const model: Model = { session: create(id, () => openSource(url, transport), assets), shown: () => undefined };
   models.set(id, model);
   model.session
     .then((session) => session.open())
@@ -39,13 +39,13 @@ function open(id: number, url: string, assets: Assets): void {
     .catch((error) => fail(id, undefined, error));
 }
 
-async function create(id: number, url: string, assets: Assets): Promise<Session> {
+async function create(id: number, source: () => Source, assets: Assets): Promise<Session> {
   wasm ??= compile(assets.wasm);
   draco ??= loadDraco(assets);
   draco.catch(() => undefined); // reported where it is waited for
   const decoder = await Decoder.create(await wasm);
   const loaded = draco;
-  return new Session(openSource(url), decoder, async (bytes, level) => decodeBase(await loaded, bytes, level), sink(id));
+  return new Session(source(), decoder, async (bytes, level) => decodeBase(await loaded, bytes, level), sink(id));
 }
 
 function sink(id: number): Sink {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // <progressive-mesh src poster alt max-triangles max-bytes target-error transport>
 import { assetsBeside } from "../core/client.ts";
+import type { Transport } from "../core/source.ts";
 import type { Level, Want } from "../core/types.ts";
 import { texts } from "../texts.ts";
 import { Panel } from "./panel.ts";
@@ -49,7 +50,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     try {
       const { Stage } = await import("./stage.ts");
       if (load !== this.#loads) return;
-      const stage = this.#open(new Stage(this.#panel.newCanvas(), src, assetsBeside(import.meta.url)));
+      const stage = this.#open(new Stage(this.#panel.newCanvas(), src, assetsBeside(import.meta.url), this.#transport));
       await stage.mesh.ready;
       await this.#firstPaint(stage);
       if (load === this.#loads) await this.#refine(this.#goal());
@@ -118,6 +119,11 @@ export class ProgressiveMeshElement extends HTMLElement {
     this.#stage?.dispose();
     this.#stage = undefined;
     this.#panel.reset();
+  }
+
+  get #transport(): Transport {
+    const value = this.getAttribute("transport");
+    return value === "http" || value === "ws" ? value : "auto";
   }
 
   /** What the attributes ask for; without them full resolution. */

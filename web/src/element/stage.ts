@@ -7,6 +7,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ProgressiveMesh } from "../three/progressive-mesh.ts";
 import type { Assets } from "../core/messages.ts";
+import type { Transport } from "../core/source.ts";
 
 const kFieldOfView = 35;
 /** Where the camera stands at first, seen from the model's centre. */
@@ -27,7 +28,7 @@ export class Stage {
   #drawn: (() => void)[] = [];
 
   /** Throws where WebGL is missing. */
-  constructor(canvas: HTMLCanvasElement, url: string, assets: Assets) {
+  constructor(canvas: HTMLCanvasElement, url: string, assets: Assets, transport: Transport) {
     // What is drawn once must stay, for print and screenshots too.
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -36,7 +37,7 @@ export class Stage {
       this.draw();
       this.onCamera();
     });
-    this.mesh = new ProgressiveMesh(url, assets);
+    this.mesh = new ProgressiveMesh(url, assets, transport);
     this.mesh.addEventListener("refine", () => this.draw());
     this.#wires = new Mesh(this.mesh.geometry, new MeshBasicMaterial({ color: 0x1f4e5f, wireframe: true, transparent: true, opacity: 0.45 }));
     this.#wires.visible = false;

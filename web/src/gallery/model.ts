@@ -9,6 +9,8 @@ const title = document.getElementById("title") as HTMLElement;
 const credit = document.getElementById("credit") as HTMLElement;
 
 (document.getElementById("back") as HTMLElement).textContent = texts.back;
+// A link may name the way the bytes take: ?transport=ws.
+viewer.setAttribute("transport", new URLSearchParams(location.search).get("transport") ?? "auto");
 viewer.setAttribute("src", `/api/v1/models/${encodeURIComponent(id)}`);
 
 model(id)

@@ -2,6 +2,7 @@
 import { Box3, BufferGeometry, Mesh, MeshStandardMaterial, Sphere, Vector3, type Object3DEventMap } from "three";
 import { RemoteModel } from "../core/client.ts";
 import type { Assets } from "../core/messages.ts";
+import type { Transport } from "../core/source.ts";
 import type { ModelError, ModelInfo, Progress, Surface, Want } from "../core/types.ts";
 import { SurfaceBuffers } from "./surface-buffers.ts";
 
@@ -31,10 +32,10 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   /** Resolves when the base mesh is in the geometry. */
   readonly ready: Promise<void>;
 
-  constructor(url: string, assets: Assets) {
+  constructor(url: string, assets: Assets, transport: Transport = "auto") {
     super(new BufferGeometry(), new MeshStandardMaterial({ color: 0xd8d3cb, roughness: 0.85, metalness: 0 }));
     this.ready = new Promise((resolve, reject) => (this.#base = { resolve, reject }));
-    this.#model = new RemoteModel(url, assets, {
+    this.#model = new RemoteModel(url, transport, assets, {
       opened: (info) => this.#open(info),
       surface: (surface, shown) => this.#accept(surface, shown),
       progress: (progress) => this.dispatchEvent({ type: "progress", ...progress }),

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+import { StreamSource, pairs } from "@core/stream-source.ts";
+
+/** The socket's far end, played by the test. */
+class FakeSocket {
+  static readonly OPEN = 1;
+  static last: FakeSocket;
+  readyState = 1;
+  sent: Record<string, unknown>[] = [];
+  onopen?: () => void;
+  onclose?: () => void;
+  onmessage?: (event: { data: string | ArrayBuffer }) => void;
+  closed = false;
+
+  constructor(readonly url: URL, readonly protocol: string) {
+    FakeSocket.last = this;
+  }
+
+  send = (text: string) => void this.sent.push(JSON.parse(text) as Record<string, unknown>);
+  close = () => void (this.closed = true);
+
+  slice(level: number, region: number, offset: number, length: number, bytes: number[]): void {
+    const data = new ArrayBuffer(12 + bytes.length);
+    const view = new DataView(data);
+    view.setUint16(0, level, true);
+    view.setUint16(2, region, true);
+    view.setUint32(4, offset, true);
+    view.setUint32(8, length, true);
+    new Uint8Array(data, 12).set(bytes);
+    this.onmessage?.({ data });
+  }
+
+  done(): void {
+    this.onmessage?.({ data: '{"type":"done","bytes":1,"triangles":1}' });
+  }
+}
+
+const never = new AbortController().signal;
+const chunk = (level: number, length: number) => ({ offset: 0, length, sha256: `${level}`.repeat(64), level, region: 0 });
+let asked: string[];
+
+beforeEach(() => {
+  asked = [];
+  vi.stubGlobal("WebSocket", FakeSocket);
+  vi.stubGlobal("fetch", async (url: string) => {
+    asked.push(url);
+    return new Response(new Uint8Array([9, 9, 9]));
+  });
+});
+afterEach(() => vi.unstubAllGlobals());
+
+describe("StreamSource", () => {
+  test("says what it wants and holds, and joins the slices of a chunk", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 2 }, [0, 1, 4]);
+    const socket = FakeSocket.last;
+    expect([socket.url.href, socket.protocol]).toEqual(["ws://host/api/v1/models/m1/stream", "pmesh.v1"]);
+    expect(socket.sent).toEqual([{ type: "have", chunks: [[0, 1], [4, 4]] }, { type: "want", level: 2 }]);
+    const bytes = source.getBytes(chunk(1, 3), never);
+    socket.slice(1, 0, 0, 3, [1, 2]);
+    socket.slice(1, 0, 2, 3, [3]);
+    expect(await bytes).toEqual(new Uint8Array([1, 2, 3]));
+    expect(socket.sent.slice(2)).toEqual([{ type: "ack", bytes: 2 }, { type: "ack", bytes: 1 }]);
+    expect(asked).toEqual([]);
+  });
+
+  test("keeps what comes before it is asked for", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 1 }, []);
+    FakeSocket.last.slice(1, 0, 0, 1, [7]);
+    FakeSocket.last.done();
+    expect(await source.getBytes(chunk(1, 1), never)).toEqual(new Uint8Array([7]));
+    expect(asked).toEqual([]);
+  });
+
+  test("fetches over HTTP what the stream does not bring", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 1 }, []);
+    const bytes = source.getBytes(chunk(1, 3), never);
+    FakeSocket.last.done();
+    expect(await bytes).toEqual(new Uint8Array([9, 9, 9]));
+    expect(asked).toEqual([`http://host/api/v1/chunks/${"1".repeat(64)}`]);
+  });
+
+  test("fetches over HTTP when the connection ends", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 1 }, []);
+    const bytes = source.getBytes(chunk(1, 3), never);
+    FakeSocket.last.onclose?.();
+    expect(await bytes).toEqual(new Uint8Array([9, 9, 9]));
+  });
+
+  test("ends a wait when aborted", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 1 }, []);
+    const abort = new AbortController();
+    const bytes = source.getBytes(chunk(1, 3), abort.signal);
+    abort.abort();
+    await expect(bytes).rejects.toMatchObject({ name: "AbortError" });
+  });
+
+  test("hangs up on a slice that does not fit its chunk", () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 1 }, []);
+    FakeSocket.last.slice(1, 0, 2, 3, [1, 2]);
+    expect(FakeSocket.last.closed).toBe(true);
+  });
+});
+
+test("indices are told as inclusive pairs", () => {
+  expect(pairs([])).toEqual([]);
+  expect(pairs([3])).toEqual([[3, 3]]);
+  expect(pairs([0, 1, 2, 5, 7, 8])).toEqual([[0, 2], [5, 5], [7, 8]]);
+});

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The daemon's WebSocket stream (server/stream/PROTOCOL.md): the server sends what the want needs,
+// without a request per chunk. What does not come that way is fetched over HTTP.
+import { ApiSource } from "./api-source.ts";
+import type { ByteRange, Source } from "./source.ts";
+import type { Want } from "./types.ts";
+
+const kSliceHeader = 12;
+const kMaxChunk = 64 * 1024 * 1024;
+
+interface Waiter {
+  take(bytes: Uint8Array): void;
+  /** It will not come. */
+  miss(): void;
+}
+
+export class StreamSource implements Source {
+  readonly #http: ApiSource;
+  readonly #arrived = new Map<string, Uint8Array>();
+  readonly #taken = new Set<string>();
+  readonly #waiting = new Map<string, Waiter>();
+  #socket: WebSocket | undefined;
+  #queue: object[] = [];
+  #busy = false; // a want is being served
+  #part = new Uint8Array(0);
+
+  constructor(
+    private readonly api: string,
+    private readonly id: string,
+  ) {
+    this.#http = new ApiSource(api, id);
+  }
+
+  head(signal: AbortSignal): Promise<Uint8Array> {
+    return this.#http.head(signal);
+  }
+
+  want(want: Want, have: number[]): void {
+    if (!this.#socket || this.#socket.readyState > WebSocket.OPEN) this.#connect();
+    this.#busy = true;
+    if (have.length > 0) this.#send({ type: "have", chunks: pairs(have) });
+    this.#send({ type: "want", ...want });
+  }
+
+  async getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
+    const key = `${range.level}/${range.region}`;
+    const streamed = this.#busy && !this.#taken.has(key);
+    const bytes = this.#arrived.get(key) ?? (streamed ? await this.#wait(key, signal) : undefined);
+    if (bytes?.length !== range.length) return this.#http.getBytes(range, signal);
+    this.#arrived.delete(key);
+    this.#taken.add(key);
+    return bytes;
+  }
+
+  close(): void {
+    this.#socket?.close(1000);
+  }
+
+  #connect(): void {
+    const url = new URL(`${this.api}/models/${this.id}/stream`);
+    url.protocol = url.protocol.replace("http", "ws");
+    const socket = (this.#socket = new WebSocket(url, "pmesh.v1"));
+    this.#queue = [];
+    this.#part = new Uint8Array(0);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => this.#queue.splice(0).forEach((message) => this.#send(message));
+    socket.onmessage = ({ data }) => (typeof data === "string" ? this.#told(data) : this.#receive(data as ArrayBuffer));
+    socket.onclose = () => socket === this.#socket && this.#miss();
+  }
+
+  #send(message: object): void {
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(message));
+    else this.#queue.push(message);
+  }
+
+  #told(text: string): void {
+    if (JSON.parse(text).type === "done") this.#miss();
+  }
+
+  /** Slices come in order and those of one chunk together. */
+  #receive(data: ArrayBuffer): void {
+    const view = new DataView(data);
+    const [offset, length] = [view.getUint32(4, true), view.getUint32(8, true)];
+    const slice = new Uint8Array(data, kSliceHeader);
+    if (length > kMaxChunk) return this.#socket?.close(1000);
+    if (offset === 0) this.#part = new Uint8Array(length);
+    if (offset + slice.length > this.#part.length) return this.#socket?.close(1000);
+    this.#part.set(slice, offset);
+    this.#send({ type: "ack", bytes: slice.length });
+    if (offset + slice.length === length) this.#deliver(`${view.getUint16(0, true)}/${view.getUint16(2, true)}`, this.#part);
+  }
+
+  #deliver(key: string, bytes: Uint8Array): void {
+    this.#arrived.set(key, bytes);
+    this.#waiting.get(key)?.take(bytes);
+  }
+
+  /** The stream has nothing more to send: who still waits goes over HTTP. */
+  #miss(): void {
+    this.#busy = false;
+    for (const waiter of this.#waiting.values()) waiter.miss();
+  }
+
+  #wait(key: string, signal: AbortSignal): Promise<Uint8Array | undefined> {
+    return new Promise((resolve, reject) => {
+      const end = (settle: () => void) => {
+        if (this.#waiting.get(key) === waiter) this.#waiting.delete(key);
+        signal.removeEventListener("abort", aborted);
+        settle();
+      };
+      const aborted = () => end(() => reject(signal.reason as Error));
+      const waiter: Waiter = { take: (bytes) => end(() => resolve(bytes)), miss: () => end(() => resolve(undefined)) };
+      signal.addEventListener("abort", aborted);
+      this.#waiting.set(key, waiter);
+    });
+  }
+}
+
+/** Ascending indices as inclusive pairs. */
+export function pairs(indices: number[]): [number, number][] {
+  const out: [number, number][] = [];
+  for (const index of indices) {
+    const last = out[out.length - 1];
+    if (last && last[1] + 1 === index) last[1] = index;
+    else out.push([index, index]);
+  }
+  return out;
+}
