@@ -9,6 +9,8 @@ import { join } from "node:path";
 import { promisify } from "node:util";
 
 const run = promisify(execFile);
+// The daemon refuses settings that it does not know, such as those of this test.
+const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith("VITRINE_")));
 
 export class Daemon {
   static async start(bin) {
@@ -19,7 +21,7 @@ export class Daemon {
     const child = spawn(
       join(bin, "vitrined"),
       ["--listen", "127.0.0.1:0", "--admin-listen", "127.0.0.1:0", "--data", data, "--port-file", portFile],
-      { cwd: folder, stdio: ["ignore", "ignore", "pipe"] },
+      { cwd: folder, env, stdio: ["ignore", "ignore", "pipe"] },
     );
     let log = "";
     child.stderr.on("data", (text) => (log += text));
@@ -35,7 +37,7 @@ export class Daemon {
 
   /** Publishes a mesh; returns the address of its page. */
   async publish(mesh, title) {
-    const { stdout } = await run(join(this.bin, "vitrine"), ["publish", mesh, "--data", this.data, "--title", title, "--json"]);
+    const { stdout } = await run(join(this.bin, "vitrine"), ["publish", mesh, "--data", this.data, "--title", title, "--json"], { env });
     return `${this.url}/models/${JSON.parse(stdout).id}`;
   }
 

@@ -16,7 +16,9 @@ const pages = {};
 
 before(async () => {
   await mkdir(pictures, { recursive: true });
-  [daemon, browser, mesh] = await Promise.all([Daemon.start(bin), launch(), readObj(scan)]);
+  daemon = await Daemon.start(bin);
+  browser = await launch();
+  mesh = await readObj(scan);
   const coloured = join(daemon.folder, "coloured.ply");
   await writeColoured(mesh, coloured);
   pages.plain = await daemon.publish(scan, "Demosthenes");
