@@ -11,8 +11,11 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
 add_library(vitrine_flags INTERFACE)
 # -ffp-contract=off: a fused multiply-add would make the decoder differ between machines.
+# -fno-tree-slp-vectorize: g++ 12.2 drops the rounding of paired double -> float -> double
+# conversions when it vectorises straight-line code.
 target_compile_options(vitrine_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                                               -Wno-sign-conversion -Wno-missing-field-initializers -Werror -ffp-contract=off)
+                                               -Wno-sign-conversion -Wno-missing-field-initializers -Werror -ffp-contract=off
+                                               -fno-tree-slp-vectorize)
 
 # vitrine_room(codec/core SOURCES a.cpp b.cpp USES codec/other Lib::target)
 function(vitrine_room folder)
