@@ -5,7 +5,7 @@ import { once } from "node:events";
 import { watch } from "node:fs";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import { promisify } from "node:util";
 
 const run = promisify(execFile);
@@ -13,7 +13,8 @@ const run = promisify(execFile);
 const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith("VITRINE_")));
 
 export class Daemon {
-  static async start(bin) {
+  static async start(folderOfBinaries) {
+    const bin = resolve(folderOfBinaries);
     const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
     const portFile = join(folder, "port");
     const appeared = watched(folder, portFile);
