@@ -21,7 +21,7 @@ try {
   const { page } = viewer;
   await page.setViewportSize({ width: 3 * 560, height: 640 });
   await page.setContent(`<body style="margin:0;display:flex;background:#f6f4ef">${pictures
-    .map((png) => `<img style="flex:1;min-width:0" src="data:image/png;base64,${png.toString("base64")}">`).join("")}`);
+    .map((png) => `<img style="width:33.33%;height:auto;align-self:start" src="data:image/png;base64,${png.toString("base64")}">`).join("")}`);
   await page.locator("body").screenshot({ path: out });
 } finally {
   await browser.close();
