@@ -5,8 +5,8 @@
 //
 // Contract: safe on hostile bytes. A damaged chunk gives an error or a valid mesh, and after an
 // error the refiner is unusable (`apply` keeps failing with kState) but its memory is in order.
-// It allocates at most 200 bytes per vertex that the manifest states for the chunks applied so far,
-// plus 1 KiB per region.
+// It holds at most 320 bytes per vertex of the mesh at hand, 1 KiB per region and 256 KiB; a chunk
+// brings at most one vertex per vertex that was there, and 16 per byte and 256 more (most_splits).
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,7 @@ EncodedModel random_model(std::uint64_t seed) {
                       {.placement = seed % 2 == 0 ? Placement::kMidpoint : Placement::kPyramid,
                        .target_vertices = 6,
                        .regions = 2 + dice.below(6),
-                       .vertices_per_region = 4 + dice.below(6)});
+                       .vertices_per_region = 12 + dice.below(30)});
 }
 
 void expect_manifold(const Refiner& refiner) {
@@ -60,11 +60,11 @@ void expect_same_in_every_order(std::uint64_t seed) {
   }
 }
 
-TEST(RefinementOrder, MostRandomModelsFork) {
+TEST(RefinementOrder, ManyRandomModelsFork) {
   std::uint32_t forked = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed)
+  for (std::uint64_t seed = 0; seed < 60; ++seed)
     forked += random_model(seed).manifest.regions > 1 ? 1 : 0;
-  EXPECT_GE(forked, 10u);
+  EXPECT_GE(forked, 20u);
 }
 
 TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {

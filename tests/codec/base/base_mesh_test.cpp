@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "codec/base/base_decoder.h"
+#include "codec/base/base_encoder.h"
+#include "codec/progressive/colour.h"
+#include "support/random_mesh.h"
+
+namespace vitrine {
+namespace {
+
+BaseMesh random_base(std::uint64_t seed) {
+  const LatticeMesh mesh = test::random_mesh(seed);
+  BaseMesh base{.positions = mesh.positions, .faces = mesh.faces, .colours = {}};
+  for (const Colour& c : mesh.colours)
+    base.colours.push_back(to_ycocg(c));
+  return base;
+}
+
+std::vector<Triangle> canonical(std::vector<Triangle> faces) {
+  for (Triangle& f : faces)
+    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+TEST(BaseMesh, RandomMeshesComeBackVertexByVertex) {
+  for (std::uint64_t seed = 0; seed < 1'000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const BaseMesh base = random_base(seed);
+    const auto encoded = encode_base(base);
+    ASSERT_TRUE(encoded) << encoded.error().message;
+    ASSERT_EQ(encoded->original.size(), base.positions.size());
+    for (std::size_t v = 0; v < base.positions.size(); ++v) {
+      ASSERT_EQ(encoded->decoded.positions[v], base.positions[encoded->original[v]]);
+      if (!base.colours.empty()) {
+        ASSERT_EQ(encoded->decoded.colours[v], base.colours[encoded->original[v]]);
+      }
+    }
+    std::vector<Triangle> faces = encoded->decoded.faces;
+    for (Triangle& t : faces)
+      t = {encoded->original[t[0]], encoded->original[t[1]], encoded->original[t[2]]};
+    ASSERT_EQ(canonical(faces), canonical(base.faces));
+  }
+}
+
+TEST(BaseMesh, DecodesToTheCountsOfTheHeaderOrNotAtAll) {
+  const BaseMesh base = random_base(7);
+  const auto encoded = encode_base(base);
+  ASSERT_TRUE(encoded);
+  Manifest manifest;
+  manifest.coloured = !base.colours.empty();
+  manifest.levels = {{.vertices = static_cast<std::uint32_t>(base.positions.size()),
+                      .faces = static_cast<std::uint32_t>(base.faces.size())}};
+  const auto decoded = decode_base(encoded->bytes, manifest);
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(decoded->positions, encoded->decoded.positions);
+  EXPECT_EQ(decoded->faces, encoded->decoded.faces);
+  ++manifest.levels[0].vertices;
+  EXPECT_FALSE(decode_base(encoded->bytes, manifest));
+  --manifest.levels[0].vertices;
+  manifest.coloured = !manifest.coloured;
+  EXPECT_FALSE(decode_base(encoded->bytes, manifest));
+}
+
+TEST(BaseMesh, RefusesWhatIsNoEdgebreakerMesh) {
+  Manifest manifest;
+  manifest.levels = {{}};
+  auto bytes = encode_base(random_base(7))->bytes;
+  EXPECT_FALSE(decode_base({}, manifest));
+  EXPECT_FALSE(decode_base(std::span(bytes).first(5), manifest));
+  bytes[8] = 0;  // the sequential method
+  EXPECT_FALSE(decode_base(bytes, manifest));
+  bytes[8] = 1;
+  bytes[7] = 0;  // a point cloud
+  EXPECT_FALSE(decode_base(bytes, manifest));
+}
+
+}  // namespace
+}  // namespace vitrine

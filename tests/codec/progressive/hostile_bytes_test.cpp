@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small file cut at every byte and with every byte changed, checksums not looked at: an error or
+// a valid mesh, and memory within a multiple of the bytes. The base mesh stays intact: Draco sees
+// foreign bytes in the sandbox alone.
+#include <gtest/gtest.h>
+
+#include "codec/progressive/refiner.h"
+#include "support/counting_new.h"
+#include "support/encoded_model.h"
+#include "support/meshes.h"
+#include "support/random_mesh.h"
+
+namespace vitrine {
+namespace {
+
+using test::EncodedModel;
+using Bytes = std::span<const std::uint8_t>;
+
+// What refiner.h states, at 16 vertices a byte, and what the header's own records take.
+constexpr std::size_t kHeapPerByte = 6'000, kHeapAlways = 1 << 20;
+
+LatticeMesh small_mesh(bool coloured) {
+  LatticeMesh mesh = test::random_mesh(4, 200);
+  mesh.colours.assign(coloured ? mesh.positions.size() : 0, Colour{200, 90, 17});
+  for (std::size_t v = 0; v < mesh.colours.size(); ++v)
+    mesh.colours[v][v % 3] = static_cast<std::uint8_t>(v);
+  return mesh;
+}
+
+EncodedModel small_model(Placement placement, std::uint32_t regions, bool coloured) {
+  return test::encode_model(small_mesh(coloured), {.placement = placement,
+                                                   .target_vertices = 12,
+                                                   .regions = regions,
+                                                   .vertices_per_region = 20});
+}
+
+Bytes part(Bytes bytes, std::uint64_t offset, std::uint64_t length) {
+  const std::uint64_t from = std::min<std::uint64_t>(offset, bytes.size());
+  return bytes.subspan(from, std::min<std::uint64_t>(length, bytes.size() - from));
+}
+
+bool is_manifold(const Refiner& refiner) {
+  const LatticeMesh mesh = refiner.lattice_mesh();
+  return mesh.faces.size() == refiner.face_count() &&
+         Connectivity::close(refiner.vertex_count(), mesh.faces).has_value();
+}
+
+// Decodes what can be decoded. Returns whether every state was a valid mesh.
+bool survives(Bytes bytes, const BaseMesh& base) {
+  auto manifest = parse_header(bytes);
+  if (!manifest) return true;
+  auto refiner = Refiner::start(std::move(*manifest), base);
+  if (!refiner) return true;
+  for (std::size_t i = 0; i < refiner->manifest().chunks.size(); ++i) {
+    const ChunkInfo& chunk = refiner->manifest().chunks[i];
+    if (!refiner->apply(i, part(bytes, chunk.offset, chunk.length))) return true;
+    if (!is_manifold(*refiner)) return false;
+  }
+  std::vector<Vec3> shown;
+  refiner->display_positions(shown);
+  refiner->undo_to_faces(refiner->face_count() - 1);
+  return is_manifold(*refiner);
+}
+
+class HostileBytes : public ::testing::TestWithParam<Placement> {
+ protected:
+  void expect_survival(Bytes bytes, std::size_t at) {
+    test::start_peak();
+    const std::size_t before = test::heap_bytes();
+    ASSERT_TRUE(survives(bytes, model_.base)) << "at byte " << at;
+    ASSERT_LE(test::peak_heap_bytes() - before, kHeapAlways + kHeapPerByte * bytes.size())
+        << "at byte " << at;
+  }
+
+  const EncodedModel model_ = GetParam() == Placement::kMidpoint
+                                  ? small_model(Placement::kMidpoint, 1, true)
+                                  : small_model(Placement::kPyramid, 3, false);
+};
+
+TEST_P(HostileBytes, TheFileItselfIsWhole) {
+  EXPECT_EQ(model_.manifest.regions, GetParam() == Placement::kMidpoint ? 1u : 3u);
+  EXPECT_GT(model_.manifest.chunks.size(), 3u);
+  EXPECT_TRUE(survives(model_.file, model_.base));
+}
+
+TEST_P(HostileBytes, CutAtEveryByte) {
+  for (std::size_t n = 0; n < model_.file.size(); ++n) {
+    const std::vector<std::uint8_t> cut(model_.file.begin(),
+                                        model_.file.begin() + static_cast<std::ptrdiff_t>(n));
+    ASSERT_NO_FATAL_FAILURE(expect_survival(cut, n));
+  }
+}
+
+TEST_P(HostileBytes, EveryByteChanged) {
+  auto bytes = model_.file;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (i == model_.manifest.base_offset) i += model_.manifest.base_length;
+    const std::uint8_t was = bytes[i];
+    for (const int flip : {0x01, 0x04, 0x10, 0x80, 0xFF, 0x55, static_cast<int>(was)}) {
+      bytes[i] = static_cast<std::uint8_t>(was ^ flip);
+      ASSERT_NO_FATAL_FAILURE(expect_survival(bytes, i));
+    }
+    bytes[i] = was;
+  }
+}
+
+TEST_P(HostileBytes, ChunksOfNoise) {
+  auto bytes = model_.file;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    test::Dice dice(seed);
+    const std::uint32_t ones = dice.below(9);
+    for (std::size_t i = model_.manifest.head_bytes(); i < bytes.size(); ++i)
+      bytes[i] = dice.below(8) < ones ? 0 : static_cast<std::uint8_t>(dice.below(256));
+    ASSERT_NO_FATAL_FAILURE(expect_survival(bytes, seed));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Placements, HostileBytes,
+                         ::testing::Values(Placement::kMidpoint, Placement::kPyramid));
+
+// refiner.h states these figures.
+TEST(RefinerMemory, StaysWithinItsBytesPerVertex) {
+  for (const bool coloured : {false, true}) {
+    const TriangleMesh torus = test::torus(150, 100);
+    LatticeMesh mesh = quantise(torus, fit_lattice(torus.positions, 12));
+    mesh.colours.assign(coloured ? mesh.positions.size() : 0, Colour{9, 8, 7});
+    const EncodedModel model = test::encode_model(mesh, {.regions = coloured ? 4u : 1u});
+    Manifest manifest = model.manifest;
+    test::start_peak();
+    const std::size_t before = test::heap_bytes();
+    auto refiner = Refiner::start(std::move(manifest), model.base);
+    ASSERT_TRUE(refiner);
+    for (std::size_t i = 0; i < model.manifest.chunks.size(); ++i)
+      test::apply_chunk(*refiner, model, i);
+    EXPECT_LE(test::peak_heap_bytes() - before, 320u * refiner->vertex_count() + (256u << 10));
+  }
+}
+
+// A header of a few hundred bytes that states the most vertices a reader allows.
+TEST(HostileHeader, StatesAHundredMillionVerticesAndGetsNoMemory) {
+  const EncodedModel model = small_model(Placement::kMidpoint, 1, false);
+  Manifest m = model.manifest;
+  m.levels.resize(2);
+  m.levels[1].vertices = 100'000'000;
+  m.levels[1].faces = 150'000'000;
+  m.chunks.resize(1);
+  m.fork_level = 2;
+  m.chunks[0].splits = m.levels[1].vertices - m.levels[0].vertices;
+  m.chunks[0].length = 1ull << 30;
+  const auto bytes = write_header(m);
+  test::start_peak();
+  const std::size_t before = test::heap_bytes();
+  const auto parsed = parse_header(bytes);
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  auto refiner = Refiner::start(*parsed, model.base);
+  ASSERT_TRUE(refiner) << refiner.error().message;
+  EXPECT_FALSE(refiner->apply(0, std::vector<std::uint8_t>(50)));
+  EXPECT_LT(test::peak_heap_bytes() - before, kHeapAlways);
+}
+
+}  // namespace
+}  // namespace vitrine

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/progressive/manifest.h"
+
+#include <gtest/gtest.h>
+
+#include "support/random_mesh.h"
+
+namespace vitrine {
+namespace {
+
+using test::Dice;
+
+Sha256 random_hash(Dice& dice) {
+  Sha256 hash;
+  for (std::uint8_t& byte : hash)
+    byte = static_cast<std::uint8_t>(dice.below(256));
+  return hash;
+}
+
+void add_levels(Dice& dice, Manifest& m) {
+  LevelInfo level{.vertices = 3 + dice.below(300), .faces = 1 + dice.below(600)};
+  for (std::uint32_t count = 1 + dice.below(12); count > 0; --count) {
+    level.max_error = static_cast<float>(dice.below(1000)) / 7.0f;
+    level.rms_error = static_cast<float>(dice.below(1000)) / 9.0f;
+    level.display_filter = static_cast<float>(dice.below(11)) / 10.0f;
+    m.levels.push_back(level);
+    const std::uint32_t born = dice.below(100'000);
+    level.vertices += born;
+    level.faces += born + dice.below(born + 1);
+  }
+}
+
+void add_regions(Dice& dice, Manifest& m) {
+  const auto levels = static_cast<std::uint32_t>(m.levels.size());
+  m.fork_level = levels;
+  m.adjacency = {{}};
+  if (levels < 3 || dice.one_in(3)) return;
+  m.regions = 2 + dice.below(40);
+  m.fork_level = 2 + dice.below(levels - 2);
+  for (std::uint32_t k = 1; k < m.regions; ++k) {
+    m.planes.push_back({static_cast<std::uint8_t>(dice.below(3)), dice.between(-70'000, 70'000)});
+  }
+  m.adjacency.assign(m.regions, {});
+  for (std::uint32_t a = 0; a < m.regions; ++a) {
+    for (std::uint32_t b = 0; b < m.regions; ++b) {
+      if (a != b && (a + b) % 3 == 0) m.adjacency[a].push_back(b);
+    }
+  }
+}
+
+void add_chunks(Dice& dice, Manifest& m) {
+  for (std::uint32_t level = 1; level < m.levels.size(); ++level) {
+    std::uint32_t left = m.levels[level].vertices - m.levels[level - 1].vertices;
+    const std::uint32_t regions = m.regions_at(level);
+    for (std::uint32_t k = 0; k < regions; ++k) {
+      const std::uint32_t own = k + 1 == regions ? left : dice.below(left + 1);
+      left -= own;
+      m.chunks.push_back({.level = level,
+                          .region = k,
+                          .length = own / 16 + dice.below(50'000),
+                          .splits = own,
+                          .sha256 = random_hash(dice)});
+    }
+  }
+}
+
+Manifest random_manifest(std::uint64_t seed) {
+  Dice dice(seed);
+  Manifest m;
+  m.lattice = {.origin = {dice.between(-900, 900) / 7.0, 1e-9, -3e12},
+               .step = (1 + dice.below(1000)) / 997.0,
+               .bits = dice.between(10, 16)};
+  m.unit = dice.one_in(2) ? "" : "mm";
+  m.placement = dice.one_in(2) ? Placement::kPyramid : Placement::kMidpoint;
+  m.coloured = dice.one_in(2);
+  m.loops = dice.below(50);
+  add_levels(dice, m);
+  add_regions(dice, m);
+  m.base_length = dice.below(100'000);
+  m.base_sha256 = random_hash(dice);
+  add_chunks(dice, m);
+  return m;
+}
+
+void expect_equal(const Manifest& a, const Manifest& b) {
+  EXPECT_EQ(a.lattice, b.lattice);
+  EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.placement, b.placement);
+  EXPECT_EQ(a.coloured, b.coloured);
+  EXPECT_EQ(a.loops, b.loops);
+  EXPECT_EQ(a.regions, b.regions);
+  EXPECT_EQ(a.fork_level, b.fork_level);
+  EXPECT_EQ(a.adjacency, b.adjacency);
+  EXPECT_EQ(a.base_offset, b.base_offset);
+  EXPECT_EQ(a.base_sha256, b.base_sha256);
+  EXPECT_EQ(a.file_bytes, b.file_bytes);
+  ASSERT_EQ(a.levels.size(), b.levels.size());
+  for (std::size_t i = 0; i < a.levels.size(); ++i) {
+    EXPECT_EQ(a.levels[i].vertices, b.levels[i].vertices);
+    EXPECT_EQ(a.levels[i].faces, b.levels[i].faces);
+    EXPECT_EQ(a.levels[i].max_error, b.levels[i].max_error);
+    EXPECT_EQ(a.levels[i].rms_error, b.levels[i].rms_error);
+    EXPECT_EQ(a.levels[i].display_filter, b.levels[i].display_filter);
+  }
+  ASSERT_EQ(a.planes.size(), b.planes.size());
+  for (std::size_t i = 0; i < a.planes.size(); ++i) {
+    EXPECT_EQ(a.planes[i].axis, b.planes[i].axis);
+    EXPECT_EQ(a.planes[i].at, b.planes[i].at);
+  }
+  ASSERT_EQ(a.chunks.size(), b.chunks.size());
+  for (std::size_t i = 0; i < a.chunks.size(); ++i) {
+    EXPECT_EQ(a.chunks[i].offset, b.chunks[i].offset);
+    EXPECT_EQ(a.chunks[i].length, b.chunks[i].length);
+    EXPECT_EQ(a.chunks[i].splits, b.chunks[i].splits);
+    EXPECT_EQ(a.chunks[i].sha256, b.chunks[i].sha256);
+  }
+}
+
+TEST(Manifest, RandomHeadersComeBack) {
+  for (std::uint64_t seed = 0; seed < 2'000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Manifest manifest = random_manifest(seed);
+    const auto bytes = write_header(manifest);
+    const auto parsed = parse_header(bytes);
+    ASSERT_TRUE(parsed) << parsed.error().message;
+    expect_equal(manifest, *parsed);
+    ASSERT_EQ(*header_bytes(std::span(bytes).first(kHeaderPrefix)), bytes.size());
+    if (HasFailure()) return;
+  }
+}
+
+TEST(Manifest, ABoundStaysABoundInSinglePrecision) {
+  Manifest manifest = random_manifest(1);
+  manifest.levels[0].max_error = 0.1000000001;
+  const auto parsed = parse_header(write_header(manifest));
+  ASSERT_TRUE(parsed);
+  EXPECT_GE(parsed->levels[0].max_error, 0.1000000001);
+  EXPECT_LT(parsed->levels[0].max_error, 0.10000001);
+}
+
+// Changes a good manifest and expects the reader to refuse it.
+template <class Change>
+std::string refusal(const Change& change) {
+  Manifest m;
+  m.levels = {
+      {.vertices = 4, .faces = 4}, {.vertices = 6, .faces = 8}, {.vertices = 8, .faces = 12}};
+  m.regions = 2;
+  m.fork_level = 2;
+  m.planes = {{0, 5}};
+  m.adjacency = {{1}, {0}};
+  m.chunks = {{.level = 1, .splits = 2},
+              {.level = 2, .region = 0, .splits = 1},
+              {.level = 2, .region = 1, .splits = 1}};
+  auto bytes = write_header(m);
+  EXPECT_TRUE(parse_header(bytes)) << parse_header(bytes).error().message;
+  change(m);
+  bytes = write_header(m);
+  const auto parsed = parse_header(bytes);
+  return parsed ? "accepted" : parsed.error().message;
+}
+
+TEST(Manifest, RefusesWhatCannotBe) {
+  using ::std::string;
+  const auto contains = [](const string& text, const char* part) {
+    EXPECT_NE(text.find(part), string::npos) << text;
+  };
+  contains(refusal([](Manifest& m) { m.fork_level = 1; }), "region level");
+  contains(refusal([](Manifest& m) { m.fork_level = 3; }), "region level");
+  contains(refusal([](Manifest& m) { m.levels[1].faces = 3; }), "faces of level 1");
+  contains(refusal([](Manifest& m) { m.levels[1].faces = 9; }), "faces of level 1");
+  contains(refusal([](Manifest& m) { m.levels[1].vertices = 3; }), "lose vertices");
+  contains(refusal([](Manifest& m) { m.levels[0].display_filter = 1.5; }), "display filter");
+  contains(refusal([](Manifest& m) { m.chunks[1].splits = 2; }), "level 2");
+  contains(refusal([](Manifest& m) { m.chunks[1].splits = 0; }), "do not make up");
+  contains(refusal([](Manifest& m) { m.adjacency = {{1}, {}}; }), "symmetric");
+  contains(refusal([](Manifest& m) { m.adjacency = {{0}, {0}}; }), "adjacency");
+  contains(refusal([](Manifest& m) { m.planes[0].axis = 3; }), "plane");
+  contains(refusal([](Manifest& m) { m.unit = "m\n"; }), "ASCII");
+  contains(refusal([](Manifest& m) { m.unit = "a unit with a long name"; }), "unit");
+  contains(refusal([](Manifest& m) { m.lattice.bits = 17; }), "bits");
+  contains(refusal([](Manifest& m) { m.lattice.step = 0; }), "transform");
+}
+
+// An empty chunk may not stand for a million splits: what a reader allocates follows the bytes.
+TEST(Manifest, RefusesMoreSplitsThanAChunkOfItsLengthHolds) {
+  const auto with = [](std::uint32_t splits, std::uint64_t length) {
+    return refusal([=](Manifest& m) {
+      m.levels[1] = {.vertices = 4 + splits, .faces = 4 + splits};
+      m.levels[2] = {.vertices = 6 + splits, .faces = 6 + splits};
+      m.chunks[0].splits = splits;
+      m.chunks[0].length = length;
+    });
+  };
+  EXPECT_EQ(with(256, 0), "accepted");
+  EXPECT_NE(with(257, 0), "accepted");
+  EXPECT_EQ(with(257, 1), "accepted");
+}
+
+TEST(Manifest, NamesTheVersionAndTheFeaturesItDoesNotKnow) {
+  Manifest manifest = random_manifest(3);
+  auto bytes = write_header(manifest);
+  bytes[8] = 2;
+  EXPECT_EQ(parse_header(bytes).error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(parse_header(bytes).error().message.find("version 2"), std::string::npos);
+  bytes[8] = 1;
+  bytes[10] = 7;  // a newer minor version is read
+  EXPECT_TRUE(parse_header(bytes));
+  bytes[16] |= 0x40;
+  EXPECT_EQ(parse_header(bytes).error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(parse_header(bytes).error().message.find("64"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vitrine

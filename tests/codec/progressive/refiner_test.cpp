@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/progressive/refiner.h"
+
+#include <gtest/gtest.h>
+
+#include "codec/progressive/refine.h"
+#include "support/encoded_model.h"
+#include "support/meshes.h"
+
+namespace vitrine {
+namespace {
+
+using test::EncodedModel;
+
+EncodedModel torus_model(std::uint32_t regions = 1) {
+  const TriangleMesh torus = test::torus(40, 24);
+  return test::encode_model(quantise(torus, fit_lattice(torus.positions, 12)),
+                            {.target_vertices = 40, .regions = regions, .vertices_per_region = 60});
+}
+
+ChunkReader reader(const EncodedModel& model) {
+  return [&](std::size_t i) -> Expected<std::span<const std::uint8_t>> { return model.chunk(i); };
+}
+
+TEST(Refiner, EveryLevelHasItsCountsAndIsShownWithItsFilter) {
+  EncodedModel model = torus_model();
+  for (LevelInfo& level : model.manifest.levels)
+    level.display_filter = 0.5;
+  model.manifest.levels.back().display_filter = 0;
+  Refiner refiner = test::start_refiner(model);
+  for (std::uint32_t level = 0; level < model.manifest.levels.size(); ++level) {
+    ASSERT_TRUE(refine(refiner, WantLevel{level}, reader(model)));
+    EXPECT_EQ(refiner.face_count(), model.manifest.levels[level].faces);
+    std::vector<Vec3> shown;
+    refiner.display_positions(shown);
+    const bool last = level + 1 == model.manifest.levels.size();
+    EXPECT_EQ(shown[0] == to_vec3(refiner.positions()[0]), last) << "level " << level;
+  }
+}
+
+TEST(Refiner, TrianglesAreMetWithinOneSplit) {
+  const EncodedModel model = torus_model();
+  for (std::uint64_t wanted = model.manifest.levels[0].faces; wanted < 1900; wanted += 97) {
+    Refiner refiner = test::start_refiner(model);
+    ASSERT_TRUE(refine(refiner, WantTriangles{wanted}, reader(model)));
+    EXPECT_LE(refiner.face_count(), wanted);
+    EXPECT_GE(refiner.face_count() + 1, wanted);
+  }
+}
+
+TEST(Refiner, AChunkOutOfOrderIsRefusedAndHarmsNothing) {
+  const EncodedModel model = torus_model();
+  Refiner refiner = test::start_refiner(model);
+  EXPECT_FALSE(refiner.ready(1));
+  EXPECT_EQ(refiner.apply(1, model.chunk(1)).error().code, ErrorCode::kState);
+  EXPECT_EQ(refiner.apply(99'999, model.chunk(0)).error().code, ErrorCode::kState);
+  EXPECT_TRUE(refiner.apply(0, model.chunk(0)));
+  EXPECT_EQ(refiner.apply(0, model.chunk(0)).error().code, ErrorCode::kState);
+  EXPECT_TRUE(refiner.apply(1, model.chunk(1)));
+}
+
+TEST(Refiner, AChunkCutShortIsRefusedAndMayComeAgain) {
+  const EncodedModel model = torus_model();
+  Refiner refiner = test::start_refiner(model);
+  const auto chunk = model.chunk(0);
+  EXPECT_EQ(refiner.apply(0, chunk.first(chunk.size() - 1)).error().code, ErrorCode::kBadInput);
+  EXPECT_TRUE(refiner.apply(0, chunk));
+}
+
+TEST(Refiner, NothingCanBeAppliedAfterSplitsWereTakenBack) {
+  const EncodedModel model = torus_model();
+  Refiner refiner = test::start_refiner(model);
+  ASSERT_TRUE(refiner.apply(0, model.chunk(0)));
+  refiner.undo_to_faces(refiner.face_count() - 1);
+  EXPECT_FALSE(refiner.ready(1));
+  EXPECT_EQ(refiner.apply(1, model.chunk(1)).error().code, ErrorCode::kState);
+}
+
+TEST(Refiner, ARegionWaitsForItsNeighbours) {
+  const EncodedModel model = torus_model(4);
+  const Manifest& m = model.manifest;
+  ASSERT_EQ(m.regions, 4u);
+  ASSERT_GT(m.levels.size(), m.fork_level + 1) << "the regions need two levels";
+  Refiner refiner = test::start_refiner(model);
+  for (std::uint32_t level = 1; level < m.fork_level; ++level)
+    test::apply_chunk(refiner, model, m.find_chunk(level, 0));
+  const std::uint32_t region = 0, neighbour = m.adjacency[region].at(0);
+  test::apply_chunk(refiner, model, m.find_chunk(m.fork_level, region));
+  EXPECT_FALSE(refiner.ready(m.find_chunk(m.fork_level + 1, region)));
+  for (const std::uint32_t k : m.adjacency[region])
+    test::apply_chunk(refiner, model, m.find_chunk(m.fork_level, k));
+  EXPECT_TRUE(refiner.ready(m.find_chunk(m.fork_level + 1, region)));
+  EXPECT_TRUE(refiner.applied(m.find_chunk(m.fork_level, neighbour)));
+}
+
+TEST(Refiner, RefusesABaseThatIsNotTheOneOfTheHeader) {
+  const EncodedModel model = torus_model();
+  const auto refused = [&](auto change) {
+    BaseMesh base = model.base;
+    change(base);
+    return !Refiner::start(model.manifest, base);
+  };
+  EXPECT_FALSE(refused([](BaseMesh&) {}));
+  EXPECT_TRUE(refused([](BaseMesh& b) { b.faces.pop_back(); }));
+  EXPECT_TRUE(refused([](BaseMesh& b) { b.positions.push_back({}); }));
+  EXPECT_TRUE(refused([](BaseMesh& b) { b.faces[0][0] = 9'999; }));
+  EXPECT_TRUE(refused([](BaseMesh& b) { b.faces[0][0] = b.faces[0][1]; }));
+  EXPECT_TRUE(refused([](BaseMesh& b) { b.positions[0].x = 1 << 30; }));
+  EXPECT_TRUE(refused([](BaseMesh& b) { b.colours.resize(b.positions.size()); }));
+}
+
+TEST(Refiner, RefusesColoursOutOfRange) {
+  EncodedModel model = torus_model();
+  model.manifest.coloured = true;
+  model.base.colours.assign(model.base.positions.size(), {1 << 30, 0, 0});
+  EXPECT_FALSE(Refiner::start(model.manifest, model.base));
+}
+
+}  // namespace
+}  // namespace vitrine

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "golden/golden_models.h"
+
+#include "codec/core/byte_cursor.h"
+#include "support/random_mesh.h"
+
+namespace vitrine::test {
+namespace {
+
+// A hilly square on the lattice out of integers alone, so that every machine makes the same.
+LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool round_trip) {
+  LatticeMesh mesh;
+  mesh.lattice = {.origin = {-1, 2, 0.5}, .step = 0.125, .bits = bits};
+  const std::int32_t pitch = ((1 << bits) - 8) / static_cast<std::int32_t>(side);
+  Dice dice(side);
+  for (std::uint32_t j = 0; j < side; ++j) {
+    for (std::uint32_t i = 0; i < side; ++i) {
+      const auto x = static_cast<std::int32_t>(i), y = static_cast<std::int32_t>(j);
+      const std::int32_t height = ((x * x + 3 * y * y - 2 * x * y) % 97) * pitch / 60;
+      mesh.positions.push_back(
+          {x * pitch + dice.between(0, 3), y * pitch + dice.between(0, 3), height});
+      if (coloured) {
+        mesh.colours.push_back({static_cast<std::uint8_t>(5 * i), static_cast<std::uint8_t>(7 * j),
+                                static_cast<std::uint8_t>(dice.below(20))});
+      }
+    }
+  }
+  const std::uint32_t quads = round_trip ? side : side - 1;  // a closed tube, or a sheet
+  for (std::uint32_t j = 0; j + 1 < side; ++j) {
+    for (std::uint32_t i = 0; i < quads; ++i) {
+      const std::uint32_t right = (i + 1) % side, up = j + 1;
+      mesh.faces.push_back({j * side + i, j * side + right, up * side + right});
+      mesh.faces.push_back({j * side + i, up * side + right, up * side + i});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<GoldenModel> golden_models() {
+  return {
+      {"sheet_midpoint", hills(30, 10, false, false), {.target_vertices = 60}},
+      {"tube_pyramid_coloured",
+       hills(24, 12, true, true),
+       {.placement = Placement::kPyramid, .target_vertices = 50}},
+      {"sheet_regions",
+       hills(40, 14, false, false),
+       {.target_vertices = 60, .regions = 4, .vertices_per_region = 60}},
+      {"parts_regions_coloured",
+       random_mesh(4, 200),
+       {.target_vertices = 12, .regions = 3, .vertices_per_region = 20}},
+      {"triangle",
+       {.lattice = {},
+        .positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 1}},
+        .faces = {{0, 1, 2}},
+        .colours = {}},
+       {}},
+  };
+}
+
+std::string level_digests(const Manifest& manifest, const BaseMesh& base,
+                          std::span<const std::uint8_t> file) {
+  auto refiner = Refiner::start(manifest, base);
+  if (!refiner) return refiner.error().message;
+  std::string text;
+  std::size_t chunk = 0;
+  for (std::uint32_t level = 0; level < manifest.levels.size(); ++level) {
+    for (; chunk < manifest.chunks.size() && manifest.chunks[chunk].level <= level; ++chunk) {
+      const ChunkInfo& info = manifest.chunks[chunk];
+      const auto bytes = file.subspan(info.offset, info.length);
+      if (sha256(bytes) != info.sha256) return "a chunk's checksum differs";
+      if (auto ok = refiner->apply(chunk, bytes); !ok) return ok.error().message;
+    }
+    ByteWriter out;
+    for (const SurfaceFace& face : canonical_surface(refiner->lattice_mesh())) {
+      for (const std::int32_t value : face)
+        out.u32(static_cast<std::uint32_t>(value));
+    }
+    text += std::to_string(level) + ' ' + std::to_string(refiner->vertex_count()) + ' ' +
+            std::to_string(refiner->face_count()) + ' ' + to_hex(sha256(out.take())) + '\n';
+  }
+  return text;
+}
+
+}  // namespace vitrine::test
