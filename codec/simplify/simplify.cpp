@@ -43,7 +43,8 @@ class Simplifier {
   // Levels from fine to coarse.
   std::vector<CollapseLevel> run() {
     std::vector<CollapseLevel> levels;
-    while (surface_.live.size() > options_.target_vertices + options_.target_vertices / 4) {
+    while (levels.size() + 1 < Limits{}.levels &&
+           surface_.live.size() > options_.target_vertices + options_.target_vertices / 4) {
       const std::size_t before = surface_.live.size();
       CollapseLevel level = collapse_level(rules(static_cast<std::uint32_t>(levels.size())));
       if (level.empty()) break;
