@@ -8,7 +8,7 @@ namespace vitrine::test {
 namespace {
 
 // A hilly square on the lattice out of integers alone, so that every machine makes the same.
-LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool round_trip) {
+LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool closed) {
   LatticeMesh mesh;
   mesh.lattice = {.origin = {-1, 2, 0.5}, .step = 0.125, .bits = bits};
   const std::int32_t pitch = ((1 << bits) - 8) / static_cast<std::int32_t>(side);
@@ -25,7 +25,7 @@ LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool round_trip) 
       }
     }
   }
-  const std::uint32_t quads = round_trip ? side : side - 1;  // a closed tube, or a sheet
+  const std::uint32_t quads = closed ? side : side - 1;  // a closed tube, or a sheet
   for (std::uint32_t j = 0; j + 1 < side; ++j) {
     for (std::uint32_t i = 0; i < quads; ++i) {
       const std::uint32_t right = (i + 1) % side, up = j + 1;
@@ -44,9 +44,12 @@ std::vector<GoldenModel> golden_models() {
       {"tube_pyramid_coloured",
        hills(24, 12, true, true),
        {.placement = Placement::kPyramid, .target_vertices = 50}},
-      {"sheet_regions",
+      {"sheet_regions_pyramid",
        hills(40, 14, false, false),
-       {.target_vertices = 60, .regions = 4, .vertices_per_region = 60}},
+       {.placement = Placement::kPyramid,
+        .target_vertices = 60,
+        .regions = 4,
+        .vertices_per_region = 60}},
       {"parts_regions_coloured",
        random_mesh(4, 200),
        {.target_vertices = 12, .regions = 3, .vertices_per_region = 20}},

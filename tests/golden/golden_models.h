@@ -10,7 +10,7 @@
 namespace vitrine::test {
 
 struct GoldenModel {
-  std::string name;  // NAME.pmesh and NAME.txt
+  std::string name;  // NAME.pmesh and NAME.levels
   LatticeMesh mesh;
   SimplifyOptions options;
 };

@@ -18,7 +18,7 @@ TEST(Golden, FilesDecodeToTheSameSurfaceAtEveryLevel) {
   for (const GoldenModel& golden : golden_models()) {
     SCOPED_TRACE(golden.name);
     const auto file = golden_file(golden.name + ".pmesh");
-    const auto text = golden_file(golden.name + ".txt");
+    const auto text = golden_file(golden.name + ".levels");
     const auto manifest = parse_header(file);
     ASSERT_TRUE(manifest) << manifest.error().message;
     ASSERT_EQ(manifest->file_bytes, file.size());

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     std::ofstream pmesh(folder + "/" + golden.name + ".pmesh", std::ios::binary);
     pmesh.write(reinterpret_cast<const char*>(model.file.data()),
                 static_cast<std::streamsize>(model.file.size()));
-    std::ofstream text(folder + "/" + golden.name + ".txt");
+    std::ofstream text(folder + "/" + golden.name + ".levels");
     text << vitrine::test::level_digests(model.manifest, model.base, model.file);
     if (!pmesh.flush() || !text.flush()) return std::puts("cannot write there"), 1;
   }
