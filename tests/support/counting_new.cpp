@@ -11,6 +11,27 @@ namespace {
 constexpr std::size_t kPrefix = alignof(std::max_align_t);
 std::size_t held = 0, peak = 0;
 
+void* take(std::size_t size) noexcept {
+  auto* block = static_cast<std::size_t*>(std::malloc(size + kPrefix));
+  if (block == nullptr) return nullptr;
+  *block = size;
+  held += size;
+  peak = std::max(peak, held);
+  return reinterpret_cast<char*>(block) + kPrefix;
+}
+
+void* take_or_throw(std::size_t size) {
+  if (void* p = take(size)) return p;
+  throw std::bad_alloc();
+}
+
+void give_back(void* p) noexcept {
+  if (p == nullptr) return;
+  auto* block = reinterpret_cast<std::size_t*>(static_cast<char*>(p) - kPrefix);
+  held -= *block;
+  std::free(block);
+}
+
 }  // namespace
 
 namespace vitrine::test {
@@ -27,21 +48,28 @@ void start_peak() {
 
 }  // namespace vitrine::test
 
+// All forms: the sanitisers' own do not call each other.
 void* operator new(std::size_t size) {
-  auto* block = static_cast<std::size_t*>(std::malloc(size + kPrefix));
-  if (block == nullptr) throw std::bad_alloc();
-  *block = size;
-  held += size;
-  peak = std::max(peak, held);
-  return reinterpret_cast<char*>(block) + kPrefix;
+  return take_or_throw(size);
 }
-
+void* operator new[](std::size_t size) {
+  return take_or_throw(size);
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return take(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return take(size);
+}
 void operator delete(void* p) noexcept {
-  if (p == nullptr) return;
-  auto* block = reinterpret_cast<std::size_t*>(static_cast<char*>(p) - kPrefix);
-  held -= *block;
-  std::free(block);
+  give_back(p);
+}
+void operator delete[](void* p) noexcept {
+  give_back(p);
 }
 void operator delete(void* p, std::size_t) noexcept {
-  operator delete(p);
+  give_back(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+  give_back(p);
 }
