@@ -43,17 +43,16 @@ class ResidualCoder {
  private:
   static constexpr int kMaxExponent = 20;  // magnitudes are below 2^21
 
-  static std::size_t zero(int w, int offset) { return static_cast<std::size_t>(w * 3 + offset); }
-  static std::size_t sign(int w, int side) {
-    return static_cast<std::size_t>(kWidths * 3 + w / 2 * 5 + side);
-  }
+  static std::size_t index(int context) { return static_cast<std::size_t>(context); }
+  static std::size_t zero(int w, int offset) { return index(w * 3 + offset); }
+  static std::size_t sign(int w, int side) { return index(kWidths * 3 + w / 2 * 5 + side); }
   static std::size_t more(int w, int exponent) {
-    return static_cast<std::size_t>(kWidths * 3 + kWidths / 2 * 5 + w * kExponents +
-                                    std::min(exponent, kExponents - 1));
+    return index(kWidths * 3 + kWidths / 2 * 5 + w * kExponents +
+                 std::min(exponent, kExponents - 1));
   }
   static std::size_t mantissa(int w, int exponent, int node) {
     const int range = std::clamp(exponent - (w - 8) / 4 + 5, 0, kRanges - 1);
-    return kBits - kRanges * 4 + static_cast<std::size_t>(range * 4 + node);
+    return kBits - kRanges * 4 + index(range * 4 + node);
   }
 
   template <class Coder>
