@@ -3,10 +3,12 @@
 #include <vector>
 
 #include "server/app/daemon.h"
+#include "server/store/file_descriptor.h"
 
 extern char** environ;
 
 int main(int argc, char** argv) {
+  vitrine::keep_standard_streams();
   const std::vector<std::string_view> arguments(argv + 1, argv + argc);
   std::vector<std::string_view> environment;
   for (char** entry = environ; *entry != nullptr; ++entry)

@@ -81,6 +81,7 @@ Outcome build(const Arguments& arguments) {
   const auto options = read_options(arguments);
   if (!options) return tl::unexpected(options.error());
   const std::string path = arguments.operand(0), out = arguments.text("-o");
+  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
 
@@ -98,7 +99,7 @@ Outcome build(const Arguments& arguments) {
   }
   json& seconds = product->report["seconds"]["write"];
   seconds = seconds.get<double>() + std::chrono::duration<double>(Clock::now() - start).count();
-  if (arguments.has("--json")) return print(product->report.dump());
+  if (arguments.has("--json")) return print_json(product->report);
   const auto manifest = parse_header(product->file);
   if (!manifest) return failed(manifest.error());
   return print(as_text(product->report, *manifest, out));

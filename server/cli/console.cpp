@@ -19,8 +19,13 @@ Outcome print(std::string_view text) {
                             std::strerror(errno)));
 }
 
+Outcome print_json(const nlohmann::json& object) {
+  return print(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
 void print_fault(std::string_view message) {
-  fmt::print(stderr, "vitrine: {}\n", message);
+  const std::string line = fmt::format("vitrine: {}\n", message);
+  std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw on a full disk
 }
 
 ProgressBar::ProgressBar() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}

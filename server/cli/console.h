@@ -2,6 +2,7 @@
 // Results go to stdout, progress and faults to stderr.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "server/cli/outcome.h"
@@ -11,8 +12,9 @@ namespace vitrine::cli {
 
 // Writes `text` and a line end to stdout. Fails where it cannot take them (a full disk).
 Outcome print(std::string_view text);
+Outcome print_json(const nlohmann::json& object);  // what is not UTF-8 in it is replaced
 
-// Prints "vitrine: …" to stderr.
+// Prints "vitrine: …" to stderr, where that takes it.
 void print_fault(std::string_view message);
 
 // A bar on stderr where that is a terminal, else nothing. Gone when destroyed.

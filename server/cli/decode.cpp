@@ -96,6 +96,7 @@ Outcome decode(const Arguments& arguments) {
   if (!format) return misused("the output's name must end in .ply, .glb, .obj, .stl, .drc or .wrl");
   const auto want = read_want(arguments);
   if (!want) return tl::unexpected(want.error());
+  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
   const std::string path = arguments.operand(0);
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
@@ -108,7 +109,7 @@ Outcome decode(const Arguments& arguments) {
     return failed(written.error());
   }
   const auto& report = product->report;
-  if (arguments.has("--json")) return print(report.dump());
+  if (arguments.has("--json")) return print_json(report);
   return print(fmt::format(
       "{}: {} faces, {} vertices from {} bytes", out, report["faces"].get<std::uint64_t>(),
       report["vertices"].get<std::uint64_t>(), report["bytes"].get<std::uint64_t>()));

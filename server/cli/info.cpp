@@ -42,7 +42,7 @@ Outcome info(const Arguments& arguments) {
   const auto manifest = parse_header(file->bytes());
   if (!manifest) return failed(fmt::format("{}: {}", path, manifest.error().message));
   const json report = describe(*manifest);
-  return print(arguments.has("--json") ? report.dump() : as_text(report, *manifest));
+  return arguments.has("--json") ? print_json(report) : print(as_text(report, *manifest));
 }
 
 constexpr std::string_view kOperands[] = {"FILE.pmesh"};

@@ -25,7 +25,8 @@ Unexpected unreadable(const std::string& path, int error) {
 }  // namespace
 
 Expected<InputFile> InputFile::open(const std::string& path) {
-  const FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // Not to wait for a writer where it is a named pipe.
+  const FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (!fd || ::fstat(fd.get(), &status) != 0) return unreadable(path, errno);
   if (!S_ISREG(status.st_mode)) {

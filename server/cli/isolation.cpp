@@ -28,7 +28,8 @@ SandboxLimits limits() {
 
 // The report's length, the report, the file.
 Bytes pack(const Product& product) {
-  const std::string report = product.report.dump();
+  const std::string report =
+      product.report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   const std::uint64_t length = report.size();
   Bytes bytes(sizeof length);
   std::memcpy(bytes.data(), &length, sizeof length);

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "server/cli/command.h"
+#include "server/store/file_descriptor.h"
 
 int main(int argc, char** argv) {
+  vitrine::keep_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error to report, not an end
   const std::vector<std::string_view> words(argv + (argc > 0 ? 1 : 0), argv + argc);
   return vitrine::cli::run(words);

@@ -77,7 +77,7 @@ Outcome run_measure(const Arguments& arguments) {
     return Product{describe(*distance), {}};
   });
   if (!product) return tl::unexpected(product.error());
-  return print(arguments.has("--json") ? product->report.dump() : as_text(product->report));
+  return arguments.has("--json") ? print_json(product->report) : print(as_text(product->report));
 }
 
 constexpr std::string_view kOperands[] = {"A", "B"};

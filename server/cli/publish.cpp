@@ -54,7 +54,7 @@ Outcome publish_file(const Arguments& arguments) {
                           {.title = arguments.text("--title", stem)});
   if (!id) return failed(id.error());
   if (!arguments.has("--json")) return print(id->to_string());
-  return print(nlohmann::json{{"id", id->to_string()}, {"url", nullptr}}.dump());
+  return print_json({{"id", id->to_string()}, {"url", nullptr}});
 }
 
 constexpr std::string_view kOperands[] = {"IN"};

@@ -34,7 +34,7 @@ std::string as_text(const json& report) {
 Outcome report_fault(bool as_json, const Fault& fault) {
   if (as_json) {
     const json report = {{"ok", false}, {"lossless", nullptr}, {"error", fault.message}};
-    if (auto printed = print(report.dump()); !printed) return printed;
+    if (auto printed = print_json(report); !printed) return printed;
   }
   return tl::unexpected(fault);
 }
@@ -59,7 +59,7 @@ Outcome verify(const Arguments& arguments) {
   if (!product) return report_fault(as_json, product.error());
   const bool good = product->report["ok"].get<bool>();
   if (as_json || good) {
-    auto printed = print(as_json ? product->report.dump() : as_text(product->report));
+    auto printed = as_json ? print_json(product->report) : print(as_text(product->report));
     if (!printed || good) return printed;
   }
   return failed(fmt::format("{} is whole but not the quantised {}; build it again from that file",

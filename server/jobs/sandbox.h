@@ -33,8 +33,8 @@ using SandboxedTask = std::function<Expected<std::vector<std::uint8_t>>(const Pr
 Expected<void> confine(const SandboxLimits& limits);
 
 // Forks, confines the child, runs `task` in it and returns what it returns. The child sees the
-// parent's memory as it is now. Only for single-threaded processes (a fork keeps other threads'
-// locks locked); a daemon uses build_child.h. Errors: the task's own; kLimit where a limit stops
+// parent's memory as it is now. Only for single-threaded processes: a fork keeps other threads'
+// locks locked. Errors: the task's own; kLimit where a limit stops
 // it; kBadInput where it crashes or attempts what is forbidden; kIo where there is no process.
 Expected<std::vector<std::uint8_t>> run_sandboxed(const SandboxLimits& limits,
                                                   const SandboxedTask& task,

@@ -66,7 +66,19 @@ Expected<void> sync_folder(const fs::path& folder) {
   return {};
 }
 
+Expected<void> check_writable(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+    return fail(ErrorCode::kIo, fmt::format("cannot write {}: it is a folder or a device; choose "
+                                            "another name",
+                                            path.string()));
+  }
+  if (::access(folder_of(path).c_str(), W_OK) != 0) return refused("write", path, errno);
+  return {};
+}
+
 Expected<void> write_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  if (auto writable = check_writable(path); !writable) return writable;
   const fs::path temporary = temporary_name(path);
   const FileDescriptor fd(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!fd) return refused("write", path, errno);

@@ -10,6 +10,10 @@
 
 namespace vitrine {
 
+// Whether a file can be created at `path`, asked before long work. Fails (kIo) where its folder is
+// missing or read-only, or where what has that name is no file: a folder or a device.
+Expected<void> check_writable(const std::filesystem::path& path);
+
 // Replaces `path` by `bytes`. Fails with kIo, and then `path` is as it was and the temporary file,
 // whose name starts with a dot, is gone.
 Expected<void> write_file_atomically(const std::filesystem::path& path,

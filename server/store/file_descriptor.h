@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Owns a file descriptor.
+// Owns a file descriptor; and the three that every process has.
 #pragma once
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <utility>
@@ -28,5 +29,14 @@ class FileDescriptor {
  private:
   int fd_ = -1;
 };
+
+// Where standard streams are closed, /dev/null takes their numbers: else the next file opened
+// would, and messages meant for people would be written into it. Call it first in main().
+inline void keep_standard_streams() {
+  int fd = 0;
+  while (fd >= 0 && fd <= STDERR_FILENO)
+    fd = ::open("/dev/null", O_RDWR);
+  if (fd >= 0) ::close(fd);
+}
 
 }  // namespace vitrine

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each fault: one line with the cause and the next step, the right exit code, nothing half-written.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "vitrine_command.h"
@@ -74,6 +75,36 @@ TEST_F(VitrineCommand, inputs_that_are_no_mesh_are_refused_and_nothing_is_writte
 
 TEST_F(VitrineCommand, a_folder_is_no_input) {
   expect_fault(vitrine({"info", folder_.path().string()}), 1);
+}
+
+TEST_F(VitrineCommand, a_pipe_is_no_input_and_is_not_waited_for) {
+  ASSERT_EQ(::mkfifo(path("pipe.ply").c_str(), 0600), 0);
+  expect_fault(vitrine({"info", path("pipe.ply")}), 1);
+}
+
+TEST_F(VitrineCommand, a_folder_or_device_is_not_replaced_by_the_output) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  std::filesystem::create_directory(path("out.pmesh"));
+  expect_fault(vitrine({"build", in, "-o", path("out.pmesh")}), 1);
+  ASSERT_EQ(::mkfifo(path("pipe.pmesh").c_str(), 0600), 0);
+  expect_fault(vitrine({"build", in, "-o", path("pipe.pmesh")}), 1);
+  EXPECT_TRUE(std::filesystem::is_fifo(path("pipe.pmesh")));
+}
+
+TEST_F(VitrineCommand, a_name_that_is_not_utf8_does_not_break_the_json) {
+  const std::string damaged = write("damaged\xFF.pmesh", "PMSH");
+  const ProgramResult result = vitrine({"verify", damaged, "--json"});
+  expect_fault(result, 1);
+  EXPECT_EQ(nlohmann::json::parse(result.output)["ok"], false);
+}
+
+TEST_F(VitrineCommand, closed_standard_streams_cost_nothing_but_their_text) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  const ProgramResult built = run_program(
+      {"sh", "-c", "\"$0\" build \"$1\" -o \"$2\" <&- >&- 2>&-", kVitrine, in, path("out.pmesh")});
+  EXPECT_EQ(built.exit_code, 0);
+  EXPECT_EQ(vitrine({"verify", path("out.pmesh"), "--against", in}).exit_code, 0);
+  EXPECT_EQ(run_program({"sh", "-c", "\"$0\" info absent 2>/dev/full", kVitrine}).exit_code, 1);
 }
 
 TEST_F(VitrineCommand, a_missing_output_folder_is_named) {
