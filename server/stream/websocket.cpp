@@ -80,6 +80,9 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
   }
 
   void receive(const beast::flat_buffer& buffer) {
+    if (!websocket_.got_text()) {
+      return close_with({websocket::close_code::policy_error, "a message is a text frame"});
+    }
     const auto data = buffer.cdata();
     const auto message = parse_message({static_cast<const char*>(data.data()), data.size()});
     const auto received = message ? state_.receive(*message) : Unexpected(message.error());

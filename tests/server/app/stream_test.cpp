@@ -66,6 +66,13 @@ TEST_F(StreamTest, ClosesWithAReasonAtAMessageThatBreaksTheRules) {
   EXPECT_THAT(frame.payload, ::testing::HasSubstr("whole numbers"));
 }
 
+TEST_F(StreamTest, ClosesAtABinaryMessage) {
+  WebSocketClient client = connect();
+  client.receive();
+  client.send_binary(R"({"type":"want","level":1})");
+  EXPECT_EQ(client.receive().close_code(), 1008);
+}
+
 TEST_F(StreamTest, ClosesAtAMessageThatIsTooLong) {
   WebSocketClient client = connect();
   client.receive();
