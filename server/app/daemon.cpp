@@ -10,9 +10,10 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <thread>
 
+#include "server/app/descriptor_limit.h"
 #include "server/app/port_file.h"
 #include "server/config/command_line.h"
 #include "server/http/http_server.h"
@@ -25,6 +26,7 @@ namespace vitrine {
 namespace {
 
 constexpr std::size_t kAdminConnections = 64;
+constexpr std::size_t kMaxExports = 64;  // each holds a decoded mesh while it runs
 
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
@@ -39,10 +41,11 @@ class Daemon {
         metrics_(Router(public_routes()).templates()),
         services_{
             *installation_.catalogue, models_, exports_, pages_, metrics_, access_log_, events_},
+        connections_(connections_within_limit(settings.max_connections)),
         threads_(settings.threads > 0 ? settings.threads
                                       : std::max(1u, std::thread::hardware_concurrency())),
         io_(static_cast<int>(threads_)),
-        workers_(threads_),
+        workers_(threads_, kMaxExports),
         public_(io_, services_, workers_, public_options()),
         admin_(io_, services_, workers_, admin_options()),
         signals_(io_, SIGTERM, SIGINT),
@@ -54,6 +57,11 @@ class Daemon {
   }
 
   void run() {
+    if (connections_ < settings_.max_connections) {
+      events_.event(
+          Severity::kWarning,
+          fmt::format("only {} connections fit the limit on open files; raise it", connections_));
+    }
     wait_for_signal();
     public_.start();
     admin_.start();
@@ -73,7 +81,7 @@ class Daemon {
   HttpOptions public_options() {
     return {.routes = public_routes(),
             .recorded = true,
-            .max_connections = settings_.max_connections,
+            .max_connections = connections_,
             .patience = settings_.idle_timeout,
             .stream = [this](StreamCall call) { return stream(std::move(call)); }};
   }
@@ -144,6 +152,7 @@ class Daemon {
   const WebPages pages_;
   Metrics metrics_;
   Services services_;
+  const std::uint32_t connections_;
   const unsigned threads_;
   asio::io_context io_;
   Workers workers_;
@@ -155,18 +164,25 @@ class Daemon {
 
 Expected<std::string> read_file(const std::string& path) {
   std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || file.bad()) {
+  int error = errno;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) error = EISDIR;  // opens, and reads as empty
+  if (!file || error == EISDIR) {
     return fail(ErrorCode::kIo,
-                fmt::format("cannot read {}: {}; check --config", path, std::strerror(errno)));
+                fmt::format("cannot read {}: {}; check --config", path, std::strerror(error)));
   }
-  return text.str();
+  return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
 int report(const Error& error) {
-  fmt::print(stderr, "vitrined: {}\n", error.message);
+  std::fputs(fmt::format("vitrined: {}\n", error.message).c_str(), stderr);
   return error.code == ErrorCode::kBadInput ? kExitUsage : kExitFailed;
+}
+
+int print(const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return kExitDone;
+  return report({ErrorCode::kIo, fmt::format("cannot write to stdout: {}; check where it goes",
+                                             std::strerror(errno))});
 }
 
 int serve(const Settings& settings) {
@@ -191,17 +207,13 @@ int run_daemon(std::span<const std::string_view> arguments,
     case Action::kServe:
       return serve(line->settings);
     case Action::kCheckConfig:
-      fmt::print("the configuration is valid\n");
-      break;
+      return print("the configuration is valid\n");
     case Action::kPrintConfig:
-      fmt::print("{}", print_config(*line));
-      break;
+      return print(print_config(*line));
     case Action::kHelp:
-      fmt::print("{}", reference());
-      break;
+      return print(reference());
     case Action::kVersion:
-      fmt::print("vitrined {}\n", VITRINE_VERSION);
-      break;
+      return print("vitrined " VITRINE_VERSION "\n");
   }
   return kExitDone;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/config/options.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,6 +23,13 @@ Expected<std::uint64_t> parse_number(std::string_view text, std::uint64_t min, s
   return value;
 }
 
+bool is_numeric_address(std::string_view host) {
+  const std::string address(host.substr(0, host.find('%')));  // without the zone of fe80::1%eth0
+  in6_addr parsed;
+  return ::inet_pton(AF_INET, address.c_str(), &parsed) == 1 ||
+         ::inet_pton(AF_INET6, address.c_str(), &parsed) == 1;
+}
+
 Expected<Endpoint> parse_endpoint(std::string_view text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0) {
@@ -31,6 +39,10 @@ Expected<Endpoint> parse_endpoint(std::string_view text) {
   std::string_view host = text.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
   if (host == "localhost") host = "127.0.0.1";
+  if (!is_numeric_address(host)) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is not a numeric address, for example 127.0.0.1 or [::1]", host));
+  }
   const auto port = parse_number(text.substr(colon + 1), 0, 65535);
   if (!port) return Unexpected(port.error());
   return Endpoint{std::string(host), static_cast<std::uint16_t>(*port)};
@@ -50,6 +62,11 @@ Expected<void> path(Settings& settings, std::string_view text) {
   return {};
 }
 
+Expected<void> data_folder(Settings& settings, std::string_view text) {
+  if (text.empty()) return fail(ErrorCode::kBadInput, "it is empty; name the data folder");
+  return path<&Settings::data>(settings, text);
+}
+
 template <auto Member, std::uint64_t Min, std::uint64_t Max>
 Expected<void> number(Settings& settings, std::string_view text) {
   const auto value = parse_number(text, Min, Max);
@@ -66,7 +83,7 @@ constexpr std::array kOptions{
     Option{"listen", kEndpoint, "127.0.0.1:8080",
            "Where visitors connect. Port 0 takes any free port.", false, endpoint<&S::listen>},
     Option{"data", kPath, "./data", "The folder of this installation: objects and catalogue.",
-           false, path<&S::data>},
+           false, data_folder},
     Option{"port-file", kPath, "", "A file to write the port of 'listen' to once it is bound.",
            false, path<&S::port_file>},
     Option{"admin-listen", kEndpoint, "127.0.0.1:0",
@@ -79,7 +96,7 @@ constexpr std::array kOptions{
            false, path<&S::access_log>},
     Option{"threads", kCount, "0", "Threads that serve connections. 0 is one per core.", false,
            number<&S::threads, 0, 1024>},
-    Option{"max-connections", kCount, "20000", "Connections beyond this number are closed at once.",
+    Option{"max-connections", kCount, "10000", "Connections beyond this number are closed at once.",
            false, number<&S::max_connections, 1, 1'000'000>},
     Option{"idle-timeout", kSeconds, "30",
            "How long a connection may take for a request's header, or to accept more bytes.", false,

@@ -5,18 +5,31 @@
 #include "server/http/services.h"
 
 namespace vitrine {
+namespace {
 
-// The hot path: a look-up in memory, and the bytes go from the page cache to the socket.
-Response show_chunk(const Request& request, Services& services) {
-  auto chunk = services.models.find_chunk(request.parameters.sha256);
-  if (!chunk) return internal_error(chunk.error(), request, services);
-  if (!chunk->model) return problem(404, "there is no such chunk", request.id);
+Response chunk_response(const PublishedChunk& chunk, const Request& request) {
   Response response;
   response.type = "application/octet-stream";
   response.caching = Caching::kImmutable;
   response.etag = '"' + to_hex(request.parameters.sha256) + '"';
-  response.body = stored_body(chunk->model, chunk->range);
+  response.body = stored_body(chunk.model, chunk.range);
   return response;
+}
+
+}  // namespace
+
+// The hot path: a look-up in memory, and the bytes go from the page cache to the socket.
+std::optional<Response> show_held_chunk(const Request& request, Services& services) {
+  const auto chunk = services.models.held_chunk(request.parameters.sha256);
+  if (!chunk) return std::nullopt;
+  return chunk_response(*chunk, request);
+}
+
+Response show_chunk(const Request& request, Services& services) {
+  auto chunk = services.models.find_chunk(request.parameters.sha256);
+  if (!chunk) return internal_error(chunk.error(), request, services);
+  if (!chunk->model) return problem(404, "there is no such chunk", request.id);
+  return chunk_response(*chunk, request);
 }
 
 }  // namespace vitrine

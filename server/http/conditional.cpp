@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "server/http/problem.h"
+
 namespace vitrine {
 namespace {
 
@@ -55,13 +57,9 @@ Response not_modified(Response response) {
   return response;
 }
 
-Response unsatisfiable(Response response) {
-  response.fields = {{"Content-Range", fmt::format("bytes */{}", body_size(response.body))}};
-  response.status = 416;
-  response.type.clear();
-  response.etag.clear();
-  response.caching = Caching::kNever;
-  response.body = std::string();
+Response unsatisfiable(std::uint64_t size, std::string_view request_id) {
+  Response response = problem(416, fmt::format("there are {} bytes", size), request_id);
+  response.fields = {{"Content-Range", fmt::format("bytes */{}", size)}};
   return response;
 }
 
@@ -103,7 +101,8 @@ RangeChoice choose_range(std::string_view range, std::uint64_t size) {
   return part(*first, std::min(*last, size - 1) - *first + 1);
 }
 
-Response apply_conditions(const RequestHeader& request, Response response) {
+Response apply_conditions(const RequestHeader& request, Response response,
+                          std::string_view request_id) {
   if (response.status != 200 || response.etag.empty()) return response;
   const std::string_view none_match = value_of(request, field::if_none_match);
   if (!none_match.empty() && matches_any(none_match, response.etag)) {
@@ -116,9 +115,10 @@ Response apply_conditions(const RequestHeader& request, Response response) {
     return response;
   }
   if (!if_range.empty() && if_range != response.etag) return response;  // a date never matches
-  const RangeChoice choice = choose_range(range, body_size(response.body));
+  const std::uint64_t size = body_size(response.body);
+  const RangeChoice choice = choose_range(range, size);
   if (choice.kind == RangeChoice::Kind::kWhole) return response;
-  if (choice.kind == RangeChoice::Kind::kUnsatisfiable) return unsatisfiable(std::move(response));
+  if (choice.kind == RangeChoice::Kind::kUnsatisfiable) return unsatisfiable(size, request_id);
   return partial(std::move(response), choice);
 }
 

@@ -23,6 +23,7 @@ RangeChoice choose_range(std::string_view range, std::uint64_t size);
 
 // Turns the complete answer to a GET or HEAD into 304, 206 or 416 where the request asks for it.
 // Answers other than 200 and those without an ETag stay as they are.
-Response apply_conditions(const RequestHeader& request, Response response);
+Response apply_conditions(const RequestHeader& request, Response response,
+                          std::string_view request_id);
 
 }  // namespace vitrine

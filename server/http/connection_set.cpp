@@ -12,6 +12,11 @@ void close(Connection& connection) {
   connection.socket.close(ignored);
 }
 
+// It may have moved on since the sweep saw it.
+void close_if_expired(Connection& connection) {
+  if (connection.expired()) close(connection);
+}
+
 void end(Connection& connection) {
   connection.draining = true;
   if (connection.on_drain) {
@@ -57,7 +62,7 @@ std::vector<std::shared_ptr<Connection>> ConnectionSet::alive() {
 
 void ConnectionSet::sweep() {
   for (const auto& connection : alive()) {
-    if (connection->expired()) post(connection, close);
+    if (connection->expired()) post(connection, close_if_expired);
   }
 }
 

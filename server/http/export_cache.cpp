@@ -13,8 +13,8 @@ ExportCache::File ExportCache::find(const std::string& key) {
 
 void ExportCache::insert(const std::string& key, File file) {
   const std::scoped_lock lock(mutex_);
-  if (file->size() > max_bytes_ || by_key_.contains(key)) return;
-  bytes_ += file->size();
+  if (file->bytes.size() > max_bytes_ || by_key_.contains(key)) return;
+  bytes_ += file->bytes.size();
   entries_.push_front({key, std::move(file)});
   by_key_[key] = entries_.begin();
   while (bytes_ > max_bytes_)
@@ -22,7 +22,7 @@ void ExportCache::insert(const std::string& key, File file) {
 }
 
 void ExportCache::drop_oldest() {
-  bytes_ -= entries_.back().file->size();
+  bytes_ -= entries_.back().file->bytes.size();
   by_key_.erase(entries_.back().key);
   entries_.pop_back();
 }

@@ -13,9 +13,14 @@
 
 namespace vitrine {
 
+struct ExportedFile {
+  std::vector<std::uint8_t> bytes;
+  std::string etag;  // of the bytes, so that another version of the writer is another entity
+};
+
 class ExportCache {
  public:
-  using File = std::shared_ptr<const std::vector<std::uint8_t>>;
+  using File = std::shared_ptr<const ExportedFile>;
 
   explicit ExportCache(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 

@@ -109,7 +109,9 @@ Expected<ExportCache::File> find_or_make(ExportCache& cache, const std::string& 
   if (auto file = cache.find(key)) return file;
   auto bytes = make_export(model, want, format);
   if (!bytes) return Unexpected(bytes.error());
-  auto file = std::make_shared<const std::vector<std::uint8_t>>(std::move(*bytes));
+  std::string etag = '"' + to_hex(sha256(*bytes)) + '"';
+  auto file =
+      std::make_shared<const ExportedFile>(ExportedFile{std::move(*bytes), std::move(etag)});
   cache.insert(key, file);
   return file;
 }
@@ -131,12 +133,11 @@ Response export_model(const Request& request, Services& services) {
     Response response;
     response.type = media_type(*format);
     response.caching = Caching::kRevalidate;
-    response.etag =
-        '"' + to_hex(sha256({reinterpret_cast<const std::uint8_t*>(key.data()), key.size()})) + '"';
+    response.etag = (*file)->etag;
     response.fields = {{"Content-Disposition",
                         fmt::format("attachment; filename=\"{}.{}\"",
                                     model->record().id.to_string(), request.parameters.format)}};
-    response.body = SharedBytes{*file, **file};
+    response.body = SharedBytes{*file, (*file)->bytes};
     return response;
   });
 }

@@ -15,6 +15,7 @@ Response show_file(const Request& request, Services& services);
 
 // chunks.cpp
 Response show_chunk(const Request& request, Services& services);
+std::optional<Response> show_held_chunk(const Request& request, Services& services);
 
 // exports.cpp
 Response export_model(const Request& request,

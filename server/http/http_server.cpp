@@ -21,7 +21,8 @@ Unexpected cannot_listen(const Endpoint& endpoint, const boost::system::error_co
 
 }  // namespace
 
-Workers::Workers(unsigned threads) : pool_(threads), exports_(threads) {
+Workers::Workers(unsigned threads, std::size_t max_exports)
+    : pool_(threads), exports_(threads), max_exports_(max_exports) {
   for (std::size_t i = 0; i < kLanes; ++i)
     lanes_.push_back(asio::make_strand(exports_.executor()));
 }
@@ -29,6 +30,16 @@ Workers::Workers(unsigned threads) : pool_(threads), exports_(threads) {
 asio::any_io_executor Workers::executor(Place place, std::string_view target) {
   if (place != Place::kExport) return pool_.executor();
   return lanes_[std::hash<std::string_view>{}(target) % kLanes];
+}
+
+std::shared_ptr<const void> Workers::reserve(Place place) {
+  if (place != Place::kExport) return exports_taken_;  // bounded by the number of connections
+  if (exports_taken_->fetch_add(1) >= max_exports_) {
+    exports_taken_->fetch_sub(1);
+    return nullptr;
+  }
+  const auto give_back = [taken = exports_taken_](const void*) { taken->fetch_sub(1); };
+  return {exports_taken_.get(), give_back};
 }
 
 HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& workers,
@@ -70,14 +81,22 @@ asio::awaitable<void> HttpServer::accept() {
       co_await pause.async_wait(kNoThrow);
       continue;
     }
-    auto connection = std::make_shared<Connection>(std::move(socket));
-    if (!connections_.add(connection)) {
-      services_.metrics.refused.fetch_add(1, std::memory_order_relaxed);
-      continue;
+    try {
+      admit(std::move(socket));
+    } catch (const std::exception& fault) {  // out of memory: the next visitor may have more luck
+      services_.errors.event(Severity::kError, fault.what());
     }
-    const auto executor = connection->socket.get_executor();
-    asio::co_spawn(executor, serve(std::move(connection)), asio::detached);
   }
+}
+
+void HttpServer::admit(Tcp::socket socket) {
+  auto connection = std::make_shared<Connection>(std::move(socket));
+  if (!connections_.add(connection)) {
+    services_.metrics.refused.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  const auto executor = connection->socket.get_executor();
+  asio::co_spawn(executor, serve(std::move(connection)), asio::detached);
 }
 
 asio::awaitable<void> HttpServer::serve(std::shared_ptr<Connection> connection) {

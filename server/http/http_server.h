@@ -2,6 +2,7 @@
 // A listener and its connections.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -26,7 +27,12 @@ using StreamHandler = std::function<asio::awaitable<void>(StreamCall call)>;
 // Threads for what must not hold up connections.
 class Workers {
  public:
-  explicit Workers(unsigned threads);
+  // At most `max_exports` run or wait at a time.
+  Workers(unsigned threads, std::size_t max_exports);
+
+  // The right to hand in one task; null where the queue for `place` is full. Keep it until the task
+  // is done.
+  std::shared_ptr<const void> reserve(Place place);
 
   // Any thread for Place::kWorker; for Place::kExport, equal targets run one after the other.
   asio::any_io_executor executor(Place place, std::string_view target);
@@ -37,6 +43,10 @@ class Workers {
   asio::thread_pool pool_;
   asio::thread_pool exports_;
   std::vector<asio::strand<asio::thread_pool::executor_type>> lanes_;
+  const std::size_t max_exports_;
+  // Shared with the seats: connections may outlive this.
+  const std::shared_ptr<std::atomic<std::size_t>> exports_taken_ =
+      std::make_shared<std::atomic<std::size_t>>(0);
 };
 
 struct HttpOptions {
@@ -66,6 +76,7 @@ class HttpServer {
 
  private:
   asio::awaitable<void> accept();
+  void admit(Tcp::socket socket);
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
   asio::awaitable<void> sweep();
 

@@ -18,7 +18,7 @@ std::optional<std::string> percent_decode(std::string_view text) {
     const std::string_view digits = text.substr(i + 1, 2);
     const auto [end, fault] =
         std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-    if (fault != std::errc{} || end != digits.data() + 2) return std::nullopt;
+    if (fault != std::errc{} || digits.size() < 2 || end != digits.data() + 2) return std::nullopt;
     out += static_cast<char>(value);
     i += 2;
   }

@@ -33,6 +33,8 @@ struct Request {
 };
 
 using Handler = Response (*)(const Request& request, Services& services);
+// Answers from memory at once, or not at all: then the handler is asked.
+using QuickHandler = std::optional<Response> (*)(const Request& request, Services& services);
 
 // Where a handler runs.
 enum class Place : std::uint8_t {
@@ -46,6 +48,7 @@ struct Route {
       path;  // a template: literals and {id}, {sha256}, {format}, {rest} (all that is left)
   Handler handler;
   Place place;
+  QuickHandler quick = nullptr;  // tried first, on the connection's own thread
 };
 
 struct RouteMatch {

@@ -9,7 +9,7 @@ namespace {
 using enum Place;
 
 constexpr Route kPublic[] = {
-    {"/api/v1/chunks/{sha256}", show_chunk, kInline},
+    {"/api/v1/chunks/{sha256}", show_chunk, kWorker, show_held_chunk},
     {"/api/v1/models", list_models, kWorker},
     {"/api/v1/models/{id}", show_model, kWorker},
     {"/api/v1/models/{id}/manifest", show_manifest, kWorker},
@@ -24,7 +24,7 @@ constexpr Route kPublic[] = {
 
 constexpr Route kAdmin[] = {
     {"/livez", show_livez, kInline},
-    {"/readyz", show_readyz, kInline},
+    {"/readyz", show_readyz, kWorker},
     {"/metrics", show_metrics, kInline},
 };
 

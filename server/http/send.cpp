@@ -23,13 +23,19 @@ asio::awaitable<bool> wait_writable(Connection& connection, std::chrono::seconds
   co_return !error;
 }
 
+constexpr std::uint64_t kBurst = 4 << 20;  // then it is another connection's turn
+
 // Calls `write(sent)` for the bytes from `sent` on until `size` are sent. `write` returns what the
 // socket took, or -1 and errno.
 template <class Write>
 asio::awaitable<std::uint64_t> send_all(Connection& connection, std::uint64_t size,
                                         std::chrono::seconds patience, Write write) {
-  std::uint64_t sent = 0;
+  std::uint64_t sent = 0, pause = kBurst;
   while (sent < size) {
+    if (sent >= pause) {
+      co_await asio::post(connection.socket.get_executor(), kNoThrow);
+      pause = sent + kBurst;
+    }
     const ssize_t taken = write(sent);
     if (taken > 0) {
       sent += static_cast<std::uint64_t>(taken);
@@ -57,7 +63,7 @@ asio::awaitable<std::uint64_t> send_file(Connection& connection, int file, const
   const int socket = connection.socket.native_handle();
   auto write = [socket, file, &body](std::uint64_t sent) {
     auto offset = static_cast<off_t>(body.offset + sent);
-    return ::sendfile(socket, file, &offset, body.length - sent);
+    return ::sendfile(socket, file, &offset, std::min(kBurst, body.length - sent));
   };
   co_return co_await send_all(connection, body.length, patience, write);
 }
@@ -89,6 +95,7 @@ asio::awaitable<std::uint64_t> send_stored(Connection& connection, const StoredB
 
 asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string head, Body body,
                                              std::chrono::seconds patience) {
+  connection.expires_after(patience);
   const auto* text = std::get_if<std::string>(&body);
   if (text != nullptr) head += *text;
   const std::uint64_t text_size = text != nullptr ? text->size() : 0;

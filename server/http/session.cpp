@@ -21,6 +21,8 @@ using Parser = beast::http::request_parser<beast::http::string_body>;
 constexpr std::uint32_t kMaxHeader = 16 * 1024;
 constexpr std::uint64_t kMaxBody = 64 * 1024;  // read and ignored: no route takes a body yet
 constexpr std::size_t kMaxTarget = 8 * 1024;
+constexpr std::size_t kMaxBuffer = 64 * 1024;  // the extensions of a chunked body have no limit
+constexpr std::size_t kIdleBuffer = 4 * 1024;  // what a connection that waits may keep
 constexpr std::chrono::seconds kLinger{2};
 
 std::string_view text(beast::string_view view) {
@@ -57,6 +59,13 @@ Response preflight() {
 Response not_allowed(std::string_view id) {
   Response response = problem(405, "this resource can only be read", id);
   response.fields = {{"Allow", "GET, HEAD, OPTIONS"}};
+  return response;
+}
+
+// The queue is full: it moves within seconds.
+Response busy(std::string_view id) {
+  Response response = problem(503, "", id);
+  response.fields = {{"Retry-After", "5"}};
   return response;
 }
 
@@ -97,6 +106,7 @@ class Session {
   asio::awaitable<ReadResult> read(Parser& parser, Exchange& exchange) {
     connection_->expires_after(server_.options().patience);
     connection_->idle = buffer_.size() == 0;
+    if (connection_->idle && buffer_.capacity() > kIdleBuffer) buffer_.shrink_to_fit();
     const auto [error, bytes] =
         co_await beast::http::async_read_header(connection_->socket, buffer_, parser, kNoThrow);
     connection_->idle = false;
@@ -165,9 +175,22 @@ class Session {
                                Exchange& exchange) {
     const auto target = split_target(text(message.target()));
     const Request request{message, target->path, target->query, exchange.parameters, exchange.id};
-    const auto handle = [&] { return apply_conditions(message, guarded(route.handler, request)); };
+    if (route.quick != nullptr) {
+      if (auto quick = route.quick(request, server_.services())) {
+        exchange.response = apply_conditions(message, std::move(*quick), exchange.id);
+        co_return;
+      }
+    }
+    const auto handle = [&] {
+      return apply_conditions(message, guarded(route.handler, request), exchange.id);
+    };
     if (route.place == Place::kInline) {
       exchange.response = handle();
+      co_return;
+    }
+    const auto seat = server_.workers().reserve(route.place);
+    if (!seat) {
+      exchange.response = busy(exchange.id);
       co_return;
     }
     connection_->never_expires();
@@ -254,7 +277,7 @@ class Session {
 
   std::shared_ptr<Connection> connection_;
   HttpServer& server_;
-  beast::flat_buffer buffer_;
+  beast::flat_buffer buffer_{kMaxBuffer};
   bool lingers_ = false;
 };
 

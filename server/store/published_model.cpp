@@ -61,11 +61,15 @@ std::size_t PublishedModels::HashOfId::operator()(const ModelId& id) const noexc
   return first_word(random);
 }
 
+bool PublishedModels::is_fresh(Clock::time_point now) const {
+  return checked_ != Clock::time_point{} && now - checked_ < staleness_;
+}
+
 Expected<void> PublishedModels::forget_if_changed() {
   const auto now = Clock::now();
   {
     const std::shared_lock lock(mutex_);
-    if (checked_ != Clock::time_point{} && now - checked_ < staleness_) return {};
+    if (is_fresh(now)) return {};
   }
   const auto revision = catalogue_.revision();
   if (!revision) return tl::unexpected(revision.error());
@@ -113,6 +117,13 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const Mode
     if (const auto it = models_.find(id); it != models_.end()) return it->second;
   }
   return load(id);
+}
+
+std::optional<PublishedChunk> PublishedModels::held_chunk(const Sha256& sha256) {
+  const std::shared_lock lock(mutex_);
+  if (!is_fresh(Clock::now())) return std::nullopt;
+  const auto it = chunks_.find(sha256);
+  return it == chunks_.end() ? std::nullopt : std::optional(it->second);
 }
 
 Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {

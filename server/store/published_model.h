@@ -63,6 +63,9 @@ class PublishedModels {
   // Null where there is no such model or it is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
 
+  // The chunk where it is in memory and known to be current. Waits for neither catalogue nor disk.
+  std::optional<PublishedChunk> held_chunk(const Sha256& sha256);
+
   // A chunk or a base mesh of any published model.
   Expected<PublishedChunk> find_chunk(const Sha256& sha256);
 
@@ -75,6 +78,7 @@ class PublishedModels {
   };
   using Clock = std::chrono::steady_clock;
 
+  bool is_fresh(Clock::time_point now) const;  // with the lock held
   Expected<void> forget_if_changed();
   Expected<std::shared_ptr<const PublishedModel>> load(const ModelId& id);
   void remember(const std::shared_ptr<const PublishedModel>& model, std::uint64_t revision);

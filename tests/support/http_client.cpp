@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -65,6 +66,11 @@ std::string HttpClient::read_exactly(std::size_t count) {
 
 bool HttpClient::is_closed() {
   return buffer_.empty() && !fill();
+}
+
+bool HttpClient::is_reset() const {
+  pollfd waiting{socket_, 0, 0};
+  return ::poll(&waiting, 1, 20'000) == 1 && (waiting.revents & (POLLERR | POLLHUP)) != 0;
 }
 
 HttpAnswer HttpClient::receive(bool with_body) {

@@ -34,7 +34,8 @@ class HttpClient {
   // A request with a Host and `fields` ("Name: value\r\n"...).
   HttpAnswer get(const std::string& target, const std::string& fields = "",
                  const std::string& method = "GET");
-  bool is_closed();  // waits until the peer sends something or closes
+  bool is_closed();       // waits until the peer sends something or closes
+  bool is_reset() const;  // waits for the peer to cut the connection; takes nothing off it
 
   std::string read_exactly(std::size_t count);
 

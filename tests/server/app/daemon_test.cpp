@@ -97,6 +97,7 @@ TEST_F(DaemonTest, ServesRangesOfTheFile) {
   const HttpAnswer beyond = get(url, "Range: bytes=" + size + "-\r\n");
   EXPECT_EQ(beyond.status, 416);
   EXPECT_EQ(beyond.field("content-range"), "bytes */" + size);
+  EXPECT_EQ(beyond.field("content-type"), "application/problem+json");
 }
 
 TEST_F(DaemonTest, HeadTellsTheLengthWithoutTheBody) {
@@ -148,6 +149,9 @@ TEST_F(DaemonTest, ClosesAfterARequestWhoseEndIsAmbiguousOrThatIsTooLarge) {
       {"nonsense\r\n\r\n", 400},
       {"GET / HTTP/1.1\r\nHost: a\r\nX: " + std::string(20'000, 'x') + "\r\n\r\n", 431},
       {"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 1000000\r\n\r\n", 413},
+      {"POST / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n1;" +
+           std::string(100'000, 'x'),
+       400},
       {"GET nowhere HTTP/1.1\r\nHost: a\r\n\r\n", 400},
   };
   for (const auto& [request, status] : cases) {

@@ -55,6 +55,16 @@ TEST(Start, ChecksAConfigurationWithoutServing) {
   EXPECT_THAT(result.output, HasSubstr(file + ":1: unknown key 'listne'; did you mean 'listen'?"));
 }
 
+TEST(Start, RefusesAFolderAsConfigurationAndAnAddressThatIsNoNumber) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_vitrined({"--config", folder.path().string(), "--check-config"}).exit_code, 1);
+  const ProgramResult named = run_vitrined({"--listen", "museum.example:80", "--check-config"});
+  EXPECT_EQ(named.exit_code, 2);
+  EXPECT_THAT(named.output, HasSubstr("'museum.example' is not a numeric address"));
+  EXPECT_EQ(run_vitrined({"--listen", "[::1]:80", "--check-config"}).exit_code, 0);
+  EXPECT_EQ(run_vitrined({"--data", "", "--check-config"}).exit_code, 2);
+}
+
 TEST(Start, APortInUseIsOneLineWithTheNextStepAndExitCode1) {
   const ServedFolder folder;
   const Daemon daemon(folder.path());

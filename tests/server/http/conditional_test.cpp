@@ -69,7 +69,7 @@ Response answer(const std::vector<std::pair<field, std::string>>& fields,
   response.type = "text/plain";
   response.etag = "\"a\"";
   response.body = std::string("0123456789");
-  return apply_conditions(request, std::move(response));
+  return apply_conditions(request, std::move(response), "0123456789abcdef");
 }
 
 std::string text(const Response& response) {
@@ -121,7 +121,7 @@ TEST(ApplyConditions, ErrorsAreLeftAsTheyAre) {
   Response response;
   response.status = 404;
   response.etag = "\"a\"";
-  EXPECT_EQ(apply_conditions(request, response).status, 404u);
+  EXPECT_EQ(apply_conditions(request, response, "").status, 404u);
 }
 
 TEST(BodyRange, IsAPartOfEveryKindOfBody) {

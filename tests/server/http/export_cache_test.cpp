@@ -7,7 +7,7 @@ namespace vitrine {
 namespace {
 
 ExportCache::File file(std::size_t bytes) {
-  return std::make_shared<const std::vector<std::uint8_t>>(bytes);
+  return std::make_shared<const ExportedFile>(ExportedFile{std::vector<std::uint8_t>(bytes), ""});
 }
 
 TEST(ExportCache, KeepsWhatFitsAndDropsTheLeastRecentlyUsed) {

@@ -111,6 +111,17 @@ TEST_F(Publish, a_model_published_by_another_process_is_found_whatever_is_cached
   EXPECT_TRUE(lazy.find_chunk(sha256(test::to_bytes("a chunk"))).value().model);
 }
 
+TEST_F(Publish, a_chunk_is_held_once_it_was_asked_for_and_as_long_as_that_is_fresh) {
+  const Sha256 chunk = sha256(test::to_bytes("a chunk"));
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  ASSERT_TRUE(publish(store_, *catalogue_, file_.bytes, {}));
+  EXPECT_FALSE(lazy.held_chunk(chunk));
+  EXPECT_TRUE(lazy.find_chunk(chunk).value().model);
+  EXPECT_TRUE(lazy.held_chunk(chunk));
+  EXPECT_TRUE(models_.find_chunk(chunk).value().model);
+  EXPECT_FALSE(models_.held_chunk(chunk)) << "stale at once";
+}
+
 TEST_F(Publish, a_model_whose_object_is_lost_is_an_error_that_names_it) {
   const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value();
   std::filesystem::remove_all(folder_.path() / "objects");
