@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "codec/base/base_decoder.h"
@@ -12,11 +13,6 @@
 
 namespace vitrine {
 namespace {
-
-struct Wanted {
-  Want want;
-  std::string key;  // names the want in caches
-};
 
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
@@ -49,9 +45,9 @@ tl::expected<Want, std::string> parse_want(std::string_view name, std::string_vi
 }
 
 // What the query asks for; the whole model where it does not say.
-tl::expected<Wanted, ParameterFault> read_want(const Query& query, const Manifest& manifest) {
+tl::expected<Want, ParameterFault> read_want(const Query& query, const Manifest& manifest) {
   const auto levels = static_cast<std::uint32_t>(manifest.levels.size());
-  std::optional<Wanted> wanted;
+  std::optional<Want> wanted;
   for (const std::string name : {"triangles", "error", "bytes", "level"}) {
     const auto text = query.get(name);
     if (!text) continue;
@@ -59,9 +55,22 @@ tl::expected<Wanted, ParameterFault> read_want(const Query& query, const Manifes
       return tl::unexpected(ParameterFault{name, "only one of triangles, error, bytes, level"});
     const auto want = parse_want(name, *text, levels);
     if (!want) return tl::unexpected(ParameterFault{name, want.error()});
-    wanted = Wanted{*want, fmt::format("{}={}", name, *text)};
+    wanted = *want;
   }
-  return wanted.value_or(Wanted{WantLevel{levels - 1}, "level=highest"});
+  return wanted.value_or(WantLevel{levels - 1});
+}
+
+// Equal wishes have equal keys, however they are written; beyond the finest level all are equal.
+std::string key_of(const Want& want, const Manifest& manifest) {
+  if (const auto* w = std::get_if<WantTriangles>(&want)) {
+    return fmt::format("triangles={}",
+                       std::min<std::uint64_t>(w->triangles, manifest.levels.back().faces));
+  }
+  if (const auto* w = std::get_if<WantBytes>(&want)) {
+    return fmt::format("bytes={}", std::min(w->bytes, manifest.file_bytes));
+  }
+  if (const auto* w = std::get_if<WantError>(&want)) return fmt::format("error={}", w->error);
+  return fmt::format("level={}", std::get<WantLevel>(want).level);
 }
 
 // Our own published file is decoded in this process: it was checked when it was published.
@@ -126,9 +135,10 @@ Response export_model(const Request& request, Services& services) {
   return with_model(request, services, [&](const auto& model) {
     const auto wanted = read_want(*query, model->manifest());
     if (!wanted) return problem(400, "a parameter is out of range", request.id, {wanted.error()});
-    const std::string key = fmt::format("{} {} {}", to_hex(model->record().file),
-                                        request.parameters.format, wanted->key);
-    const auto file = find_or_make(services.exports, key, *model, wanted->want, *format);
+    const std::string key =
+        fmt::format("{} {} {}", to_hex(model->record().file), request.parameters.format,
+                    key_of(*wanted, model->manifest()));
+    const auto file = find_or_make(services.exports, key, *model, *wanted, *format);
     if (!file) return internal_error(file.error(), request, services);
     Response response;
     response.type = media_type(*format);
