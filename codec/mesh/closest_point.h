@@ -10,6 +10,10 @@ struct Corners {
   Vec3 a, b, c;
 };
 
+inline const Vec3& corner(const Corners& t, std::uint32_t k) noexcept {
+  return k == 0 ? t.a : k == 1 ? t.b : t.c;
+}
+
 // The closest point on the three edges.
 Vec3 closest_point_of_edges(const Corners& triangle, const Vec3& p) noexcept;
 

@@ -37,7 +37,7 @@ std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triang
   std::vector<Waiting> waiting(3 * faces.size());
   std::vector<std::array<std::uint32_t, 3>> across(faces.size());
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    across[f] = {f, f, f};
+    across[f] = {3 * f, 3 * f + 1, 3 * f + 2};
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
       const Waiting own{high, f, k, faces[f][k] == low};
@@ -49,7 +49,7 @@ std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triang
       if (twin == bucket + n) {
         bucket[n++] = own;
       } else {
-        across[f][k] = twin->face, across[twin->face][twin->edge] = f;
+        across[f][k] = 3 * twin->face + twin->edge, across[twin->face][twin->edge] = 3 * f + k;
         *twin = bucket[--n];
       }
     }

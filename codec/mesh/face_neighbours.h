@@ -11,9 +11,9 @@
 
 namespace vitrine {
 
-// across[f][k] is the face on the other side of the edge from corner k to corner k + 1 of face f,
-// f itself where there is none. Only faces that run along the edge in opposite directions are
-// paired, as found where there are more than two.
+// Half-edge 3 f + k runs from corner k of face f to corner k + 1. across[f][k] is the half-edge on
+// the other side of it, itself where there is none (faces < 2^32 / 3). Only faces that run along
+// the edge in opposite directions are paired, as found where there are more than two.
 std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triangle> faces,
                                                           std::size_t vertex_count);
 

@@ -100,11 +100,28 @@ void TriangleBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t c
   nodes_.resize(left + 2);
   build(left, first, count / 2);
   build(left + 1, first + count / 2, count - count / 2);
-  Node& n = nodes_[node];
-  n.first = left, n.count = 0;
+  nodes_[node].first = left, nodes_[node].count = 0;
+  bound_children(nodes_[node]);
+}
+
+TriangleBvh::TriangleBvh(const TriangleBvh& shape, const TriangleMesh& moved)
+    : nodes_(shape.nodes_), face_(shape.face_) {
+  triangles_.reserve(face_.size());
+  for (const std::uint32_t face : face_) {
+    const Triangle& f = moved.faces[face];
+    triangles_.push_back({moved.positions[f[0]], moved.positions[f[1]], moved.positions[f[2]]});
+  }
+  for (std::size_t i = nodes_.size(); i-- > 0;) {  // children stand behind their parent
+    Node& n = nodes_[i];
+    n.count > 0 ? bound_box(n, n.first, n.count) : bound_children(n);
+  }
+}
+
+void TriangleBvh::bound_children(Node& node) const {
+  const Node &left = nodes_[node.first], &right = nodes_[node.first + 1];
   for (std::size_t k = 0; k < 3; ++k) {
-    n.low[k] = std::min(nodes_[left].low[k], nodes_[left + 1].low[k]);
-    n.high[k] = std::max(nodes_[left].high[k], nodes_[left + 1].high[k]);
+    node.low[k] = std::min(left.low[k], right.low[k]);
+    node.high[k] = std::max(left.high[k], right.high[k]);
   }
 }
 

@@ -30,6 +30,9 @@ class TriangleBvh {
 
   // Face indices are in range, positions finite.
   explicit TriangleBvh(const TriangleMesh& mesh);
+  // Over the same faces with their vertices moved: keeps the order of `shape`, refits the boxes.
+  // Queries stay fast where vertices moved little.
+  TriangleBvh(const TriangleBvh& shape, const TriangleMesh& moved);
 
   bool empty() const { return triangles_.empty(); }
   std::span<const Node> nodes() const { return nodes_; }                        // [0] is the root
@@ -43,6 +46,7 @@ class TriangleBvh {
  private:
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void bound_box(Node& node, std::uint32_t first, std::uint32_t count) const;
+  void bound_children(Node& node) const;
 
   std::vector<Node> nodes_;
   std::vector<Corners> triangles_;

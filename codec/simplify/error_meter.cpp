@@ -7,12 +7,10 @@
 #include <span>
 #include <utility>
 
-#include "codec/simplify/hausdorff_bound.h"
-
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kSamples = 10'000;  // per direction
+constexpr std::size_t kSamples = 4'000;  // per direction
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kWorst = 32;  // samples per direction that are looked at first
 constexpr double kTolerance = 1.15;
@@ -24,9 +22,14 @@ double diagonal(const TriangleBvh& bvh) {
   return length(high - low);
 }
 
+struct Worst {
+  double squared;
+  std::uint32_t triangle, nearest;  // of the surface sampled, of the other one
+};
+
 struct Sampled {
   double rms = 0;
-  std::vector<std::pair<double, std::uint32_t>> worst;  // squared distance, triangle; descending
+  std::vector<Worst> worst;  // descending
 };
 
 Sampled sample(std::span<const SurfaceSample> samples, const WitnessSurface& surface) {
@@ -37,12 +40,12 @@ Sampled sample(std::span<const SurfaceSample> samples, const WitnessSurface& sur
     const SurfacePoint hit = surface.closest(s.point, last);
     last = hit.triangle;
     sum += hit.squared;
-    out.worst.emplace_back(hit.squared, s.triangle);
+    out.worst.push_back({hit.squared, s.triangle, hit.triangle});
   }
   out.rms = std::sqrt(sum / static_cast<double>(samples.size()));
   const auto end =
       out.worst.begin() + static_cast<std::ptrdiff_t>(std::min(kWorst, samples.size()));
-  std::partial_sort(out.worst.begin(), end, out.worst.end(), std::greater<>());
+  std::ranges::partial_sort(out.worst, end, std::greater<>(), &Worst::squared);
   out.worst.erase(end, out.worst.end());
   return out;
 }
@@ -50,9 +53,9 @@ Sampled sample(std::span<const SurfaceSample> samples, const WitnessSurface& sur
 // The worst samples tell where to look first: a large distance known early spares work later.
 void add_worst(HausdorffBound& bound, const Sampled& sampled, const TriangleBvh& source,
                const WitnessSurface& target) {
-  for (const auto& [squared, triangle] : sampled.worst) {
-    bound.know(std::sqrt(squared));
-    bound.add(source.triangles()[triangle], target);
+  for (const Worst& w : sampled.worst) {
+    bound.know(std::sqrt(w.squared));
+    bound.add(source.triangles()[w.triangle], target, w.nearest);
   }
 }
 
@@ -67,15 +70,29 @@ ErrorMeter::ErrorMeter(const TriangleMesh& original)
 LevelError ErrorMeter::measure(const TriangleMesh& level) const {
   const TriangleBvh bvh(level);
   const WitnessSurface surface(bvh, level);
-  const Sampled there = sample(sample_surface(bvh.triangles(), kSamples, kSeed), surface_);
-  const Sampled back = sample(samples_, surface);
-
   HausdorffBound bound(kTolerance, negligible_);
-  add_worst(bound, there, bvh, surface_);
-  add_worst(bound, back, bvh_, surface);
+  const double rms = sample_both(bvh, surface, bound);
   const std::vector<std::uint8_t> settled = bound.add(bvh, surface_);
   bound.add(bvh_, surface, settled);
-  return {.max_error = bound.bound(), .rms_error = std::max(there.rms, back.rms)};
+  return {.max_error = bound.bound(), .rms_error = rms};
+}
+
+LevelError ErrorMeter::measure_moved(const TriangleMesh& moved) const {
+  const TriangleBvh bvh(bvh_, moved);
+  const WitnessSurface surface(bvh, surface_);
+  HausdorffBound bound(kTolerance, negligible_);
+  const double rms = sample_both(bvh, surface, bound);
+  bound.add_twins(surface_, surface);
+  return {.max_error = bound.bound(), .rms_error = rms};
+}
+
+double ErrorMeter::sample_both(const TriangleBvh& bvh, const WitnessSurface& surface,
+                               HausdorffBound& bound) const {
+  const Sampled there = sample(sample_surface(bvh.triangles(), kSamples, kSeed), surface_);
+  const Sampled back = sample(samples_, surface);
+  add_worst(bound, there, bvh, surface_);
+  add_worst(bound, back, bvh_, surface);
+  return std::max(there.rms, back.rms);
 }
 
 }  // namespace vitrine

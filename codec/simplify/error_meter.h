@@ -7,6 +7,7 @@
 #include "codec/mesh/surface_sampler.h"
 #include "codec/mesh/triangle_bvh.h"
 #include "codec/mesh/triangle_mesh.h"
+#include "codec/simplify/hausdorff_bound.h"
 #include "codec/simplify/witness_surface.h"
 
 namespace vitrine {
@@ -25,10 +26,16 @@ class ErrorMeter {
   // `level` is what is displayed: at least one face, model units. max_error is at most a sixth
   // above the true maximum (or 1e-6 of the diagonal).
   LevelError measure(const TriangleMesh& level) const;
+  // The same for the original with its vertices moved, by rounding say; fast for small moves.
+  LevelError measure_moved(const TriangleMesh& moved) const;
 
   const TriangleBvh& original() const { return bvh_; }
 
  private:
+  // Tells `bound` of the worst samples and what is around them; returns the rms distance.
+  double sample_both(const TriangleBvh& bvh, const WitnessSurface& surface,
+                     HausdorffBound& bound) const;
+
   TriangleBvh bvh_;
   WitnessSurface surface_;
   std::vector<SurfaceSample> samples_;

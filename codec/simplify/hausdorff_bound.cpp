@@ -39,10 +39,25 @@ Edge most_overhung(const ConvexPiece& piece, const WitnessSurface& target, std::
 
 }  // namespace
 
-void HausdorffBound::add(const Corners& triangle, const WitnessSurface& target) {
+void HausdorffBound::add(const Corners& triangle, const WitnessSurface& target,
+                         std::uint32_t near) {
   target_ = &target;
-  last_ = target.closest(centre_of(triangle), 0).triangle;
+  last_ = target.closest(centre_of(triangle), near).triangle;
   cover(ConvexPiece(triangle), last_);
+}
+
+// Points at the same place of twin triangles are no farther apart than the farthest corners are.
+void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& other) {
+  for (std::uint32_t t = 0; t < one.size(); ++t) {
+    const Corners &a = one.triangle(t), &b = other.triangle(t);
+    const double apart = std::max({length(a.a - b.a), length(a.b - b.b), length(a.c - b.c)});
+    if (apart <= limit()) {
+      bound_ = std::max(bound_, apart);
+    } else {
+      add(a, other, t);
+      add(b, one, t);
+    }
+  }
 }
 
 struct HausdorffBound::Visit {
@@ -82,7 +97,7 @@ void HausdorffBound::visit(Visit& all, std::uint32_t index) {
 void HausdorffBound::visit_triangle(const Corners& triangle, PatchCover& patches) {
   const std::array corners = {triangle.a, triangle.b, triangle.c};
   if (settle(corners, last_)) return;
-  last_ = target_->walk(centre_of(triangle), last_);
+  last_ = target_->stroll(centre_of(triangle), last_);
   if (settle(corners, last_)) return;
   const PatchCover::Result patch = patches.cover(triangle, last_, limit());
   bound_ = std::max(bound_, patch.height);
@@ -103,15 +118,16 @@ bool HausdorffBound::settle_box(const TriangleBvh::Node& n) {
 
 // Moves the newest witness near p: by a walk, unless that ends too far away.
 void HausdorffBound::approach(const Vec3& p) {
-  last_ = target_->walk(p, last_);
-  if (target_->distance(p, last_) > limit()) last_ = target_->closest(p, last_).triangle;
+  last_ = target_->stroll(p, last_);
+  if (target_->distance_within(p, last_, limit()) > limit())
+    last_ = target_->closest(p, last_).triangle;
 }
 
 bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness) {
   const double most = limit();
   double farthest = 0;
   for (const Vec3& p : corners) {
-    farthest = std::max(farthest, target_->distance(p, witness));
+    farthest = std::max(farthest, target_->distance_within(p, witness, most));
     if (farthest > most) return false;
   }
   bound_ = std::max(bound_, farthest);

@@ -31,7 +31,11 @@ class HausdorffBound {
   void know(double distance) { known_ = std::max(known_, distance); }
 
   // Adds the distances from every point of a triangle to `target`.
-  void add(const Corners& triangle, const WitnessSurface& target);
+  // `near`: a triangle of it near by.
+  void add(const Corners& triangle, const WitnessSurface& target, std::uint32_t near);
+
+  // Adds the distances between two surfaces of the same faces in the same order, both ways.
+  void add_twins(const WitnessSurface& one, const WitnessSurface& other);
 
   // Adds the distances from every point of `source` to `target`, save for the triangles marked in
   // `settled` (empty: none). Returns marks for the triangles of `target`: those whose distance to

@@ -13,11 +13,6 @@ struct PatchCover::Prism {
   std::array<Vec3, 3> inward;
   std::array<double, 3> offset;  // of the walls from the origin
 
-  struct Place {
-    double height;
-    std::array<double, 3> depth;  // behind each wall; negative outside
-  };
-
   explicit Prism(const Corners& t)
       : origin(t.a),
         normal(cross(t.b - t.a, t.c - t.a)),
@@ -39,28 +34,25 @@ struct PatchCover::Prism {
   }
 };
 
-namespace {
-
-template <class Place>
-bool outside(const Place& a, const Place& b) {  // the edge from a to b is behind no wall
+bool PatchCover::outside(const Place& a, const Place& b) {  // the edge is behind no wall
   for (std::size_t k = 0; k < 3; ++k) {
     if (a.depth[k] <= 0 && b.depth[k] <= 0) return true;
   }
   return false;
 }
 
-template <class Place>
-bool outside(const Place& a, const Place& b, const Place& c) {
+bool PatchCover::outside(const Place& a, const Place& b, const Place& c) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (a.depth[k] <= 0 && b.depth[k] <= 0 && c.depth[k] <= 0) return true;
   }
   return false;
 }
 
-template <class Place>
-bool inside(const Place& p) {
+bool PatchCover::inside(const Place& p) {
   return p.depth[0] >= 0 && p.depth[1] >= 0 && p.depth[2] >= 0;
 }
+
+namespace {
 
 // True if the line through p along `normal` meets the triangle, which faces that way.
 bool over(const Corners& t, const Vec3& p, const Vec3& normal) {
@@ -80,21 +72,25 @@ PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t star
   bool over_centre = false;
   ++call_;
   seen_[start] = call_;
-  open_.assign(1, start);
+  const Corners& first = surface_.triangle(start);
+  open_.assign(1, {start, 0, prism.place(first.a), prism.place(first.b)});
   while (!open_.empty()) {
-    const std::uint32_t t = open_.back();
+    const Open open = open_.back();
     open_.pop_back();
-    if (!step(prism, t, limit, result, over_centre)) return result;
+    if (!step(prism, open, limit, result, over_centre)) return result;
   }
   result.covered = over_centre;
   return result;
 }
 
 // Takes triangle t into the patch if it reaches into the prism. False if the patch is no cover.
-bool PatchCover::step(const Prism& prism, std::uint32_t t, double limit, Result& result,
+bool PatchCover::step(const Prism& prism, const Open& open, double limit, Result& result,
                       bool& over_centre) {
+  const std::uint32_t t = open.triangle;
   const Corners& s = surface_.triangle(t);
-  const std::array places = {prism.place(s.a), prism.place(s.b), prism.place(s.c)};
+  std::array<Place, 3> places;
+  places[open.edge] = open.from, places[(open.edge + 1) % 3] = open.to;
+  places[(open.edge + 2) % 3] = prism.place(corner(s, (open.edge + 2) % 3));
   if (outside(places[0], places[1], places[2])) return true;
   const double height = std::max({places[0].height, places[1].height, places[2].height});
   if (height > limit || dot(cross(s.b - s.a, s.c - s.a), prism.normal) <= 0) return false;
@@ -103,10 +99,11 @@ bool PatchCover::step(const Prism& prism, std::uint32_t t, double limit, Result&
   over_centre = over_centre || over(s, prism.centre, prism.normal);
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t other = surface_.across(t, k);
-    if (other == t && !outside(places[k], places[(k + 1) % 3])) return false;
-    if (seen_[other] == call_) continue;
+    if (seen_[other] == call_ && other != t) continue;
+    if (outside(places[k], places[(k + 1) % 3])) continue;
+    if (other == t) return false;
     seen_[other] = call_;
-    open_.push_back(other);
+    open_.push_back({other, surface_.edge_across(t, k), places[(k + 1) % 3], places[k]});
   }
   return true;
 }

@@ -8,6 +8,7 @@
 // right angles above or below it, no farther away than the highest corner of the patch.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -32,13 +33,26 @@ class PatchCover {
 
  private:
   struct Prism;
-  bool step(const Prism& prism, std::uint32_t t, double limit, Result& result, bool& over_centre);
+  // Where a point is: height over the plane, depth behind each wall (negative outside).
+  struct Place {
+    double height;
+    std::array<double, 3> depth;
+  };
+  // A triangle to look at, and what is known of the edge it was reached by, corner k to the next.
+  struct Open {
+    std::uint32_t triangle, edge;
+    Place from, to;
+  };
+  static bool outside(const Place& a, const Place& b);
+  static bool outside(const Place& a, const Place& b, const Place& c);
+  static bool inside(const Place& p);
+  bool step(const Prism& prism, const Open& open, double limit, Result& result, bool& over_centre);
 
   const WitnessSurface& surface_;
   std::vector<std::uint8_t> marks_;
   std::vector<std::uint32_t> seen_;  // per triangle: the newest call that met it
   std::uint32_t call_ = 0;
-  std::vector<std::uint32_t> open_;
+  std::vector<Open> open_;
 };
 
 }  // namespace vitrine

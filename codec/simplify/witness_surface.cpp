@@ -26,10 +26,6 @@ double product(const std::array<float, 3>& a, const Vec3& b) {
   return a[0] * b.x + a[1] * b.y + a[2] * b.z;
 }
 
-const Vec3& corner(const Corners& t, std::uint32_t k) {
-  return k == 0 ? t.a : k == 1 ? t.b : t.c;
-}
-
 }  // namespace
 
 WitnessSurface::WitnessSurface(const TriangleBvh& bvh, const TriangleMesh& mesh) : bvh_(&bvh) {
@@ -38,8 +34,17 @@ WitnessSurface::WitnessSurface(const TriangleBvh& bvh, const TriangleMesh& mesh)
   for (std::uint32_t t = 0; t < mesh.faces.size(); ++t)
     faces.push_back(mesh.faces[bvh.face(t)]);
   across_ = face_neighbours(faces, mesh.positions.size());
-  frames_.reserve(faces.size());
-  for (const Corners& t : bvh.triangles())
+  make_frames();
+}
+
+WitnessSurface::WitnessSurface(const TriangleBvh& bvh, const WitnessSurface& shape)
+    : bvh_(&bvh), across_(shape.across_) {
+  make_frames();
+}
+
+void WitnessSurface::make_frames() {
+  frames_.reserve(bvh_->triangles().size());
+  for (const Corners& t : bvh_->triangles())
     frames_.push_back(make_frame(t));
 }
 
@@ -72,6 +77,16 @@ double WitnessSurface::distance(const Vec3& p, std::uint32_t t) const {
   return quick ? height + error : std::sqrt(squared_distance(triangle, p));
 }
 
+double WitnessSurface::distance_within(const Vec3& p, std::uint32_t t, double most) const {
+  const Corners& triangle = bvh_->triangles()[t];
+  const Frame& frame = frames_[t];
+  const Vec3 from_a = p - triangle.a;
+  const bool far =
+      std::abs(product(frame.normal, from_a)) > most || product(frame.inward[0], from_a) < -most ||
+      product(frame.inward[2], from_a) < -most || product(frame.inward[1], p - triangle.b) < -most;
+  return far ? std::numeric_limits<double>::infinity() : distance(p, t);
+}
+
 std::array<double, 3> WitnessSurface::overhang(const Vec3& p, std::uint32_t t) const {
   const Corners& triangle = bvh_->triangles()[t];
   const Frame& frame = frames_[t];
@@ -80,13 +95,23 @@ std::array<double, 3> WitnessSurface::overhang(const Vec3& p, std::uint32_t t) c
 }
 
 WitnessSurface::Plane WitnessSurface::bisector(std::uint32_t t, std::uint32_t edge) const {
-  const std::uint32_t other = across(t, edge);
-  std::uint32_t back = 0;
-  while (back < 2 && across(other, back) != t)
-    ++back;
+  const std::uint32_t other = across(t, edge), back = edge_across(t, edge);
   const Vec3 normal = widen(frames_[t].inward[edge]) - widen(frames_[other].inward[back]);
   const double size = length(normal);
   return {corner(triangle(t), edge), size > 0 ? normal * (1 / size) : Vec3{}};
+}
+
+std::uint32_t WitnessSurface::stroll(const Vec3& p, std::uint32_t start) const {
+  std::uint32_t at = start, before = start;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const std::array<double, 3> beyond = overhang(p, at);
+    const auto most = std::max_element(beyond.begin(), beyond.end());
+    if (!(*most > 0)) break;
+    const std::uint32_t next = across(at, static_cast<std::uint32_t>(most - beyond.begin()));
+    if (next == before || next == at) break;
+    before = at, at = next;
+  }
+  return at;
 }
 
 std::uint32_t WitnessSurface::walk(const Vec3& p, std::uint32_t start) const {
@@ -94,7 +119,8 @@ std::uint32_t WitnessSurface::walk(const Vec3& p, std::uint32_t start) const {
   double squared = squared_distance(triangle(start), p);
   for (int step = 0; step < kMaxSteps; ++step) {
     const std::uint32_t from = best;
-    for (std::uint32_t t : across_[from]) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t t = across(from, k);
       if (t == before || t == from) continue;
       const double other = squared_distance(triangle(t), p);
       if (other < squared) squared = other, best = t;

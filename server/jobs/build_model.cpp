@@ -94,10 +94,11 @@ std::vector<std::vector<std::uint32_t>> region_adjacency(const LatticeMesh& fine
 // Measures levels, `threads` at a time, while the next ones are being coded.
 class LevelErrors {
  public:
-  LevelErrors(const TriangleMesh& original, const Lattice& lattice, unsigned threads)
-      : meter_(original), lattice_(lattice), threads_(threads) {}
+  // `fine` is `original` rounded to the lattice.
+  LevelErrors(const TriangleMesh& original, const LatticeMesh& fine, unsigned threads)
+      : meter_(original), fine_(fine), lattice_(fine.lattice), threads_(threads) {}
 
-  // `last`: full resolution is shown as it is.
+  // `last`: full resolution is shown as it is, which is `fine`.
   void add(const MeshState& level, bool last, Manifest& manifest) {
     LevelInfo info{.vertices = level.vertex_count()};
     if (!last) info.display_filter = fit_display_filter(level, lattice_, meter_.original());
@@ -112,8 +113,10 @@ class LevelErrors {
     manifest.levels.push_back(info);
     while (pending_.size() + 1 >= threads_ && !pending_.empty())
       settle(manifest);
-    pending_.push_back(std::async(threads_ > 1 ? std::launch::async : std::launch::deferred,
-                                  [this, mesh] { return meter_.measure(*mesh); }));
+    pending_.push_back(
+        std::async(threads_ > 1 ? std::launch::async : std::launch::deferred, [this, mesh, last] {
+          return last ? meter_.measure_moved(to_model(fine_)) : meter_.measure(*mesh);
+        }));
   }
 
   void finish(Manifest& manifest) {
@@ -131,6 +134,7 @@ class LevelErrors {
   }
 
   ErrorMeter meter_;
+  const LatticeMesh& fine_;
   Lattice lattice_;
   unsigned threads_;
   std::deque<std::future<LevelError>> pending_;
@@ -183,7 +187,7 @@ Expected<void> encode(const Hierarchy& hierarchy, const LatticeMesh& fine,
   auto encoder = LayerEncoder::start(hierarchy, base->decoded, std::move(fine_ids));
   if (!encoder) return tl::unexpected(encoder.error());
   const std::size_t levels = hierarchy.levels.size();
-  LevelErrors errors(original, fine.lattice, options.threads);
+  LevelErrors errors(original, fine, options.threads);
   errors.add(encoder->mesh(), levels == 0, manifest);
   for (std::uint32_t level = 1; level <= levels; ++level) {
     auto chunks = encoder->encode_level();

@@ -27,12 +27,17 @@ double dense_maximum(const TriangleMesh& from, const TriangleBvh& to) {
   return std::sqrt(most);
 }
 
-void expect_tight(const TriangleMesh& level, const TriangleMesh& original) {
-  const double bound = ErrorMeter(original).measure(level).max_error;
+void expect_tight(const LevelError& error, const TriangleMesh& level,
+                  const TriangleMesh& original) {
+  const double bound = error.max_error;
   const double there = dense_maximum(level, TriangleBvh(original));
   const double back = dense_maximum(original, TriangleBvh(level));
   EXPECT_GE(bound, std::max(there, back) * (1 - 1e-9));
   EXPECT_LE(bound, std::max(there, back) * 1.25);
+}
+
+void expect_tight(const TriangleMesh& level, const TriangleMesh& original) {
+  expect_tight(ErrorMeter(original).measure(level), level, original);
 }
 
 TriangleMesh base_of(const TriangleMesh& mesh, std::uint32_t vertices) {
@@ -53,6 +58,18 @@ TEST(ErrorMeter, BoundIsTrueAndTightOnAScan) {
 TEST(ErrorMeter, BoundIsTrueAndTightAfterQuantisationAlone) {
   const TriangleMesh scan = shipped_model("demosthenes.obj");
   expect_tight(to_model(quantise(scan, fit_lattice(scan.positions, 10))), scan);
+}
+
+TEST(ErrorMeter, BoundIsTrueAndTightForMovedVerticesOfKnownOrigin) {
+  const TriangleMesh scan = shipped_model("demosthenes.obj");
+  for (int bits : {8, 12}) {
+    const TriangleMesh rounded = to_model(quantise(scan, fit_lattice(scan.positions, bits)));
+    expect_tight(ErrorMeter(scan).measure_moved(rounded), rounded, scan);
+  }
+  TriangleMesh slid = sheet(60, 50);  // along itself: vertices move much, the surface hardly
+  for (Vec3& p : slid.positions)
+    p.x += 0.4;
+  expect_tight(ErrorMeter(sheet(60, 50)).measure_moved(slid), slid, sheet(60, 50));
 }
 
 TEST(ErrorMeter, BoundIsTrueAndTightWithBoundariesAndHandles) {
