@@ -157,18 +157,21 @@ void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cu
 
 // Where no witness near by is good enough, true distances decide.
 void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
-  for (const Vec3& p : piece.corners()) {
-    if (target_->distance(p, witness) <= known_) continue;
-    know(std::sqrt(target_->closest(p, witness).squared));
-  }
   const Vec3 centre = piece.centre();
   const SurfacePoint middle = target_->closest(centre, witness);
   know(std::sqrt(middle.squared));
   if (settle(piece.corners(), middle.triangle)) return;
   // The distance grows no faster than one moves.
   const double reach = std::sqrt(middle.squared) + piece.radius(centre);
-  if (reach > limit()) return halve(piece, middle.triangle);
-  bound_ = std::max(bound_, reach);
+  if (reach <= limit()) {
+    bound_ = std::max(bound_, reach);
+    return;
+  }
+  for (const Vec3& p : piece.corners()) {
+    if (target_->distance_within(p, witness, known_) <= known_) continue;
+    know(std::sqrt(target_->closest(p, middle.triangle).squared));
+  }
+  halve(piece, middle.triangle);
 }
 
 void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
