@@ -38,7 +38,8 @@ ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
 
 void Refiner::State::fork() {
   if (mesh.members.size() > region_level.size()) {
-    region_level.assign(mesh.members.size(), region_level[0]);
+    const std::uint32_t level = region_level[0];  // assign() must not be given its own element
+    region_level.assign(mesh.members.size(), level);
   }
 }
 
