@@ -65,6 +65,12 @@ void CutModel::evaluate(const CutRing& ring) {
   count_ = 0;
   double best = -1e300;
   std::array<double, kMaxPairs> score;
+  std::array<Vec3, kMaxSplitValence> spoke;
+  std::array<double, kMaxSplitValence> reach;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    spoke[k] = ring.at[k] * inverse;
+    reach[k] = length(spoke[k]);
+  }
   for (std::uint32_t i = 0; i + 1 < n; ++i) {
     for (std::uint32_t j = i + 1; j < n; ++j) {
       Candidate& c = candidates_[count_];
@@ -72,7 +78,7 @@ void CutModel::evaluate(const CutRing& ring) {
       c.tried = false;
       const Arc near = arc(prefix, i, j), far = arc(prefix, j, i + n);
       const Vec3 d = (far.mean - near.mean) * (kArcToEdge * inverse);
-      const Vec3 l = ring.at[i] * inverse, r = ring.at[j] * inverse;
+      const Vec3 &l = spoke[i], &r = spoke[j];
       const Vec3 chord = r - l, centre = (l + r) * 0.5;
       const double edge = length(d), chord_length = length(chord);
       const double v_valence = static_cast<double>(n - (j - i) + 2) - 6;
@@ -87,12 +93,12 @@ void CutModel::evaluate(const CutRing& ring) {
                     edge * edge,
                     chord_length,
                     length(centre),
-                    length(l) + length(r),
+                    reach[i] + reach[j],
                     std::fabs(dot(chord, d)) / (chord_length * edge + 1e-3),
                     real > 0 ? squares / real : 0.0,
                     ring.is_virtual[i] || ring.is_virtual[j] ? 1.0 : 0.0,
                     chord_length * chord_length,
-                    square(length(l) - length(r))};
+                    square(reach[i] - reach[j])};
       double s = 0;
       for (std::size_t k = 0; k < kFeatures; ++k)
         s += weights_[k] * c.features[k];

@@ -36,8 +36,8 @@ std::vector<EncodedChunk> LayerEncoder::begin_level() {
   const CollapseLevel& collapses = hierarchy_->levels[level_++];
   const bool forked = level_ >= hierarchy_->fork_level;
   std::vector<EncodedChunk> chunks(forked ? hierarchy_->regions : 1);
-  for (std::uint16_t k = 0; k < chunks.size(); ++k)
-    chunks[k].region = k;
+  for (std::size_t k = 0; k < chunks.size(); ++k)
+    chunks[k].region = static_cast<std::uint16_t>(k);
   for (std::uint32_t k = 0; k < collapses.size(); ++k) {
     collapse_of_[collapses[k].v1] = k;
     ++chunks[forked ? hierarchy_->region[collapses[k].v1] : 0].splits;

@@ -100,7 +100,7 @@ class LayerPass {
 
   static std::uint64_t order_key(const Vec3i& p) {
     const auto part = [](std::int32_t c) {
-      return static_cast<std::uint64_t>(c + kCoordinateBound);
+      return static_cast<std::uint64_t>(std::int64_t{c} + kCoordinateBound);
     };
     return part(p.x) << 42 | part(p.y) << 21 | part(p.z);
   }

@@ -8,7 +8,7 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kFaces = 4000;
+constexpr std::size_t kFaces = 1000;
 // Centroids alone ask for too much, because corners lie farther out than they do. Measured: the
 // least rms is at about this share.
 constexpr double kShare = 0.8;

@@ -9,7 +9,7 @@
 namespace vitrine {
 
 // The `a` in [0, 1] that brings the displayed level closest to `original` (model units) in the mean
-// square, by least squares over the centroids of up to 4,000 faces.
+// square, by least squares over the centroids of up to 1,000 faces.
 double fit_display_filter(const MeshState& level, const Lattice& lattice,
                           const TriangleBvh& original);
 

@@ -40,7 +40,7 @@ Vec3 box_centre(const std::vector<Vec3i>& positions) {
   return (to_vec3(low) + to_vec3(high)) * 0.5;
 }
 
-Expected<void> check(std::string what, std::span<const std::uint8_t> bytes,
+Expected<void> check(const std::string& what, std::span<const std::uint8_t> bytes,
                      const Sha256& expected) {
   if (sha256(bytes) == expected) return {};
   return fail(ErrorCode::kBadInput, what + " does not match its SHA-256: fetch it again");

@@ -37,6 +37,7 @@ std::string usage(const Command& command) {
 
 Outcome unknown_command(std::string_view name) {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kCommands));
   for (const Command* command : kCommands)
     names.push_back(command->name);
   const std::string_view near = suggest(name, names);

@@ -86,6 +86,7 @@ std::vector<std::vector<std::uint32_t>> region_adjacency(const LatticeMesh& fine
     }
   }
   std::vector<std::vector<std::uint32_t>> adjacency;
+  adjacency.reserve(sets.size());
   for (const auto& set : sets)
     adjacency.emplace_back(set.begin(), set.end());
   return adjacency;

@@ -17,7 +17,7 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::uint32_t kOrders = 3;
 constexpr std::size_t kStatesPerOrder = 4;  // how many states on the way are checked
 
-Unexpected bad(std::string what) {
+Unexpected bad(const std::string& what) {
   return fail(ErrorCode::kBadInput, what + "; build the file again");
 }
 
