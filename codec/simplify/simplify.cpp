@@ -153,13 +153,7 @@ void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out
   }
 }
 
-}  // namespace
-
-Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options) {
-  if (options.regions == 0 || options.regions > kMaxRegions) {
-    return fail(ErrorCode::kLimit, "regions is " + std::to_string(options.regions) +
-                                       ", choose 1 to " + std::to_string(kMaxRegions));
-  }
+Expected<Hierarchy> simplify_in_regions(const LatticeMesh& fine, const SimplifyOptions& options) {
   auto mesh = Connectivity::close(static_cast<std::uint32_t>(fine.positions.size()), fine.faces);
   if (!mesh) return tl::unexpected(mesh.error());
 
@@ -179,6 +173,24 @@ Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& opt
       static_cast<std::uint32_t>(out.levels.size()) + 1 - simplifier.levels_by_region();
   compact_base(surface, fine.lattice, out);
   return out;
+}
+
+}  // namespace
+
+Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options) {
+  if (options.regions == 0 || options.regions > kMaxRegions) {
+    return fail(ErrorCode::kLimit, "regions is " + std::to_string(options.regions) +
+                                       ", choose 1 to " + std::to_string(kMaxRegions));
+  }
+  auto hierarchy = simplify_in_regions(fine, options);
+  if (!hierarchy || options.regions == 1) return hierarchy;
+  // The fork is coded behind the splits of a common level, and parts a level behind it.
+  const bool forks =
+      hierarchy->fork_level >= 2 && hierarchy->fork_level <= hierarchy->levels.size();
+  if (forks) return hierarchy;
+  SimplifyOptions whole = options;
+  whole.regions = 1;
+  return simplify_in_regions(fine, whole);
 }
 
 }  // namespace vitrine

@@ -22,9 +22,9 @@ struct SimplifyOptions {
 
 // Fails (kBadInput) where Connectivity::close refuses the faces, (kLimit) where `regions` is out
 // of range. The base stays larger than asked where no legal collapse is left (high genus, many
-// components) or the format's number of levels is reached. v~ lies within a quarter of the
-// lattice's side of the lattice; with the midpoint placement within it. The same input gives the
-// same hierarchy on every machine.
+// components) or the format's number of levels is reached. Where no level parts into regions, the
+// result has one. v~ lies within a quarter of the lattice's side of the lattice; with the midpoint
+// placement within it. The same input gives the same hierarchy on every machine.
 Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options);
 
 }  // namespace vitrine

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "support/encoded_model.h"
+#include "support/stored_model.h"
 
 namespace vitrine::test {
 

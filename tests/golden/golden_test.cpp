@@ -31,7 +31,7 @@ TEST(Golden, FilesDecodeToTheSameSurfaceAtEveryLevel) {
 
 TEST(Golden, TheSameInputIsCodedToTheSameBytes) {
   for (const GoldenModel& golden : golden_models()) {
-    EXPECT_EQ(encode_model(golden.mesh, golden.options).file, golden_file(golden.name + ".pmesh"))
+    EXPECT_EQ(store_model(golden.mesh, golden.options).file, golden_file(golden.name + ".pmesh"))
         << golden.name;
   }
 }

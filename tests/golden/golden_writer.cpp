@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
   if (argc != 2) return std::puts("usage: golden_writer FOLDER"), 2;
   const std::string folder = argv[1];
   for (const auto& golden : vitrine::test::golden_models()) {
-    const auto model = vitrine::test::encode_model(golden.mesh, golden.options);
+    const auto model = vitrine::test::store_model(golden.mesh, golden.options);
     std::ofstream pmesh(folder + "/" + golden.name + ".pmesh", std::ios::binary);
     pmesh.write(reinterpret_cast<const char*>(model.file.data()),
                 static_cast<std::streamsize>(model.file.size()));

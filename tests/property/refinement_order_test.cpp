@@ -4,9 +4,9 @@
 
 #include <map>
 
-#include "support/encoded_model.h"
 #include "support/property.h"
 #include "support/random_mesh.h"
+#include "support/stored_model.h"
 
 namespace vitrine::test {
 namespace {
@@ -15,13 +15,13 @@ using Surface = std::vector<SurfaceFace>;
 
 constexpr std::uint32_t kOrders = 4;
 
-EncodedModel random_model(std::uint64_t seed) {
+StoredModel random_model(std::uint64_t seed) {
   Dice dice(~seed);
-  return encode_model(random_mesh(seed, 400),
-                      {.placement = seed % 2 == 0 ? Placement::kMidpoint : Placement::kPyramid,
-                       .target_vertices = 6,
-                       .regions = 2 + dice.below(6),
-                       .vertices_per_region = 12 + dice.below(30)});
+  return store_model(random_mesh(seed, 400),
+                     {.placement = seed % 2 == 0 ? Placement::kMidpoint : Placement::kPyramid,
+                      .target_vertices = 6,
+                      .regions = 2 + dice.below(6),
+                      .vertices_per_region = 12 + dice.below(30)});
 }
 
 void expect_manifold(const Refiner& refiner) {
@@ -33,7 +33,7 @@ void expect_manifold(const Refiner& refiner) {
 }
 
 // Refines in a random order; every state must be the one that its set of chunks had before.
-void refine_at_random(const EncodedModel& model, Dice& dice,
+void refine_at_random(const StoredModel& model, Dice& dice,
                       std::map<std::vector<bool>, Surface>& known) {
   Refiner refiner = start_refiner(model);
   std::vector<bool> applied(model.manifest.chunks.size(), false);
@@ -51,7 +51,7 @@ void refine_at_random(const EncodedModel& model, Dice& dice,
 }
 
 void expect_same_in_every_order(std::uint64_t seed) {
-  const EncodedModel model = random_model(seed);
+  const StoredModel model = random_model(seed);
   Dice dice(seed);
   std::map<std::vector<bool>, Surface> known;
   for (std::uint32_t order = 0; order < kOrders; ++order) {
@@ -77,7 +77,7 @@ TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
 }
 
 // Applies `chunks` chunks in file order, shows the last one in part, then takes it back.
-void expect_undo(const EncodedModel& model, Dice& dice, std::size_t chunks) {
+void expect_undo(const StoredModel& model, Dice& dice, std::size_t chunks) {
   Refiner refiner = start_refiner(model);
   for (std::size_t i = 0; i + 1 < chunks; ++i)
     apply_chunk(refiner, model, i);
@@ -94,7 +94,7 @@ void expect_undo(const EncodedModel& model, Dice& dice, std::size_t chunks) {
 }
 
 void expect_every_chunk_undone(std::uint64_t seed) {
-  const EncodedModel model = random_model(seed);
+  const StoredModel model = random_model(seed);
   Dice dice(seed);
   for (std::size_t chunks = 1; chunks <= model.manifest.chunks.size(); ++chunks) {
     expect_undo(model, dice, chunks);

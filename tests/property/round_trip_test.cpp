@@ -2,9 +2,9 @@
 // What is coded comes back, for random meshes.
 #include <gtest/gtest.h>
 
-#include "support/encoded_model.h"
 #include "support/property.h"
 #include "support/random_mesh.h"
+#include "support/stored_model.h"
 
 namespace vitrine::test {
 namespace {
@@ -26,7 +26,7 @@ void expect_counts(const Refiner& refiner, std::uint32_t level) {
 void expect_round_trip(std::uint64_t seed) {
   const LatticeMesh fine = random_mesh(seed);
   Dice dice(~seed);
-  const EncodedModel model = encode_model(fine, random_options(dice));
+  const StoredModel model = store_model(fine, random_options(dice));
   Refiner refiner = start_refiner(model);
   expect_counts(refiner, 0);
   for (std::size_t i = 0; i < model.manifest.chunks.size(); ++i)

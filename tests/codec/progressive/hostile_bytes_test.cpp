@@ -6,14 +6,14 @@
 
 #include "codec/progressive/refiner.h"
 #include "support/counting_new.h"
-#include "support/encoded_model.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
+#include "support/stored_model.h"
 
 namespace vitrine {
 namespace {
 
-using test::EncodedModel;
+using test::StoredModel;
 using Bytes = std::span<const std::uint8_t>;
 
 // What refiner.h states, at 16 vertices a byte, and what the header's own records take.
@@ -27,11 +27,11 @@ LatticeMesh small_mesh(bool coloured) {
   return mesh;
 }
 
-EncodedModel small_model(Placement placement, std::uint32_t regions, bool coloured) {
-  return test::encode_model(small_mesh(coloured), {.placement = placement,
-                                                   .target_vertices = 12,
-                                                   .regions = regions,
-                                                   .vertices_per_region = 20});
+StoredModel small_model(Placement placement, std::uint32_t regions, bool coloured) {
+  return test::store_model(small_mesh(coloured), {.placement = placement,
+                                                  .target_vertices = 12,
+                                                  .regions = regions,
+                                                  .vertices_per_region = 20});
 }
 
 Bytes part(Bytes bytes, std::uint64_t offset, std::uint64_t length) {
@@ -72,9 +72,9 @@ class HostileBytes : public ::testing::TestWithParam<Placement> {
         << "at byte " << at;
   }
 
-  const EncodedModel model_ = GetParam() == Placement::kMidpoint
-                                  ? small_model(Placement::kMidpoint, 1, true)
-                                  : small_model(Placement::kPyramid, 3, false);
+  const StoredModel model_ = GetParam() == Placement::kMidpoint
+                                 ? small_model(Placement::kMidpoint, 1, true)
+                                 : small_model(Placement::kPyramid, 3, false);
 };
 
 TEST_P(HostileBytes, TheFileItselfIsWhole) {
@@ -124,7 +124,7 @@ TEST(RefinerMemory, StaysWithinItsBytesPerVertex) {
     const TriangleMesh torus = test::torus(150, 100);
     LatticeMesh mesh = quantise(torus, fit_lattice(torus.positions, 12));
     mesh.colours.assign(coloured ? mesh.positions.size() : 0, Colour{9, 8, 7});
-    const EncodedModel model = test::encode_model(mesh, {.regions = coloured ? 4u : 1u});
+    const StoredModel model = test::store_model(mesh, {.regions = coloured ? 4u : 1u});
     Manifest manifest = model.manifest;
     test::start_peak();
     const std::size_t before = test::heap_bytes();
@@ -138,7 +138,7 @@ TEST(RefinerMemory, StaysWithinItsBytesPerVertex) {
 
 // A header of a few hundred bytes that states the most vertices a reader allows.
 TEST(HostileHeader, StatesAHundredMillionVerticesAndGetsNoMemory) {
-  const EncodedModel model = small_model(Placement::kMidpoint, 1, false);
+  const StoredModel model = small_model(Placement::kMidpoint, 1, false);
   Manifest m = model.manifest;
   m.levels.resize(2);
   m.levels[1].vertices = 100'000'000;

@@ -4,26 +4,26 @@
 #include <gtest/gtest.h>
 
 #include "codec/progressive/refine.h"
-#include "support/encoded_model.h"
 #include "support/meshes.h"
+#include "support/stored_model.h"
 
 namespace vitrine {
 namespace {
 
-using test::EncodedModel;
+using test::StoredModel;
 
-EncodedModel torus_model(std::uint32_t regions = 1) {
+StoredModel torus_model(std::uint32_t regions = 1) {
   const TriangleMesh torus = test::torus(40, 24);
-  return test::encode_model(quantise(torus, fit_lattice(torus.positions, 12)),
-                            {.target_vertices = 40, .regions = regions, .vertices_per_region = 60});
+  return test::store_model(quantise(torus, fit_lattice(torus.positions, 12)),
+                           {.target_vertices = 40, .regions = regions, .vertices_per_region = 60});
 }
 
-ChunkReader reader(const EncodedModel& model) {
+ChunkReader reader(const StoredModel& model) {
   return [&](std::size_t i) -> Expected<std::span<const std::uint8_t>> { return model.chunk(i); };
 }
 
 TEST(Refiner, EveryLevelHasItsCountsAndIsShownWithItsFilter) {
-  EncodedModel model = torus_model();
+  StoredModel model = torus_model();
   for (LevelInfo& level : model.manifest.levels)
     level.display_filter = 0.5;
   model.manifest.levels.back().display_filter = 0;
@@ -39,7 +39,7 @@ TEST(Refiner, EveryLevelHasItsCountsAndIsShownWithItsFilter) {
 }
 
 TEST(Refiner, TrianglesAreMetWithinOneSplit) {
-  const EncodedModel model = torus_model();
+  const StoredModel model = torus_model();
   for (std::uint64_t wanted = model.manifest.levels[0].faces; wanted < 1900; wanted += 97) {
     Refiner refiner = test::start_refiner(model);
     ASSERT_TRUE(refine(refiner, WantTriangles{wanted}, reader(model)));
@@ -49,7 +49,7 @@ TEST(Refiner, TrianglesAreMetWithinOneSplit) {
 }
 
 TEST(Refiner, AChunkOutOfOrderIsRefusedAndHarmsNothing) {
-  const EncodedModel model = torus_model();
+  const StoredModel model = torus_model();
   Refiner refiner = test::start_refiner(model);
   EXPECT_FALSE(refiner.ready(1));
   EXPECT_EQ(refiner.apply(1, model.chunk(1)).error().code, ErrorCode::kState);
@@ -60,7 +60,7 @@ TEST(Refiner, AChunkOutOfOrderIsRefusedAndHarmsNothing) {
 }
 
 TEST(Refiner, AChunkCutShortIsRefusedAndMayComeAgain) {
-  const EncodedModel model = torus_model();
+  const StoredModel model = torus_model();
   Refiner refiner = test::start_refiner(model);
   const auto chunk = model.chunk(0);
   EXPECT_EQ(refiner.apply(0, chunk.first(chunk.size() - 1)).error().code, ErrorCode::kBadInput);
@@ -68,7 +68,7 @@ TEST(Refiner, AChunkCutShortIsRefusedAndMayComeAgain) {
 }
 
 TEST(Refiner, NothingCanBeAppliedAfterSplitsWereTakenBack) {
-  const EncodedModel model = torus_model();
+  const StoredModel model = torus_model();
   Refiner refiner = test::start_refiner(model);
   ASSERT_TRUE(refiner.apply(0, model.chunk(0)));
   refiner.undo_to_faces(refiner.face_count() - 1);
@@ -77,7 +77,7 @@ TEST(Refiner, NothingCanBeAppliedAfterSplitsWereTakenBack) {
 }
 
 TEST(Refiner, ARegionWaitsForItsNeighbours) {
-  const EncodedModel model = torus_model(4);
+  const StoredModel model = torus_model(4);
   const Manifest& m = model.manifest;
   ASSERT_EQ(m.regions, 4u);
   ASSERT_GT(m.levels.size(), m.fork_level + 1) << "the regions need two levels";
@@ -94,7 +94,7 @@ TEST(Refiner, ARegionWaitsForItsNeighbours) {
 }
 
 TEST(Refiner, RefusesABaseThatIsNotTheOneOfTheHeader) {
-  const EncodedModel model = torus_model();
+  const StoredModel model = torus_model();
   const auto refused = [&](auto change) {
     BaseMesh base = model.base;
     change(base);
@@ -110,7 +110,7 @@ TEST(Refiner, RefusesABaseThatIsNotTheOneOfTheHeader) {
 }
 
 TEST(Refiner, RefusesColoursOutOfRange) {
-  EncodedModel model = torus_model();
+  StoredModel model = torus_model();
   model.manifest.coloured = true;
   model.base.colours.assign(model.base.positions.size(), {1 << 30, 0, 0});
   EXPECT_FALSE(Refiner::start(model.manifest, model.base));

@@ -10,7 +10,7 @@
 
 namespace vitrine::test {
 
-struct EncodedModel {
+struct StoredModel {
   Manifest manifest;  // as parse_header reads it
   BaseMesh base;      // as the file's own Draco buffer decodes
   std::vector<std::uint8_t> file;
@@ -21,10 +21,10 @@ struct EncodedModel {
 };
 
 // Simplifies, codes, writes and parses again. Throws std::runtime_error where a step fails.
-EncodedModel encode_model(const LatticeMesh& fine, SimplifyOptions options);
+StoredModel store_model(const LatticeMesh& fine, const SimplifyOptions& options);
 
-Refiner start_refiner(const EncodedModel& model);
-void apply_chunk(Refiner& refiner, const EncodedModel& model, std::size_t chunk);
+Refiner start_refiner(const StoredModel& model);
+void apply_chunk(Refiner& refiner, const StoredModel& model, std::size_t chunk);
 std::vector<std::size_t> ready_chunks(const Refiner& refiner);
 
 // The surface without its numbering: per face its corners as x y z r g b, from the smallest of the

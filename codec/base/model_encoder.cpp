@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/base/model_encoder.h"
+
+#include <set>
+
+#include "codec/base/base_encoder.h"
+#include "codec/progressive/layer_encoder.h"
+
+namespace vitrine {
+namespace {
+
+std::vector<std::vector<std::uint32_t>> region_adjacency(const LatticeMesh& fine,
+                                                         const Hierarchy& hierarchy) {
+  std::vector<std::set<std::uint32_t>> sets(hierarchy.regions);
+  for (const Triangle& t : fine.faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint16_t a = hierarchy.region[t[k]], b = hierarchy.region[t[(k + 1) % 3]];
+      if (a != b) sets[a].insert(b), sets[b].insert(a);
+    }
+  }
+  std::vector<std::vector<std::uint32_t>> adjacency;
+  adjacency.reserve(sets.size());
+  for (const auto& set : sets)
+    adjacency.emplace_back(set.begin(), set.end());
+  return adjacency;
+}
+
+Manifest frame_of(const Hierarchy& hierarchy, const LatticeMesh& fine) {
+  Manifest m{.lattice = fine.lattice, .placement = hierarchy.placement};
+  m.coloured = !fine.colours.empty();
+  m.loops = hierarchy.loops;
+  m.regions = hierarchy.regions;
+  m.fork_level = hierarchy.fork_level;
+  m.planes = hierarchy.planes;
+  m.adjacency = region_adjacency(fine, hierarchy);
+  return m;
+}
+
+void add_level(const MeshState& level, Manifest& manifest) {
+  manifest.levels.push_back({.vertices = level.vertex_count(),
+                             .faces = static_cast<std::uint32_t>(level.real_faces().size())});
+}
+
+void add_chunk(const EncodedChunk& chunk, std::uint32_t level, EncodedModel& model) {
+  model.manifest.chunks.push_back({.level = level,
+                                   .region = chunk.region,
+                                   .length = chunk.bytes.size(),
+                                   .splits = chunk.splits,
+                                   .sha256 = sha256(chunk.bytes)});
+  model.body.insert(model.body.end(), chunk.bytes.begin(), chunk.bytes.end());
+}
+
+// The encoder at the base mesh, whose buffer is the start of the body.
+Expected<LayerEncoder> start_with_base(const Hierarchy& hierarchy, EncodedModel& model) {
+  auto base = encode_base({.positions = hierarchy.base.positions,
+                           .faces = hierarchy.base.faces,
+                           .colours = hierarchy.base_colours});
+  if (!base) return tl::unexpected(base.error());
+  model.manifest.base_length = base->bytes.size();
+  model.manifest.base_sha256 = sha256(base->bytes);
+  std::vector<VertexId> fine_ids;
+  for (const std::uint32_t v : base->original)
+    fine_ids.push_back(hierarchy.base_ids[v]);
+  model.body = std::move(base->bytes);
+  return LayerEncoder::start(hierarchy, base->decoded, std::move(fine_ids));
+}
+
+}  // namespace
+
+Expected<EncodedModel> encode_model(const Hierarchy& hierarchy, const LatticeMesh& fine,
+                                    const LevelSink& on_level) {
+  EncodedModel model{.manifest = frame_of(hierarchy, fine), .body = {}};
+  auto encoder = start_with_base(hierarchy, model);
+  if (!encoder) return tl::unexpected(encoder.error());
+  add_level(encoder->mesh(), model.manifest);
+  on_level(encoder->mesh());
+  for (std::uint32_t level = 1; level <= hierarchy.levels.size(); ++level) {
+    const auto chunks = encoder->encode_level();
+    if (!chunks) return tl::unexpected(chunks.error());
+    for (const EncodedChunk& chunk : *chunks)
+      add_chunk(chunk, level, model);
+    add_level(encoder->mesh(), model.manifest);
+    on_level(encoder->mesh());
+  }
+  return model;
+}
+
+}  // namespace vitrine
