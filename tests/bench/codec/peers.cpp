@@ -50,6 +50,15 @@ std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& source) {
   return mesh;
 }
 
+std::unique_ptr<draco::Mesh> decode(std::span<const std::uint8_t> bytes) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  draco::Decoder decoder;
+  auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+  if (!mesh.ok()) throw std::runtime_error("Draco: " + mesh.status().error_msg_string());
+  return std::move(mesh).value();
+}
+
 }  // namespace
 
 Bytes draco_encode(const TriangleMesh& source, int bits) {
@@ -64,12 +73,23 @@ Bytes draco_encode(const TriangleMesh& source, int bits) {
 }
 
 std::uint32_t draco_decode(std::span<const std::uint8_t> bytes) {
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  draco::Decoder decoder;
-  auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!mesh.ok()) throw std::runtime_error("Draco: " + mesh.status().error_msg_string());
-  return static_cast<std::uint32_t>(mesh.value()->num_faces());
+  return decode(bytes)->num_faces();
+}
+
+TriangleMesh draco_mesh(std::span<const std::uint8_t> bytes) {
+  const auto mesh = decode(bytes);
+  const auto& positions = *mesh->GetNamedAttribute(draco::GeometryAttribute::POSITION);
+  TriangleMesh out;
+  for (draco::PointIndex p(0); p < mesh->num_points(); ++p) {
+    std::array<float, 3> at;
+    positions.GetMappedValue(p, at.data());
+    out.positions.push_back({at[0], at[1], at[2]});
+  }
+  for (draco::FaceIndex f(0); f < mesh->num_faces(); ++f) {
+    const auto& face = mesh->face(f);
+    out.faces.push_back({face[0].value(), face[1].value(), face[2].value()});
+  }
+  return out;
 }
 
 MeshoptInput meshopt_input(const TriangleMesh& mesh) {

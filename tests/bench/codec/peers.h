@@ -18,6 +18,9 @@ Bytes draco_encode(const TriangleMesh& mesh, int bits);
 // Decodes in process; the number of faces.
 std::uint32_t draco_decode(std::span<const std::uint8_t> bytes);
 
+// The mesh that a Draco file holds, without colours.
+TriangleMesh draco_mesh(std::span<const std::uint8_t> bytes);
+
 // Flat arrays as meshoptimizer takes them, so that its time holds the simplification alone.
 struct MeshoptInput {
   std::vector<float> positions;

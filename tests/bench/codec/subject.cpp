@@ -3,11 +3,11 @@
 
 #include <stdexcept>
 
-#include "codec/base/base_decoder.h"
 #include "codec/import/read_mesh.h"
 #include "codec/import/repair.h"
-#include "codec/progressive/refiner.h"
+#include "codec/progressive/refine.h"
 #include "server/jobs/build_model.h"
+#include "server/jobs/open_model.h"
 
 namespace vitrine::bench {
 namespace {
@@ -16,6 +16,11 @@ template <class T>
 T value_of(Expected<T> result) {
   if (!result) throw std::runtime_error(result.error().message);
   return std::move(*result);
+}
+
+void apply(Refiner& refiner, std::size_t chunk, const ChunkReader& read) {
+  const auto applied = refiner.apply(chunk, value_of(read(chunk)));
+  if (!applied) throw std::runtime_error(applied.error().message);
 }
 
 }  // namespace
@@ -31,18 +36,25 @@ Bytes build(std::span<const std::uint8_t> file, int bits) {
 }
 
 std::uint32_t decode(std::span<const std::uint8_t> pmesh) {
-  const Manifest manifest = value_of(parse_header(pmesh));
-  const BaseMesh base =
-      value_of(decode_base(pmesh.subspan(manifest.base_offset, manifest.base_length), manifest));
-  Refiner refiner = value_of(Refiner::start(manifest, base));
-  for (std::size_t i = 0; i < manifest.chunks.size(); ++i) {
-    const ChunkInfo& chunk = manifest.chunks[i];
-    const auto bytes = pmesh.subspan(chunk.offset, chunk.length);
-    if (sha256(bytes) != chunk.sha256) throw std::runtime_error("a chunk is not what it was");
-    const auto applied = refiner.apply(i, bytes);
-    if (!applied) throw std::runtime_error(applied.error().message);
-  }
+  Refiner refiner = value_of(open_model(pmesh));
+  const ChunkReader read = chunks_of(refiner.manifest(), pmesh);
+  for (std::size_t i = 0; i < refiner.manifest().chunks.size(); ++i)
+    apply(refiner, i, read);
   return refiner.face_count();
+}
+
+std::vector<Level> decode_levels(std::span<const std::uint8_t> pmesh) {
+  Refiner refiner = value_of(open_model(pmesh));
+  const Manifest& manifest = refiner.manifest();
+  const ChunkReader read = chunks_of(manifest, pmesh);
+  std::vector<Level> levels;
+  std::size_t chunk = 0;
+  for (std::uint32_t level = 0; level < manifest.levels.size(); ++level) {
+    while (chunk < manifest.chunks.size() && manifest.chunks[chunk].level == level)
+      apply(refiner, chunk++, read);
+    levels.push_back({manifest.cumulative_bytes(level), refiner.display_mesh()});
+  }
+  return levels;
 }
 
 }  // namespace vitrine::bench

@@ -16,4 +16,11 @@ Bytes build(std::span<const std::uint8_t> file, int bits);
 // Checks and decodes every chunk; the number of faces at full resolution.
 std::uint32_t decode(std::span<const std::uint8_t> pmesh);
 
+// What a prefix of the file shows.
+struct Level {
+  std::uint64_t bytes = 0;  // of the prefix
+  TriangleMesh mesh;        // as displayed
+};
+std::vector<Level> decode_levels(std::span<const std::uint8_t> pmesh);
+
 }  // namespace vitrine::bench

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdio>
+
+#include "sections.h"
+#include "single_files.h"
+#include "subject.h"
+
+namespace vitrine::bench {
+namespace {
+
+constexpr double kMaxRate = 1.5;  // geometric mean of each model
+constexpr std::size_t kFewestFaces = 50'000;
+constexpr double kCoarsest = 0.01, kFinest = 0.5;  // of the faces
+
+void compare(Report& report, const Model& model, const RateCurve& peer) {
+  const auto all = static_cast<double>(model.clean.faces.size());
+  double log_sum = 0;
+  int levels = 0;
+  for (const Level& level : decode_levels(build(model.file, kBits))) {
+    const double share = static_cast<double>(level.mesh.faces.size()) / all;
+    if (share < kCoarsest || share > kFinest) continue;
+    const auto ours = static_cast<double>(level.bytes);
+    const double theirs = peer.bytes_at(rms_percent(level.mesh, model.clean));
+    char name[64];
+    std::snprintf(name, sizeof name, "rate.%s.%04.1f%%", model.name.c_str(), 100 * share);
+    report.add(
+        {name, "ratio_to_single_file", ours, std::round(theirs), ours / theirs, kNoThreshold});
+    log_sum += std::log(ours / theirs), ++levels;
+  }
+  const double mean = std::exp(log_sum / levels);
+  report.add({"rate." + model.name + ".mean", "ratio_to_single_file", 0, 0, mean, kMaxRate});
+}
+
+}  // namespace
+
+void rate_distortion(Report& report, const std::vector<Model>& models) {
+  for (const Model& model : models) {
+    if (model.clean.faces.size() < kFewestFaces || !model.clean.colours.empty()) continue;
+    compare(report, model, single_files(model.clean));
+  }
+}
+
+}  // namespace vitrine::bench

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace vitrine::bench {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, value == std::floor(value) ? "%.0f" : "%.5f", value);
+  return value == 0 ? "" : text;
+}
+
+}  // namespace
+
+Report::Report(bool json) : json_(json) {
+  if (!json) std::printf("%-44s %12s %12s %8s %8s\n", "", "vitrine", "peer", "ratio", "at most");
+}
+
+void Report::add(const Figure& f) {
+  json_out_[f.what][f.key] = f.ratio;
+  within_ = within_ && f.ratio <= f.threshold;
+  if (json_) return;
+  std::printf("%-44s %12s %12s %8.3f", (f.what + "." + f.key).c_str(), number(f.ours).c_str(),
+              number(f.peer).c_str(), f.ratio);
+  std::printf(std::isfinite(f.threshold) ? " %8g%s\n" : "\n", f.threshold,
+              f.ratio <= f.threshold ? "" : "  too much");
+  std::fflush(stdout);
+}
+
+bool Report::finish() {
+  json_out_["within_thresholds"] = within_;
+  if (json_) std::puts(json_out_.dump(2).c_str());
+  return within_;
+}
+
+}  // namespace vitrine::bench

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table that the benchmark prints, or the JSON object in its place.
+#pragma once
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace vitrine::bench {
+
+inline constexpr double kNoThreshold = std::numeric_limits<double>::infinity();
+
+struct Figure {
+  std::string what, key;
+  double ours, peer, ratio, threshold;  // ours and peer: 0 where there is none
+};
+
+class Report {
+ public:
+  explicit Report(bool json);
+
+  void add(const Figure& figure);
+  // Prints what is left to print; true if every ratio keeps its threshold.
+  bool finish();
+
+ private:
+  bool json_, within_ = true;
+  nlohmann::ordered_json json_out_;
+};
+
+}  // namespace vitrine::bench

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the benchmark compares, one section a file.
+#pragma once
+
+#include <vector>
+
+#include "models.h"
+#include "report.h"
+
+namespace vitrine::bench {
+
+inline constexpr int kBits = 12;  // of every comparison
+
+// Bytes of whole files against Draco's.
+void sizes(Report& report, const std::vector<Model>& models);
+
+// Bytes of each level between 1 % and 50 % of the faces against the single file of equal error
+// (single_files.h), for the models without colours that are large enough to have such levels.
+void rate_distortion(Report& report, const std::vector<Model>& models);
+
+// Build time against meshoptimizer's, decode time against Draco's, WebAssembly against native.
+void speeds(Report& report, const Model& model);
+
+}  // namespace vitrine::bench

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Simplifies a mesh with meshoptimizer, positions updated (Debian's version cannot):
+// node simplify.mjs MESH FACES...
+// MESH holds u32 vertices, u32 indices, f32 positions, u32 indices; the meshes go to the standard
+// output in the same form, one per number of faces.
+import { readFileSync, writeSync } from "node:fs";
+import { MeshoptSimplifier } from "meshoptimizer";
+
+await MeshoptSimplifier.ready;
+const [path, ...targets] = process.argv.slice(2);
+const { buffer } = new Uint8Array(readFileSync(path));
+const [vertices, count] = new Uint32Array(buffer, 0, 2);
+const fine = new Float32Array(buffer, 8, 3 * vertices);
+const faces = new Uint32Array(buffer, 8 + 12 * vertices, count);
+
+function simplify(target) {
+  const positions = fine.slice();
+  const indices = faces.slice();
+  const none = new Float32Array(0);
+  const [kept] = MeshoptSimplifier.simplifyWithUpdate(
+    indices, positions, 3, none, 0, [], null, 3 * target, 1);
+  const left = indices.slice(0, kept);
+  const [remap, unique] = MeshoptSimplifier.compactMesh(left);
+  const compact = new Float32Array(3 * unique);
+  remap.forEach((to, from) => {
+    if (to < unique) compact.set(positions.subarray(3 * from, 3 * from + 3), 3 * to);
+  });
+  return [new Uint32Array([unique, left.length]), compact, left];
+}
+
+function write(array) {
+  let bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+  while (bytes.length > 0) bytes = bytes.subarray(writeSync(1, bytes));
+}
+
+for (const target of targets) simplify(Number(target)).forEach(write);
