@@ -8,6 +8,7 @@
 #include <string>
 
 #include "codec/export/writers.h"
+#include "codec/mesh/unit.h"
 
 namespace vitrine {
 namespace {
@@ -54,6 +55,13 @@ Expected<void> check(const TriangleMesh& mesh) {
   return {};
 }
 
+TriangleMesh in_metres(TriangleMesh mesh, std::string_view unit) {
+  const double metres = metres_per(unit).value_or(1);
+  for (Vec3& p : mesh.positions)
+    p = p * metres;
+  return mesh;
+}
+
 }  // namespace
 
 std::optional<MeshFormat> format_of_extension(std::string_view extension) {
@@ -67,21 +75,22 @@ std::optional<MeshFormat> format_of_extension(std::string_view extension) {
   return std::nullopt;
 }
 
-Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format) {
+Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
+                                               std::string_view unit) {
   if (auto ok = check(mesh); !ok) return Unexpected(ok.error());
   switch (format) {
     case MeshFormat::kPly:
-      return write_ply(mesh);
+      return write_ply(mesh, unit);
     case MeshFormat::kGlb:
-      return write_glb(mesh);
+      return write_glb(in_metres(mesh, unit));
     case MeshFormat::kObj:
-      return write_obj(mesh);
+      return write_obj(mesh, unit);
     case MeshFormat::kStl:
-      return write_stl(mesh);
+      return write_stl(mesh, unit);
     case MeshFormat::kDrc:
       return write_drc(mesh);
     case MeshFormat::kVrml:
-      return write_vrml(mesh);
+      return write_vrml(in_metres(mesh, unit));
   }
   return fail(ErrorCode::kUnsupported, "unknown mesh format");
 }

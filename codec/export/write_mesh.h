@@ -26,8 +26,11 @@ enum class MeshFormat {
 // The format of "ply", "glb", "obj", "stl", "drc", "wrl", in either case, with or without a dot.
 std::optional<MeshFormat> format_of_extension(std::string_view extension);
 
-// Fails (kBadInput) on a mesh without faces and where a position does not fit a float, (kLimit)
-// where a format's 32-bit sizes do not suffice.
-Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format);
+// `unit` is that of the positions, empty where it is unknown. PLY, OBJ and STL state it in a
+// comment; GLB and VRML, which are in metres by their standards, are scaled to metres where it is
+// one of kLengthUnits. Fails (kBadInput) on a mesh without faces and where a position does not fit
+// a float, (kLimit) where a format's 32-bit sizes do not suffice.
+Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
+                                               std::string_view unit = {});
 
 }  // namespace vitrine

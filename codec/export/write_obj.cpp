@@ -4,9 +4,10 @@
 
 namespace vitrine {
 
-FileBytes write_obj(const TriangleMesh& mesh) {
+FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit) {
   ByteWriter out(64 + mesh.positions.size() * 32 + mesh.faces.size() * 24);
   out.text("# written by Vitrine\n");
+  if (!unit.empty()) out.text("# unit "), out.text(unit), out.text("\n");
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     out.text("v ");
     out.numbers(mesh.positions[v]);

@@ -4,10 +4,12 @@
 
 namespace vitrine {
 
-FileBytes write_ply(const TriangleMesh& mesh) {
+FileBytes write_ply(const TriangleMesh& mesh, std::string_view unit) {
   const bool coloured = !mesh.colours.empty();
   ByteWriter out(300 + mesh.positions.size() * (coloured ? 15 : 12) + mesh.faces.size() * 13);
-  out.text("ply\nformat binary_little_endian 1.0\ncomment written by Vitrine\nelement vertex ");
+  out.text("ply\nformat binary_little_endian 1.0\ncomment written by Vitrine\n");
+  if (!unit.empty()) out.text("comment unit "), out.text(unit), out.text("\n");
+  out.text("element vertex ");
   out.number(mesh.positions.size());
   out.text("\nproperty float x\nproperty float y\nproperty float z\n");
   if (coloured) out.text("property uchar red\nproperty uchar green\nproperty uchar blue\n");

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <string>
 
 #include "codec/export/byte_writer.h"
 #include "codec/export/writers.h"
 
 namespace vitrine {
 
-FileBytes write_stl(const TriangleMesh& mesh) {
+FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit) {
   ByteWriter out(84 + mesh.faces.size() * 50);
   std::array<char, 80> title{};  // must not start with "solid", which is for the text format
-  constexpr std::string_view kTitle = "binary STL written by Vitrine";
-  kTitle.copy(title.data(), title.size());
+  std::string text = "binary STL written by Vitrine";
+  if (!unit.empty()) text.append(", unit ").append(unit);
+  text.copy(title.data(), title.size());
   out.put(title);
   out.put(static_cast<std::uint32_t>(mesh.faces.size()));
   for (const auto& [a, b, c] : mesh.faces) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "codec/core/expected.h"
@@ -12,9 +13,10 @@ namespace vitrine {
 
 using FileBytes = std::vector<std::uint8_t>;
 
-FileBytes write_ply(const TriangleMesh& mesh);
-FileBytes write_obj(const TriangleMesh& mesh);
-FileBytes write_stl(const TriangleMesh& mesh);
+// `unit` goes into a comment where it is not empty.
+FileBytes write_ply(const TriangleMesh& mesh, std::string_view unit);
+FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit);
+FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit);
 FileBytes write_glb(const TriangleMesh& mesh);
 FileBytes write_vrml(const TriangleMesh& mesh);
 Expected<FileBytes> write_drc(const TriangleMesh& mesh);

@@ -126,8 +126,9 @@ Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
                       " with fewer than three corners dropped, first at face " +
                       std::to_string(first_small_face_));
   }
-  return ImportedMesh{{std::move(positions), std::move(triangles_), std::move(colours)},
-                      std::move(repairs)};
+  return ImportedMesh{.mesh = {std::move(positions), std::move(triangles_), std::move(colours)},
+                      .unit = {},
+                      .repairs = std::move(repairs)};
 }
 
 }  // namespace vitrine

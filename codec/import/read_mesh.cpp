@@ -6,6 +6,7 @@
 
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
+#include "codec/import/unit_comment.h"
 
 namespace vitrine {
 namespace {
@@ -21,10 +22,15 @@ std::string_view first_word(std::span<const std::uint8_t> bytes) {
   return text.seek_word() ? text.word() : std::string_view{};
 }
 
+bool is_glb(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kMagic = "glTF";
+  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+}
+
 Expected<RawMesh> read_any(std::span<const std::uint8_t> bytes, const Limits& limits) {
   if (bytes.empty()) return bad_input("the file is empty; copy or export it again");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.starts_with("glTF")) return read_glb(bytes, limits);
+  if (is_glb(bytes)) return read_glb(bytes, limits);
   if (text.starts_with("ply\n") || text.starts_with("ply\r")) return read_ply(bytes);
   // Many binary STL files start with "solid" too, so the size decides before the word.
   if (is_binary_stl(bytes)) return read_stl(bytes);
@@ -35,12 +41,23 @@ Expected<RawMesh> read_any(std::span<const std::uint8_t> bytes, const Limits& li
   return bad_input("not a mesh file Vitrine reads (PLY, OBJ, STL, OFF, GLB); convert it first");
 }
 
+// A quarter turn about x: exact, and it keeps the handedness.
+void turn_z_up_to_y(std::vector<Vec3>& positions) {
+  for (Vec3& p : positions)
+    p = {p.x, p.z, -p.y};
+}
+
 }  // namespace
 
-Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes, const Limits& limits) {
-  auto raw = read_any(bytes, limits);
+Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
+  auto raw = read_any(bytes, options.limits);
   if (!raw) return Unexpected(raw.error());
-  return std::move(*raw).finish(limits);
+  auto imported = std::move(*raw).finish(options.limits);
+  if (!imported) return imported;
+  const std::string_view stated = is_glb(bytes) ? "m" : unit_in_comments(bytes);
+  imported->unit = options.unit.empty() ? stated : options.unit;
+  if (options.up == UpAxis::kZ) turn_z_up_to_y(imported->mesh.positions);
+  return imported;
 }
 
 }  // namespace vitrine

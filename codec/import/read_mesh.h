@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "codec/core/expected.h"
@@ -13,15 +14,29 @@
 
 namespace vitrine {
 
+enum class UpAxis { kY, kZ };
+
+// What to make of a file beyond what its bytes say.
+struct ReadOptions {
+  Limits limits = {};
+  std::string_view unit =
+      {};                  // of kLengthUnits, instead of what the file states; empty: none given
+  UpAxis up = UpAxis::kY;  // kZ: the file's z axis points up and is turned to y
+};
+
 // A mesh as its file has it, polygons cut into triangles: every index is in range and every
 // position that a face uses is finite; the topology may be anything (see repair.h).
 struct ImportedMesh {
   TriangleMesh mesh;                 // model units of the file
+  std::string unit;                  // of kLengthUnits; empty where it is unknown
   std::vector<std::string> repairs;  // what was left out or changed, one line each
 };
 
-// Safe for untrusted bytes. Allocates at most about 64 times the input, and nothing on the word of
-// a count alone. Fails (kBadInput, kUnsupported, kLimit) with the place of the fault.
-Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes, const Limits& limits = {});
+// GLB is in metres by its standard; the other formats may state a unit in a comment (see
+// unit_comment.h). Safe for untrusted bytes. Allocates at most about 64 times the input, and
+// nothing on the word of a count alone. Fails (kBadInput, kUnsupported, kLimit) with the place of
+// the fault.
+Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes,
+                                 const ReadOptions& options = {});
 
 }  // namespace vitrine

@@ -10,6 +10,7 @@
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
 #include "server/cli/levels.h"
+#include "server/cli/reading.h"
 #include "server/jobs/build_model.h"
 #include "server/store/atomic_file.h"
 
@@ -34,7 +35,10 @@ tl::expected<BuildOptions, Fault> read_options(const Arguments& arguments) {
   if (!placement) return tl::unexpected(placement.error());
   const auto threads = arguments.number("--threads", 1, 256);
   if (!threads) return tl::unexpected(threads.error());
+  const auto reading = reading_options(arguments);
+  if (!reading) return tl::unexpected(reading.error());
   BuildOptions options;
+  options.reading = *reading;
   options.bits = *bits;
   options.placement = *placement == 1 ? Placement::kPyramid : Placement::kMidpoint;
   options.threads =
@@ -59,6 +63,7 @@ json describe(const BuildReport& report, const Manifest& m) {
         {"components", report.input.components},
         {"repairs", report.input.repairs}}},
       {"bits", m.lattice.bits},
+      {"unit", m.unit},
       {"bytes", bytes_json(m)},
       {"bits_per_vertex", 8.0 * static_cast<double>(m.file_bytes) / m.levels.back().vertices},
       {"levels", levels_json(m)},
@@ -108,6 +113,8 @@ Outcome build(const Arguments& arguments) {
 constexpr std::string_view kOperands[] = {"IN"};
 constexpr Flag kFlags[] = {
     {"-o", "OUT.pmesh", "the file to write"},
+    kUnitFlag,
+    kUpFlag,
     {"--bits", "auto|10..16", "grid of the coordinates (default auto)"},
     {"--placement", "midpoint|pyramid", "smallest file, or best coarse levels (default midpoint)"},
     {"--threads", "N", "default: one for each core"},

@@ -84,7 +84,7 @@ Expected<Product> decode_to(std::span<const std::uint8_t> pmesh, const std::opti
   };
   if (auto ok = refine(*refiner, want, reader); !ok) return tl::unexpected(ok.error());
   const TriangleMesh mesh = refiner->display_mesh();
-  auto file = write_mesh(mesh, format);
+  auto file = write_mesh(mesh, format, manifest.unit);
   if (!file) return tl::unexpected(file.error());
   return Product{describe(*refiner, mesh), std::move(*file)};
 }
@@ -117,7 +117,7 @@ Outcome decode(const Arguments& arguments) {
 
 constexpr std::string_view kOperands[] = {"FILE.pmesh"};
 constexpr Flag kFlags[] = {
-    {"-o", "OUT.{ply,glb,obj,stl,drc,wrl}", "the mesh to write"},
+    {"-o", "OUT.{ply,glb,obj,stl,drc,wrl}", "the mesh to write; .glb and .wrl are in metres"},
     {"--level", "L", "this level; 0 is the base (default: the finest)"},
     {"--triangles", "N", "the finest state of at most N triangles"},
     {"--bytes", "B", "the finest state that at most B bytes of the file hold"},

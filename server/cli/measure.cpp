@@ -3,6 +3,7 @@
 
 #include "codec/import/read_mesh.h"
 #include "codec/mesh/surface_distance.h"
+#include "codec/mesh/unit.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
 #include "server/cli/input.h"
@@ -14,11 +15,16 @@ namespace {
 
 using nlohmann::json;
 
-Expected<TriangleMesh> read_surface(const InputFile& file) {
+struct Surface {
+  TriangleMesh mesh;
+  std::string unit;  // empty where it is unknown
+};
+
+Expected<Surface> read_surface(const InputFile& file) {
   if (!file.is_pmesh()) {
     auto imported = read_mesh(file.bytes());
     if (!imported) return tl::unexpected(imported.error());
-    return std::move(imported->mesh);
+    return Surface{std::move(imported->mesh), std::move(imported->unit)};
   }
   auto refiner = open_model(file.bytes());
   if (!refiner) return tl::unexpected(refiner.error());
@@ -26,7 +32,15 @@ Expected<TriangleMesh> read_surface(const InputFile& file) {
   const WantLevel finest{static_cast<std::uint32_t>(manifest.levels.size() - 1)};
   const auto refined = refine(*refiner, finest, chunks_of(manifest, file.bytes()));
   if (!refined) return tl::unexpected(refined.error());
-  return refiner->display_mesh();
+  return Surface{refiner->display_mesh(), manifest.unit};
+}
+
+// Only where both units are known: otherwise the numbers are compared as they are.
+void convert(Surface& surface, std::string_view unit) {
+  const auto from = metres_per(surface.unit), to = metres_per(unit);
+  if (!from || !to || *from == *to) return;
+  for (Vec3& p : surface.mesh.positions)
+    p = p * (*from / *to);
 }
 
 json one_way(const OneWayDistance& d) {
@@ -68,11 +82,12 @@ Outcome run_measure(const Arguments& arguments) {
     });
   };
   const auto product = isolate("cannot measure", [&](const ProgressReport&) -> Expected<Product> {
-    const auto first = read(*a, arguments.operand(0));
+    auto first = read(*a, arguments.operand(0));
     if (!first) return tl::unexpected(first.error());
     const auto second = read(*b, arguments.operand(1));
     if (!second) return tl::unexpected(second.error());
-    const auto distance = measure(*first, *second, options);
+    convert(*first, second->unit);
+    const auto distance = measure(first->mesh, second->mesh, options);
     if (!distance) return tl::unexpected(distance.error());
     return Product{describe(*distance), {}};
   });
@@ -87,7 +102,8 @@ constexpr Flag kFlags[] = {{"--samples", "N", "points on each surface (default 2
 
 }  // namespace
 
-const Command kMeasure = {"measure", "Measures the distance between two surfaces, both ways.",
+const Command kMeasure = {"measure",
+                          "Measures the distance between two surfaces, both ways, in B's unit.",
                           kOperands, kFlags, run_measure};
 
 }  // namespace vitrine::cli

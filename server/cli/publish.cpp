@@ -9,6 +9,7 @@
 #include "server/cli/console.h"
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
+#include "server/cli/reading.h"
 #include "server/jobs/build_model.h"
 #include "server/jobs/verify_model.h"
 #include "server/store/installation.h"
@@ -19,14 +20,15 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 // A mesh is built; a .pmesh from elsewhere is decoded from end to end before anybody is served it.
-tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& path) {
+tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& path,
+                                      const ReadOptions& reading) {
   const auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
     if (file.is_pmesh()) {
       const auto verified = verify_model(file.bytes(), std::nullopt, progress);
       if (!verified) return tl::unexpected(verified.error());
       return Product{nlohmann::json::object(), Bytes(file.bytes().begin(), file.bytes().end())};
     }
-    auto built = build_model(file.bytes(), {}, progress);
+    auto built = build_model(file.bytes(), {.reading = reading}, progress);
     if (!built) return tl::unexpected(built.error());
     return Product{nlohmann::json::object(), std::move(built->file)};
   });
@@ -41,10 +43,15 @@ Outcome publish_file(const Arguments& arguments) {
         "vitrine publish IN --data DIR on the server itself");
   }
   if (!arguments.has("--data")) return misused("--data is missing: name the data folder");
+  const auto reading = reading_options(arguments);
+  if (!reading) return tl::unexpected(reading.error());
   const std::string path = arguments.operand(0);
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
-  const auto pmesh = make_pmesh(*file, path);
+  if (file->is_pmesh() && (arguments.has("--unit") || arguments.has("--up"))) {
+    return misused("--unit and --up are for meshes; a .pmesh has its own, so build it again");
+  }
+  const auto pmesh = make_pmesh(*file, path, *reading);
   if (!pmesh) return tl::unexpected(pmesh.error());
 
   const auto installation = open_installation(arguments.text("--data"));
@@ -59,6 +66,8 @@ Outcome publish_file(const Arguments& arguments) {
 
 constexpr std::string_view kOperands[] = {"IN"};
 constexpr Flag kFlags[] = {{"--data", "DIR", "the daemon's data folder; it may be running"},
+                           kUnitFlag,
+                           kUpFlag,
                            {"--server", "URL", "a remote server (not in this version)"},
                            {"--token", "T", "its access token (not in this version)"},
                            {"--title", "T", "default: the file's name"},

@@ -7,6 +7,7 @@
 #include "server/cli/console.h"
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
+#include "server/cli/reading.h"
 
 namespace vitrine::cli {
 namespace {
@@ -40,6 +41,8 @@ Outcome report_fault(bool as_json, const Fault& fault) {
 }
 
 Outcome verify(const Arguments& arguments) {
+  const auto reading = reading_options(arguments);
+  if (!reading) return tl::unexpected(reading.error());
   const std::string path = arguments.operand(0);
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
@@ -50,7 +53,8 @@ Outcome verify(const Arguments& arguments) {
     input.emplace(std::move(*opened));
   }
   const auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
-    const auto against = input ? std::optional(input->bytes()) : std::nullopt;
+    std::optional<OriginalFile> against;
+    if (input) against = {.bytes = input->bytes(), .reading = *reading};
     const auto result = verify_model(file->bytes(), against, progress);
     if (!result) return tl::unexpected(result.error());
     return Product{describe(*result), {}};
@@ -69,6 +73,7 @@ Outcome verify(const Arguments& arguments) {
 constexpr std::string_view kOperands[] = {"FILE.pmesh"};
 constexpr Flag kFlags[] = {
     {"--against", "IN", "the mesh it was built from: proves that it is lossless"},
+    kUpFlag,
     {"--json", "", "print one JSON object"}};
 
 }  // namespace

@@ -91,7 +91,7 @@ Expected<std::vector<std::uint8_t>> make_export(const PublishedModel& model, con
   };
   if (const auto refined = refine(*refiner, want, read); !refined)
     return Unexpected(refined.error());
-  return write_mesh(refiner->display_mesh(), format);
+  return write_mesh(refiner->display_mesh(), format, model.manifest().unit);
 }
 
 std::string_view media_type(MeshFormat format) {

@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "codec/base/model_encoder.h"
-#include "codec/import/read_mesh.h"
 #include "codec/import/repair.h"
 #include "codec/progressive/display_filter.h"
 #include "codec/simplify/display_fit.h"
@@ -143,8 +142,9 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
   Stopwatch watch;
   BuildResult out;
   BuildReport& report = out.report;
-  auto imported = read_mesh(input);
+  auto imported = read_mesh(input, options.reading);
   if (!imported) return tl::unexpected(imported.error());
+  const std::string unit = imported->unit;
   auto repaired = repair(std::move(*imported));
   if (!repaired) return tl::unexpected(repaired.error());
   const TriangleMesh& mesh = repaired->mesh;
@@ -165,6 +165,7 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
   auto model = encode(*hierarchy, fine, mesh, options, progress);
   if (!model) return tl::unexpected(model.error());
   report.manifest = std::move(model->manifest);
+  report.manifest.unit = unit;
   report.seconds.encode = watch.lap();
 
   out.file = write_header(report.manifest);

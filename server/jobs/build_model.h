@@ -11,11 +11,13 @@
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "codec/import/read_mesh.h"
 #include "codec/progressive/manifest.h"
 
 namespace vitrine {
 
 struct BuildOptions {
+  ReadOptions reading = {};
   int bits = 0;  // kMinBits..kMaxBits; 0: the fewest whose step is at most 1/32 of the median edge
   Placement placement = Placement::kMidpoint;
   unsigned threads = 1;  // >= 1; the output does not depend on it

@@ -111,8 +111,8 @@ Expected<std::uint32_t> check_orders(Bytes pmesh, const Manifest& manifest,
 }
 
 Expected<bool> equals_input(const std::vector<FaceKey>& faces, const Manifest& manifest,
-                            Bytes input) {
-  auto imported = read_mesh(input);
+                            const OriginalFile& input) {
+  auto imported = read_mesh(input.bytes, input.reading);
   if (!imported) return tl::unexpected(imported.error());
   const auto repaired = repair(std::move(*imported));
   if (!repaired) return tl::unexpected(repaired.error());
@@ -124,7 +124,7 @@ Expected<bool> equals_input(const std::vector<FaceKey>& faces, const Manifest& m
 
 }  // namespace
 
-Expected<Verification> verify_model(Bytes pmesh, std::optional<Bytes> input,
+Expected<Verification> verify_model(Bytes pmesh, const std::optional<OriginalFile>& input,
                                     const ProgressReport& progress) {
   const auto refiner = refine_by_level(pmesh, progress);
   if (!refiner) return tl::unexpected(refiner.error());

@@ -6,9 +6,16 @@
 #include <optional>
 #include <span>
 
+#include "codec/import/read_mesh.h"
 #include "server/jobs/sandbox.h"
 
 namespace vitrine {
+
+// The mesh file that a model was built from, read as it was then.
+struct OriginalFile {
+  std::span<const std::uint8_t> bytes;
+  ReadOptions reading = {};
+};
 
 struct Verification {
   std::uint32_t levels = 0;
@@ -24,7 +31,7 @@ struct Verification {
 // (kBadInput) with the first fault; a difference from `input` is no fault, but not lossless. Draco
 // decodes the base: call it in the sandbox.
 Expected<Verification> verify_model(std::span<const std::uint8_t> pmesh,
-                                    std::optional<std::span<const std::uint8_t>> input,
+                                    const std::optional<OriginalFile>& input,
                                     const ProgressReport& progress);
 
 }  // namespace vitrine

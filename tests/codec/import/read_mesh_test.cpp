@@ -52,8 +52,9 @@ TEST(ReadMesh, NamesFacesOfFewerThanThreeCorners) {
 TEST(ReadMesh, RefusesMoreThanTheLimits) {
   Limits limits;
   limits.faces = 1;
-  const auto result = read_mesh(
-      vitrine::testing::as_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n"), limits);
+  const auto result =
+      read_mesh(vitrine::testing::as_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n"),
+                {.limits = limits});
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().code, ErrorCode::kLimit);
 }

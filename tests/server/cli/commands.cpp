@@ -182,6 +182,29 @@ TEST_F(VitrineCommand, repairs_are_listed) {
   EXPECT_EQ(report["input"]["faces"], 450);
 }
 
+TEST_F(VitrineCommand, a_unit_goes_through_the_model_into_what_is_exported) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  EXPECT_EQ(vitrine_json({"build", in, "-o", path("out.pmesh")})["unit"], "");
+  const json built = vitrine_json({"build", in, "-o", path("out.pmesh"), "--unit", "mm"});
+  EXPECT_EQ(built["unit"], "mm");
+  EXPECT_EQ(vitrine_json({"info", path("out.pmesh")})["unit"], "mm");
+  vitrine_json({"decode", path("out.pmesh"), "-o", path("out.ply")});
+  EXPECT_NE(read("out.ply").find("comment unit mm\n"), std::string::npos);
+  vitrine_json({"decode", path("out.pmesh"), "-o", path("out.glb")});
+  EXPECT_EQ(vitrine_json({"build", path("out.glb"), "-o", path("2.pmesh")})["unit"], "m");
+  const json distance =
+      vitrine_json({"measure", path("out.glb"), path("out.ply"), "--samples", "1000"});
+  EXPECT_LT(distance["max_percent"].get<double>(), 1e-3);
+}
+
+TEST_F(VitrineCommand, a_model_that_was_turned_up_is_lossless_only_against_the_turned_input) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  vitrine_json({"build", in, "-o", path("out.pmesh"), "--up", "z"});
+  EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in, "--up", "z"})["lossless"],
+            true);
+  expect_fault(vitrine({"verify", path("out.pmesh"), "--against", in}), 1);
+}
+
 TEST_F(VitrineCommand, help_and_version_go_to_stdout) {
   for (const char* command : {"build", "info", "decode", "verify", "measure", "publish"}) {
     const ProgramResult help = vitrine({command, "--help"});

@@ -26,6 +26,8 @@ TEST_F(VitrineCommand, wrong_usage_is_exit_code_2) {
       {"decode", "in.pmesh", "-o", "out.xyz"},
       {"decode", "in.pmesh", "-o", "out.ply", "--level", "1", "--bytes", "5"},
       {"decode", "in.pmesh", "-o", "out.ply", "--error", "-1"},
+      {"build", "in.ply", "-o", "out.pmesh", "--unit", "ft"},
+      {"build", "in.ply", "-o", "out.pmesh", "--up", "x"},
       {"measure", "only-one.ply"},
       {"measure", "a.ply", "b.ply", "--samples", "0"},
       {"publish", "in.ply"}};

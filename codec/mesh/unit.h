@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The units of length that a model's coordinates may have: "mm", "cm", "m" and "in".
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace vitrine {
+
+struct LengthUnit {
+  std::string_view name;
+  double metres;
+};
+
+inline constexpr std::array<LengthUnit, 4> kLengthUnits{
+    {{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}}};
+
+// How many metres one `unit` is; nothing where the unit is unknown or empty.
+constexpr std::optional<double> metres_per(std::string_view unit) {
+  for (const LengthUnit& known : kLengthUnits) {
+    if (known.name == unit) return known.metres;
+  }
+  return std::nullopt;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/reading.h"
+
+#include "codec/mesh/unit.h"
+
+namespace vitrine::cli {
+
+tl::expected<ReadOptions, Fault> reading_options(const Arguments& arguments) {
+  std::array<std::string_view, kLengthUnits.size()> units;
+  for (std::size_t i = 0; i < units.size(); ++i)
+    units[i] = kLengthUnits[i].name;
+  const auto unit = arguments.choice("--unit", units);
+  if (!unit) return tl::unexpected(unit.error());
+  constexpr std::string_view kAxes[] = {"y", "z"};
+  const auto up = arguments.choice("--up", kAxes);
+  if (!up) return tl::unexpected(up.error());
+  ReadOptions options;
+  if (arguments.has("--unit")) options.unit = units[*unit];
+  if (*up == 1) options.up = UpAxis::kZ;
+  return options;
+}
+
+}  // namespace vitrine::cli
