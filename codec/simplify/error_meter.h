@@ -24,7 +24,7 @@ class ErrorMeter {
   explicit ErrorMeter(const TriangleMesh& original);
 
   // `level` is what is displayed: at least one face, model units. max_error is at most a sixth
-  // above the true maximum (or 1e-6 of the diagonal).
+  // above the true maximum (or 1e-6 of the diagonal), but for tangles (HausdorffBound).
   LevelError measure(const TriangleMesh& level) const;
   // The same for the original with its vertices moved, by rounding say; fast for small moves.
   LevelError measure_moved(const TriangleMesh& moved) const;

@@ -15,9 +15,9 @@ Vec3 centre_of(const Corners& t) {
   return (t.a + t.b + t.c) * (1.0 / 3);
 }
 
-bool much_larger(double radius, const Corners& witness) {
-  const Vec3 normal = cross(witness.b - witness.a, witness.c - witness.a);
-  return radius * radius * radius * radius > kManyWitnesses * dot(normal, normal);
+double squared_area(const Corners& t) {  // of the parallelogram
+  const Vec3 normal = cross(t.b - t.a, t.c - t.a);
+  return dot(normal, normal);
 }
 
 struct Edge {
@@ -138,9 +138,11 @@ void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
   const Vec3 centre = piece.centre();
   const std::uint32_t witness = last_ = target_->walk(centre, start);
   if (settle(piece.corners(), witness)) return;
-  const double radius = piece.radius(centre);
-  if (!much_larger(radius, target_->triangle(witness))) return cut(piece, witness, kCuts);
-  radius > limit() / 2 ? halve(piece, witness) : examine(piece, witness);
+  const double radius = piece.radius(centre), area = squared_area(target_->triangle(witness));
+  const bool much_larger = radius * radius * radius * radius > kManyWitnesses * area;
+  if (!much_larger) return cut(piece, witness, kCuts);
+  // A walk may end among faces without area, which say nothing of the surface's size near by.
+  radius > limit() / 2 && area > 0 ? halve(piece, witness) : examine(piece, witness);
 }
 
 void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cuts) {
@@ -175,6 +177,7 @@ void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
 }
 
 void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
+  if (++halvings_ > kHalvings + target_->size()) negligible_ *= 2, halvings_ = 0;
   const ConvexPiece::Cut parts = piece.halves();
   if (!parts.front.empty()) cover(parts.front, start);
   if (!parts.back.empty()) cover(parts.back, start);

@@ -6,6 +6,9 @@
 // target. A piece with too weak a bound is cut along an edge of S, beyond which the neighbour of S
 // takes over, and halved where that does not help. Most triangles never come to that: they lie
 // under a patch of the target (see patch_cover.h).
+//
+// Sheets that cross or lie on each other can ask for a piece for each square of the precision: the
+// work is bounded by growing what counts as negligible.
 #pragma once
 
 #include <algorithm>
@@ -43,11 +46,13 @@ class HausdorffBound {
   std::vector<std::uint8_t> add(const TriangleBvh& source, const WitnessSurface& target,
                                 std::span<const std::uint8_t> settled = {});
 
-  // No distance added so far is larger. At most tolerance * the largest one, or `negligible`.
+  // No distance added so far is larger. At most tolerance * the largest one, or `negligible`, or,
+  // where the surfaces are tangled, as near to these as a bounded number of pieces allows.
   double bound() const { return std::max(known_, bound_); }
 
  private:
   static constexpr int kCuts = 16;  // in a row; rounding must not let them go on for ever
+  static constexpr std::size_t kHalvings = 16'384;  // and one a face, before the precision halves
 
   double limit() const { return std::max(tolerance_ * known_, negligible_); }
   struct Visit;
@@ -63,6 +68,7 @@ class HausdorffBound {
 
   double tolerance_, negligible_;
   double known_ = 0, bound_ = 0;
+  std::size_t halvings_ = 0;  // since the precision was last changed
   const WitnessSurface* target_ = nullptr;
   std::uint32_t last_ = 0;  // the newest witness: the next one is near it
 };

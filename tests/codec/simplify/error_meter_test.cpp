@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "codec/mesh/surface_distance.h"
 #include "codec/simplify/hausdorff_bound.h"
 #include "codec/simplify/simplify.h"
@@ -131,6 +134,35 @@ TEST(ErrorMeter, CopesWithFacesWithoutArea) {
   const TriangleMesh point{.positions = {{3, 3, 9}}, .faces = {{0, 0, 0}}, .colours = {}};
   const double far = dense_maximum(sheet(10, 10), TriangleBvh(point));
   EXPECT_GE(ErrorMeter(sheet(10, 10)).measure(point).max_error, far * (1 - 1e-9));
+}
+
+// Sheets that lie on each other: nearly all faces have no area, and walks end among them.
+TEST(ErrorMeter, FoldedOntoItselfIsMeasuredInBoundedWork) {
+  TriangleMesh folded = sheet(20, 20);
+  for (Vec3& p : folded.positions)
+    p = {std::round(p.x / 6), std::round(p.y / 6), 0};
+  TriangleMesh coarse = sheet(4, 4);
+  for (Vec3& p : coarse.positions)
+    p = {p.x, p.y, 0};
+  EXPECT_LT(ErrorMeter(folded).measure(coarse).max_error, 1e-5);
+}
+
+// Faces that cross each other at random: no walk along neighbours leads to the closest one.
+TEST(ErrorMeter, ATangleIsMeasuredInBoundedWork) {
+  std::mt19937 random(1);
+  const auto unit = [&random] { return static_cast<double>(random()) * 0x1p-32; };
+  TriangleMesh tangle;
+  for (std::uint32_t f = 0; f < 600; ++f) {
+    for (int k = 0; k < 3; ++k)
+      tangle.positions.push_back({unit(), unit(), unit()});
+    tangle.faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  TriangleMesh moved = tangle;
+  for (Vec3& p : moved.positions)
+    p.x += 1e-3 * unit();
+  const LevelError error = ErrorMeter(tangle).measure(moved);
+  EXPECT_GE(error.max_error, dense_maximum(moved, TriangleBvh(tangle)) * (1 - 1e-9));
+  EXPECT_LT(error.max_error, 0.05);
 }
 
 }  // namespace
