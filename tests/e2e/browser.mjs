@@ -17,10 +17,12 @@ const kEvents = ["first-paint", "refine", "progress", "load", "error", "camera-c
 
 /** A page with one <progressive-mesh>, its events, requests and complaints. */
 export class ViewerPage {
-  static async open(browser, url, { colorScheme = "light", width = 1100, height = 760 } = {}) {
+  /** `init` runs in the page before its own scripts. */
+  static async open(browser, url, { colorScheme = "light", width = 1100, height = 760, init } = {}) {
     const context = await browser.newContext({ viewport: { width, height }, colorScheme });
     const viewer = new ViewerPage(await context.newPage());
     await viewer.#listen();
+    if (init) await viewer.page.addInitScript(init);
     await viewer.page.goto(url, { waitUntil: "commit" });
     return viewer;
   }

@@ -148,6 +148,66 @@ test("the stream brings the whole model without a request for a chunk", async ()
   await viewer.page.context().close();
 });
 
+test("draws again when a lost WebGL context comes back", async () => {
+  const viewer = await refined(pages.plain);
+  const before = await canvas(viewer);
+  await viewer.page.evaluate(async () => {
+    const place = document.querySelector("progressive-mesh").shadowRoot.querySelector("canvas");
+    const context = place.getContext("webgl2").getExtension("WEBGL_lose_context");
+    const heard = (type) => new Promise((resolve) => place.addEventListener(type, resolve, { once: true }));
+    const lost = heard("webglcontextlost");
+    context.loseContext();
+    await lost;
+    await new Promise(requestAnimationFrame); // it can be restored only after its event
+    const restored = heard("webglcontextrestored");
+    context.restoreContext();
+    await restored;
+  });
+  assert.deepEqual(await canvas(viewer), before);
+  await viewer.page.context().close();
+});
+
+test("another src keeps the visitor's switches, and attributes may change while it loads", async () => {
+  const viewer = await refined(pages.plain);
+  await viewer.page.locator("input[name=wireframe]").check();
+  await viewer.settled(() => viewer.page.evaluate((src) => {
+    const element = document.querySelector("progressive-mesh");
+    element.src = src;
+    element.setAttribute("max-triangles", "1000");
+    element.removeAttribute("max-triangles");
+  }, pages.coloured));
+  assert.equal(await viewer.triangles(), mesh.faces.length);
+  const wired = await canvas(viewer);
+  await viewer.page.locator("input[name=wireframe]").uncheck();
+  assert.notDeepEqual(await canvas(viewer), wired);
+  assert.deepEqual(viewer.errors, []);
+  await viewer.page.context().close();
+});
+
+test("says so when the page forbids its worker", async () => {
+  const viewer = await ViewerPage.open(browser, pages.plain, { init: () => {
+    window.Worker = class {
+      postMessage() {
+        setTimeout(() => this.onerror?.(new ErrorEvent("error", { cancelable: true })));
+      }
+      terminate() {}
+    };
+  } });
+  const [{ detail }] = await viewer.events("error");
+  assert.match(detail.message, /decoder stopped: reload/);
+  assert.equal(await viewer.page.locator("progressive-mesh [role=alert]").textContent(), detail.message);
+  assert.deepEqual(viewer.errors, []);
+  await viewer.page.context().close();
+});
+
+/** A page that shows all of its model. */
+async function refined(url) {
+  const viewer = await ViewerPage.open(browser, url);
+  await viewer.releaseLayers();
+  await viewer.events("load");
+  return viewer;
+}
+
 /** The middle of the viewer, free of controls. */
 async function canvas(viewer, name) {
   const bytes = await viewer.picture(name && join(pictures, `${name}.png`));

@@ -89,11 +89,12 @@ describe("openSource", () => {
     server.prependListener("request", (request) => asked.push(request.url ?? ""));
     answer = (_, response) => response.end(file);
     const { origin } = new URL(url());
-    for (const path of ["/models/m1", "/api/v1/models/m1", "/api/v1/models/m1/file.pmesh", "/static/a.pmesh"]) {
+    for (const path of ["/models/m1", "/api/v1/models/m1", "/api/v1/models/m1/file.pmesh", "/static/a.pmesh", "/models/a.pmesh"]) {
       await openSource(origin + path, "http").head(never);
     }
     expect(asked).toEqual([
       "/api/v1/models/m1/head", "/api/v1/models/m1/head", "/api/v1/models/m1/file.pmesh", "/static/a.pmesh",
+      "/models/a.pmesh",
     ]);
   });
 });

@@ -105,6 +105,13 @@ describe("StreamSource", () => {
     FakeSocket.last.slice(1, 0, 2, 3, [1, 2]);
     expect(FakeSocket.last.closed).toBe(true);
   });
+
+  test.each(["no JSON", new ArrayBuffer(11)])("hangs up on what is no message of the protocol", (data) => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 1 }, []);
+    FakeSocket.last.onmessage?.({ data });
+    expect(FakeSocket.last.closed).toBe(true);
+  });
 });
 
 test("indices are told as inclusive pairs", () => {

@@ -37,6 +37,7 @@ export class RemoteModel {
   readonly #id = ++lastId;
   readonly #turns = new Map<number, Turn>();
   #turn = 0;
+  #lost: ModelError | undefined;
 
   constructor(
     url: string,
@@ -50,6 +51,7 @@ export class RemoteModel {
 
   /** Resolves with true when `want` is reached and shown, with false when superseded or closed. */
   refine(want: Want): Promise<boolean> {
+    if (this.#lost) return Promise.reject(this.#lost);
     const turn = ++this.#turn;
     return new Promise((resolve, reject) => {
       this.#turns.set(turn, { resolve, reject });
@@ -76,6 +78,14 @@ export class RemoteModel {
     else if (message.type === "failed") this.#fail(message.turn, new ModelError(message.message));
   }
 
+  /** The session is gone with its worker. */
+  lose(error: ModelError): void {
+    this.#lost = error;
+    for (const turn of this.#turns.values()) turn.reject(error);
+    this.#turns.clear();
+    this.listener.failed(error);
+  }
+
   #settle(turn: number): Turn | undefined {
     const found = this.#turns.get(turn);
     this.#turns.delete(turn);
@@ -99,5 +109,19 @@ function startWorker(): Worker {
   const started = new Worker(url);
   URL.revokeObjectURL(url);
   started.onmessage = ({ data }: MessageEvent<FromWorker>) => models.get(data.id)?.receive(data);
+  started.onerror = (event) => {
+    event.preventDefault(); // the models tell
+    if (started === worker) lose(event.message);
+  };
   return started;
+}
+
+/** The worker cannot start (the page's security policy forbids it) or has stopped (out of memory). */
+function lose(reason: string | undefined): void {
+  worker?.terminate();
+  worker = undefined;
+  const error = new ModelError(`the viewer's decoder stopped${reason ? ` (${reason})` : ""}: reload the page`);
+  const lost = [...models.values()];
+  models.clear();
+  for (const model of lost) model.lose(error);
 }

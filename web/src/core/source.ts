@@ -33,7 +33,8 @@ export interface Source {
 /** The source for the URL of a .pmesh file, of a model page or of an API model. */
 export function openSource(url: string, transport: Transport): Source {
   const address = new URL(url);
-  const model = /^(.*?)\/(?:api\/v1\/)?models\/([^/]+)\/?$/.exec(address.pathname);
+  // A model's id has no dot: /models/bust.pmesh is a file in a folder of that name.
+  const model = /^(.*?)\/(?:api\/v1\/)?models\/([^/.]+)\/?$/.exec(address.pathname);
   if (!model) return new FileSource(url);
   const api = `${address.origin}${model[1]}/api/v1`, id = model[2] ?? "";
   return transport === "ws" ? new StreamSource(api, id) : new ApiSource(api, id);

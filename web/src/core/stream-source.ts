@@ -64,7 +64,14 @@ export class StreamSource implements Source {
     this.#part = new Uint8Array(0);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => this.#queue.splice(0).forEach((message) => this.#send(message));
-    socket.onmessage = ({ data }) => (typeof data === "string" ? this.#told(data) : this.#receive(data as ArrayBuffer));
+    socket.onmessage = ({ data }) => {
+      try {
+        if (typeof data === "string") this.#told(data);
+        else this.#receive(data as ArrayBuffer);
+      } catch {
+        socket.close(1000); // no message of pmesh.v1: HTTP has the rest
+      }
+    };
     socket.onclose = () => socket === this.#socket && this.#miss();
   }
 

@@ -42,9 +42,11 @@ function open({ id, url, transport, assets }: Extract<ToWorker, { type: "open" }
 async function create(id: number, source: () => Source, assets: Assets): Promise<Session> {
   wasm ??= compile(assets.wasm);
   draco ??= loadDraco(assets);
-  draco.catch(() => undefined); // reported where it is waited for
-  const decoder = await Decoder.create(await wasm);
+  // Failures are reported where they are waited for; the next model tries again.
+  wasm.catch(() => (wasm = undefined));
+  draco.catch(() => (draco = undefined));
   const loaded = draco;
+  const decoder = await Decoder.create(await wasm);
   return new Session(source(), decoder, async (bytes, level) => decodeBase(await loaded, bytes, level), sink(id));
 }
 

@@ -3,7 +3,8 @@
 import { texts } from "../texts.ts";
 import style from "./element.css?text";
 
-export type Toggle = "colours" | "facets" | "wireframe";
+const kToggles = ["colours", "facets", "wireframe"] as const;
+export type Toggle = (typeof kToggles)[number];
 
 const kTemplate = `
   <div class="view">
@@ -36,11 +37,12 @@ export class Panel {
   constructor(private readonly root: ShadowRoot) {
     root.innerHTML = `<style>${style}</style>${kTemplate}`;
     this.view = this.#find(".view");
+    this.alt = "";
     this.#detail.addEventListener("input", () => {
       this.#held = true;
       this.onDetail(Number(this.#detail.value) / 1000);
     });
-    for (const which of ["colours", "facets", "wireframe"] as const) {
+    for (const which of kToggles) {
       const box = this.#find<HTMLInputElement>(`[name=${which}]`);
       box.addEventListener("change", () => this.onToggle(which, box.checked));
     }
@@ -58,6 +60,11 @@ export class Panel {
     const fresh = old.cloneNode() as HTMLCanvasElement;
     old.replaceWith(fresh);
     return fresh;
+  }
+
+  /** What the visitor has switched on: it holds for the next model too. */
+  toggles(): [Toggle, boolean][] {
+    return kToggles.map((which) => [which, this.#find<HTMLInputElement>(`[name=${which}]`).checked]);
   }
 
   /** As before the first model. */

@@ -8,7 +8,7 @@ import { Panel } from "./panel.ts";
 import type { Stage } from "./stage.ts";
 
 /**
- * Shows one model and sharpens it. Events: `first-paint` (the base mesh is on the screen, no
+ * Shows one model and sharpens it. `src`, `poster` and `alt` are properties too. Events: `first-paint` (the base mesh is on the screen, no
  * enhancement layer has been asked for yet), `progress` {bytes, total}, `refine` {triangles,
  * vertices, bytes} for each state shown, `load` (the level asked for is reached), `error`
  * {message}, `camera-change`.
@@ -19,12 +19,33 @@ export class ProgressiveMeshElement extends HTMLElement {
   readonly #panel = new Panel(this.attachShadow({ mode: "open" }));
   readonly #size = new ResizeObserver(() => this.#fit());
   #stage: Stage | undefined;
+  #painted = false; // the stage shows its base mesh: it can be refined and dressed
   #loads = 0;
 
+  get src(): string {
+    return this.getAttribute("src") ?? "";
+  }
+  set src(url: string) {
+    this.setAttribute("src", url);
+  }
+  get poster(): string {
+    return this.getAttribute("poster") ?? "";
+  }
+  set poster(url: string) {
+    this.setAttribute("poster", url);
+  }
+  get alt(): string {
+    return this.getAttribute("alt") ?? "";
+  }
+  set alt(text: string) {
+    this.setAttribute("alt", text);
+  }
+
   connectedCallback(): void {
+    this.#adopt();
     this.#panel.onDetail = (fraction) => void this.#refine(this.#wantAt(fraction));
-    this.#panel.onToggle = (which, on) => this.#stage && (this.#stage[which] = on);
-    this.#panel.onReset = () => this.#stage?.frame();
+    this.#panel.onToggle = (which, on) => this.#painted && this.#stage && (this.#stage[which] = on);
+    this.#panel.onReset = () => this.#painted && this.#stage?.frame();
     this.#size.observe(this.#panel.view);
     void this.#load();
   }
@@ -39,7 +60,17 @@ export class ProgressiveMeshElement extends HTMLElement {
     else if (name === "poster") this.#panel.poster = value;
     else if (!this.isConnected || before === value) return;
     else if (name === "src") void this.#load();
-    else if (this.#stage) void this.#refine(this.#goal());
+    else if (this.#painted) void this.#refine(this.#goal());
+  }
+
+  /** Properties that were set before this class was known hide the accessors. */
+  #adopt(): void {
+    for (const name of ["src", "poster", "alt"] as const) {
+      if (!Object.hasOwn(this, name)) continue;
+      const value = this[name];
+      delete (this as Partial<typeof this>)[name];
+      this[name] = value;
+    }
   }
 
   async #load(): Promise<void> {
@@ -52,8 +83,13 @@ export class ProgressiveMeshElement extends HTMLElement {
       if (load !== this.#loads) return;
       const stage = this.#open(new Stage(this.#panel.newCanvas(), src, assetsBeside(import.meta.url), this.#transport));
       await stage.mesh.ready;
+      if (load !== this.#loads) return;
       await this.#firstPaint(stage);
-      if (load === this.#loads) await this.#refine(this.#goal());
+      if (load !== this.#loads) return;
+      this.#painted = true;
+      this.#panel.hidePoster();
+      this.#emit("first-paint");
+      await this.#refine(this.#goal());
     } catch (error) {
       if (load === this.#loads) this.#fail(error as Error);
     }
@@ -70,10 +106,9 @@ export class ProgressiveMeshElement extends HTMLElement {
   async #firstPaint(stage: Stage): Promise<void> {
     this.#fit();
     stage.frame();
+    for (const [which, on] of this.#panel.toggles()) stage[which] = on;
     this.#panel.enable(stage.mesh.info.coloured);
     await stage.draw();
-    this.#panel.hidePoster();
-    this.#emit("first-paint");
   }
 
   async #refine(want: Want): Promise<void> {
@@ -118,6 +153,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     ++this.#loads;
     this.#stage?.dispose();
     this.#stage = undefined;
+    this.#painted = false;
     this.#panel.reset();
   }
 

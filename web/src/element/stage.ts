@@ -32,6 +32,8 @@ export class Stage {
     // What is drawn once must stay, for print and screenshots too.
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    // three.js sets its state up again when a lost context comes back, and leaves drawing to us.
+    canvas.addEventListener("webglcontextrestored", () => void this.draw());
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.addEventListener("change", () => {
       this.draw();
