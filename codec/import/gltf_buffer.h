@@ -1,59 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// Typed and bounded access to the numbers of a binary glTF file.
+// The buffer views of a binary glTF file, decompressed where they are compressed.
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <span>
-#include <string_view>
+#include <vector>
 
-#include "codec/core/expected.h"
+#include "codec/import/gltf_json.h"
 
 namespace vitrine {
 
-using Json = nlohmann::json;
+struct BufferView {
+  std::span<const std::uint8_t> bytes;
+  std::uint64_t stride = 0;  // of its elements; 0 where they follow without gaps
+};
 
-// The member `key`, or null where `object` is no object or has none.
-const Json& member(const Json& object, std::string_view key);
-
-// Element `index` of the array `key` of the document, or null.
-const Json& element(const Json& document, std::string_view key, std::uint64_t index);
-
-// A member as a whole number from 0, `otherwise` where it is absent or something else.
-std::uint64_t whole(const Json& object, std::string_view key, std::uint64_t otherwise);
-
-inline constexpr std::uint64_t kAbsent = ~std::uint64_t{0};
-
-// Vectors of `width` components, `stride` bytes apart.
-class Accessor {
+class GltfBuffer {
  public:
-  // Fails unless accessor `index` lies within the binary chunk `buffer`.
-  static Expected<Accessor> open(const Json& document, std::span<const std::uint8_t> buffer,
-                                 std::uint64_t index);
+  // `binary` is the file's binary chunk. Both must outlive this.
+  GltfBuffer(const Json& document, std::span<const std::uint8_t> binary)
+      : document_(document), binary_(binary) {}
 
-  std::uint64_t count() const { return count_; }
-  std::uint32_t width() const { return width_; }
-  bool is_whole() const { return type_ != kFloat; }     // components are integers
-  double real(std::uint64_t i, std::uint32_t k) const;  // normalised where the file says so
-  std::uint32_t index(std::uint64_t i) const;           // of an unsigned integer type
+  // Fails unless the view lies within the binary chunk. The bytes live as long as this.
+  Expected<BufferView> view(std::uint64_t index);
+
+  // Counts `bytes` as made by decompression; fails (kLimit) beyond 1024 times the binary chunk.
+  Expected<void> spend(std::uint64_t bytes);
+  std::uint64_t spent() const { return spent_; }
 
  private:
-  enum Type : std::uint32_t {
-    kByte = 5120,
-    kUbyte = 5121,
-    kShort = 5122,
-    kUshort = 5123,
-    kUint = 5125,
-    kFloat = 5126
-  };
-  static std::uint32_t byte_size(Type type);
-  static std::uint32_t width_of(std::string_view type);
+  Expected<std::span<const std::uint8_t>> part(const Json& place, std::uint64_t index) const;
+  Expected<BufferView> decompressed(const Json& extension, std::uint64_t index);
 
-  std::span<const std::uint8_t> bytes_;
-  std::uint64_t count_ = 0, stride_ = 0;
-  std::uint32_t width_ = 0;
-  Type type_ = kFloat;
-  bool normalised_ = false;
+  const Json& document_;
+  std::span<const std::uint8_t> binary_;
+  std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;  // by view
+  std::uint64_t spent_ = 0;
 };
 
 }  // namespace vitrine

@@ -33,9 +33,10 @@ struct ImportedMesh {
 };
 
 // GLB is in metres by its standard; the other formats may state a unit in a comment (see
-// unit_comment.h). Safe for untrusted bytes. Allocates at most about 64 times the input, and
-// nothing on the word of a count alone. Fails (kBadInput, kUnsupported, kLimit) with the place of
-// the fault.
+// unit_comment.h). For untrusted bytes, but in the sandbox: GLB may hold Draco data, and that
+// decoder is not safe. Allocates at most about 64 times the input, for compressed parts of GLB 1024
+// times, and nothing on the word of a count alone. Fails (kBadInput, kUnsupported, kLimit) with the
+// place of the fault.
 Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes,
                                  const ReadOptions& options = {});
 

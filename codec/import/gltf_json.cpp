@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/gltf_json.h"
+
+namespace vitrine {
+namespace {
+
+const Json kNull;
+
+}  // namespace
+
+const Json& member(const Json& object, std::string_view key) {
+  if (!object.is_object()) return kNull;
+  const auto it = object.find(key);
+  return it == object.end() ? kNull : *it;
+}
+
+const Json& element(const Json& document, std::string_view key, std::uint64_t index) {
+  const Json& array = member(document, key);
+  return array.is_array() && index < array.size() ? array[index] : kNull;
+}
+
+const Json& extension(const Json& object, std::string_view name) {
+  return member(member(object, "extensions"), name);
+}
+
+std::uint64_t whole(const Json& object, std::string_view key, std::uint64_t otherwise) {
+  const Json& value = member(object, key);
+  return value.is_number_unsigned() ? value.get<std::uint64_t>() : otherwise;
+}
+
+double real(const Json& object, std::string_view key, double otherwise) {
+  const Json& value = member(object, key);
+  return value.is_number() ? value.get<double>() : otherwise;
+}
+
+std::string text(const Json& object, std::string_view key, std::string_view otherwise) {
+  const Json& value = member(object, key);
+  return value.is_string() ? value.get<std::string>() : std::string(otherwise);
+}
+
+}  // namespace vitrine

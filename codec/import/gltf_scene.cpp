@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/gltf_scene.h"
+
+#include <algorithm>
+
+#include "codec/import/glb_file.h"
+
+namespace vitrine {
+namespace {
+
+Affine transform_of(const Json& node) {
+  if (const Json& matrix = member(node, "matrix"); matrix.is_array()) {
+    const auto m =
+        numbers<16>(matrix, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});  // column by column
+    return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+  }
+  const auto t = numbers<3>(member(node, "translation"), {0, 0, 0});
+  const auto q = numbers<4>(member(node, "rotation"), {0, 0, 0, 1});
+  const auto s = numbers<3>(member(node, "scale"), {1, 1, 1});
+  return compose({t[0], t[1], t[2]}, q, {s[0], s[1], s[2]});
+}
+
+struct Visit {
+  std::uint64_t node;
+  Affine parent;
+};
+
+// On top of the stack, so that the first one comes next.
+void push(const Json& nodes, const Affine& parent, std::vector<Visit>& open) {
+  const auto first = static_cast<std::ptrdiff_t>(open.size());
+  for (const Json& node : nodes) {
+    open.push_back({node.is_number_unsigned() ? node.get<std::uint64_t>() : kAbsent, parent});
+  }
+  std::reverse(open.begin() + first, open.end());
+}
+
+std::vector<PlacedMesh> all_meshes(const Json& document) {
+  const Json& meshes = member(document, "meshes");
+  std::vector<PlacedMesh> placed;
+  for (std::uint64_t m = 0; meshes.is_array() && m < meshes.size(); ++m)
+    placed.push_back({m, {}});
+  return placed;
+}
+
+}  // namespace
+
+Expected<std::vector<PlacedMesh>> placed_meshes(const Json& document) {
+  const Json& scene = element(document, "scenes", whole(document, "scene", 0));
+  if (!scene.is_object()) return all_meshes(document);
+  const Json& nodes = member(document, "nodes");
+  std::vector<bool> seen(nodes.is_array() ? nodes.size() : 0, false);
+  std::vector<PlacedMesh> placed;
+  std::vector<Visit> open;
+  push(member(scene, "nodes"), Affine{}, open);
+  while (!open.empty()) {
+    const Visit visit = open.back();
+    open.pop_back();
+    if (visit.node >= seen.size()) return bad_glb("a node does not exist");
+    if (seen[visit.node]) return bad_glb("node " + std::to_string(visit.node) + " has two parents");
+    seen[visit.node] = true;
+    const Json& node = nodes[visit.node];
+    const Affine place = visit.parent * transform_of(node);
+    if (const auto mesh = whole(node, "mesh", kAbsent); mesh != kAbsent) {
+      placed.push_back({mesh, place});
+    }
+    push(member(node, "children"), place, open);
+  }
+  return placed;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binary glTF put together part by part.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "codec/import/reading.h"
+
+namespace vitrine::testing {
+
+// The container around a document and its binary chunk.
+inline std::string glb(std::string json, std::string binary) {
+  while (json.size() % 4 != 0)
+    json += ' ';
+  while (binary.size() % 4 != 0)
+    binary += '\0';
+  const auto u32 = [](std::size_t n) {
+    return bytes_of<std::uint32_t>({static_cast<std::uint32_t>(n)});
+  };
+  return "glTF" + u32(2) + u32(28 + json.size() + binary.size()) + u32(json.size()) + "JSON" +
+         json + u32(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+class GlbBuilder {
+ public:
+  using Json = nlohmann::json;
+
+  Json document = {{"asset", {{"version", "2.0"}}}};
+
+  // A view of `bytes`, with further members; returns its index.
+  std::size_t view(const std::string& bytes, Json more = Json::object()) {
+    more.update(place(bytes));
+    return append("bufferViews", std::move(more));
+  }
+
+  // Where `bytes` are in the binary chunk.
+  Json place(const std::string& bytes) {
+    binary_.resize((binary_.size() + 3) / 4 * 4);
+    const std::size_t offset = binary_.size();
+    binary_ += bytes;
+    return {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}};
+  }
+
+  std::size_t accessor(const char* type, int component, std::size_t count,
+                       Json more = Json::object()) {
+    more.update({{"type", type}, {"componentType", component}, {"count", count}});
+    return append("accessors", std::move(more));
+  }
+
+  std::size_t floats(const char* type, std::initializer_list<float> values, std::size_t count) {
+    return accessor(type, 5126, count, {{"bufferView", view(bytes_of<float>(values))}});
+  }
+
+  // Adds to the document's array `key`; returns the index.
+  std::size_t append(const char* key, Json value) {
+    document[key].push_back(std::move(value));
+    return document[key].size() - 1;
+  }
+
+  void mesh(Json primitive) { append("meshes", {{"primitives", Json::array({primitive})}}); }
+
+  std::string file() const { return glb(document.dump(), binary_); }
+
+ private:
+  std::string binary_;
+};
+
+}  // namespace vitrine::testing

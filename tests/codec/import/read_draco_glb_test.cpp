@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLB with KHR_draco_mesh_compression, the primitives coded by Draco itself.
+#include <draco/compression/encode.h>
+#include <draco/mesh/mesh.h>
+
+#include <memory>
+#include <set>
+
+#include "codec/import/glb_builder.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::HasSubstr;
+using vitrine::testing::GlbBuilder;
+using vitrine::testing::grid;
+using vitrine::testing::read_text;
+using vitrine::testing::refusal;
+using Json = nlohmann::json;
+
+template <class T>
+int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType data,
+                  const std::vector<std::array<T, 3>>& values) {
+  draco::GeometryAttribute attribute;
+  attribute.Init(type, nullptr, 3, data, data == draco::DT_UINT8, sizeof(T) * 3, 0);
+  const int id = mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(values.size()));
+  for (std::uint32_t v = 0; v < values.size(); ++v)
+    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(v), values[v].data());
+  return id;
+}
+
+// The grid in Draco's terms, its vertices grey by their number.
+std::unique_ptr<draco::Mesh> draco_grid(std::uint32_t n) {
+  const TriangleMesh source = grid(n);
+  auto mesh = std::make_unique<draco::Mesh>();
+  mesh->set_num_points(static_cast<std::uint32_t>(source.positions.size()));
+  for (const Triangle& t : source.faces)
+    mesh->AddFace({draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])});
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<std::uint8_t, 3>> colours;
+  for (const Vec3& p : source.positions) {
+    positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), 0});
+    colours.push_back({static_cast<std::uint8_t>(positions.size() % 2 * 255), 0, 255});
+  }
+  add_attribute(*mesh, draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, positions);
+  add_attribute(*mesh, draco::GeometryAttribute::COLOR, draco::DT_UINT8, colours);
+  return mesh;
+}
+
+std::string coded(const std::unique_ptr<draco::Mesh>& mesh, int method) {
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(method);
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
+  return {buffer.data(), buffer.size()};
+}
+
+// A GLB of one primitive whose Draco data is `data`, as the Draco exporters write it.
+GlbBuilder around(const std::string& data, std::uint32_t n) {
+  GlbBuilder builder;
+  builder.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  const std::size_t vertices = std::size_t{n + 1} * (n + 1);
+  const Json compression = {{"bufferView", builder.view(data)},
+                            {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}};
+  builder.accessor("VEC3", 5126, vertices);
+  builder.accessor("VEC3", 5121, vertices, {{"normalized", true}});
+  builder.accessor("SCALAR", 5125, std::size_t{6} * n * n);
+  builder.mesh({{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}},
+                {"indices", 2},
+                {"extensions", {{"KHR_draco_mesh_compression", compression}}}});
+  return builder;
+}
+
+using PlainTriangle = std::array<std::array<double, 3>, 3>;
+
+std::multiset<PlainTriangle> triangles(const TriangleMesh& mesh) {
+  std::multiset<PlainTriangle> out;
+  for (const Triangle& face : mesh.faces) {
+    PlainTriangle t;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.positions[face[k]];
+      t[k] = {p.x, p.y, p.z};
+    }
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    out.insert(t);
+  }
+  return out;
+}
+
+TEST(ReadDracoGlb, BothMethods) {
+  for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+    const auto result = read_text(around(coded(draco_grid(20), method), 20).file());
+    EXPECT_EQ(triangles(result.mesh), triangles(grid(20))) << method;
+  }
+}
+
+TEST(ReadDracoGlb, ColoursStayWithTheirVertices) {
+  const auto result =
+      read_text(around(coded(draco_grid(4), draco::MESH_EDGEBREAKER_ENCODING), 4).file());
+  ASSERT_EQ(result.mesh.colours.size(), 25u);
+  for (std::size_t v = 0; v < 25; ++v) {
+    const Vec3& p = result.mesh.positions[v];
+    const std::uint8_t red = static_cast<int>(p.y * 5 + p.x) % 2 == 0 ? 255 : 0;
+    EXPECT_EQ(result.mesh.colours[v], (Colour{red, 0, 255})) << v;
+  }
+}
+
+TEST(ReadDracoGlb, InstancesDecodeItOnceAndAMirrorKeepsTheOutside) {
+  GlbBuilder builder = around(coded(draco_grid(3), draco::MESH_EDGEBREAKER_ENCODING), 3);
+  builder.document["scenes"] = {{{"nodes", {0, 1}}}};
+  builder.document["nodes"] = {{{"mesh", 0}},
+                               {{"mesh", 0}, {"scale", {-1, 1, 1}}, {"translation", {9, 0, 0}}}};
+  const auto result = read_text(builder.file());
+  EXPECT_EQ(result.mesh.faces.size(), 36u);
+  for (const auto& [a, b, c] : result.mesh.faces) {
+    const auto& p = result.mesh.positions;
+    EXPECT_GT(cross(p[b] - p[a], p[c] - p[a]).z, 0);
+  }
+}
+
+TEST(ReadDracoGlb, RefusesCountsThatTheDataCannotHoldBeforeDracoSeesThem) {
+  for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+    std::string data = coded(draco_grid(3), method);
+    const std::size_t counts = method == draco::MESH_SEQUENTIAL_ENCODING ? 11 : 12;
+    data.replace(counts, 10, "\xF0\xFF\xFF\xFF\x0F\xF0\xFF\xFF\xFF\x0F");
+    EXPECT_THAT(refusal(around(data, 3).file()),
+                HasSubstr("the Draco data claims 4294967280 faces"));
+  }
+}
+
+TEST(ReadDracoGlb, RefusesOtherVersionsMetadataAndDamage) {
+  const std::string good = coded(draco_grid(3), draco::MESH_EDGEBREAKER_ENCODING);
+  const auto refused = [&](std::size_t at, char value) {
+    std::string data = good;
+    data[at] = value;
+    return refusal(around(data, 3).file());
+  };
+  EXPECT_THAT(refused(0, 'd'), HasSubstr("is not a mesh"));
+  EXPECT_THAT(refused(7, 0), HasSubstr("is not a mesh"));
+  EXPECT_THAT(refused(6, 1), HasSubstr("of version 2.1, only 2.2 is read"));
+  EXPECT_THAT(refused(10, '\x80'), HasSubstr("metadata"));
+  EXPECT_THAT(refusal(around(good.substr(0, good.size() / 2), 3).file()),
+              HasSubstr("cannot be decoded"));
+}
+
+TEST(ReadDracoGlb, RefusesAccessorsThatDoNotMatch) {
+  GlbBuilder builder = around(coded(draco_grid(3), draco::MESH_EDGEBREAKER_ENCODING), 3);
+  builder.document["accessors"][1]["count"] = 15;
+  EXPECT_THAT(refusal(builder.file()), HasSubstr("does not match the accessor of 'COLOR_0'"));
+  builder.document["accessors"][1] = builder.document["accessors"][0];
+  builder.document["accessors"][1]["type"] = "VEC4";
+  EXPECT_THAT(refusal(builder.file()), HasSubstr("does not match the accessor of 'COLOR_0'"));
+}
+
+}  // namespace
+}  // namespace vitrine
