@@ -85,11 +85,17 @@ Expected<void> RawMesh::check_counts(const Limits& limits) const {
 }
 
 void RawMesh::triangulate_polygons() {
-  std::size_t begin = 0;
+  std::size_t begin = 0, fans = 0;
   const std::span<const std::uint32_t> corners = polygon_corners_;
   for (const std::size_t end : polygon_ends_) {
     triangulate(positions, corners.subspan(begin, end - begin), triangles_);
+    fans += end - begin > kMostClippedCorners ? 1 : 0;
     begin = end;
+  }
+  if (fans > 0) {
+    repairs.push_back(counted(fans, "polygon") + " of more than " +
+                      std::to_string(kMostClippedCorners) +
+                      " corners taken as convex and cut into fans");
   }
   polygon_corners_ = {};
   polygon_ends_ = {};

@@ -153,6 +153,8 @@ class GlbReader {
   Expected<void> read_faces(const Json& primitive, std::uint64_t mode, const Range& range,
                             bool mirrored) {
     const std::uint64_t indices = whole(primitive, "indices", kAbsent);
+    has_seams_ =
+        has_seams_ || (indices == kAbsent && mode == 4);  // every corner a vertex of its own
     std::uint64_t count = range.count;
     Accessor accessor;
     if (indices != kAbsent) {
@@ -212,8 +214,8 @@ class GlbReader {
     return std::move(mesh_);
   }
 
-  // glTF repeats a vertex wherever its normal or texture coordinate jumps; neither is carried, so
-  // the surface is whole again.
+  // glTF repeats a vertex wherever its normal or texture coordinate jumps, and for each face where
+  // there are no indices; none of these is carried, so the surface is whole again.
   void close_seams() {
     const std::size_t before = mesh_.positions.size();
     const std::vector<std::uint32_t> renamed = weld(mesh_.positions, mesh_.colours);
@@ -222,8 +224,9 @@ class GlbReader {
       for (std::uint32_t& v : face)
         v = renamed[v];
     }
-    mesh_.repairs.push_back(std::to_string(before - mesh_.positions.size()) +
-                            " repeated vertices welded along seams of normals or textures");
+    mesh_.repairs.push_back(
+        std::to_string(before - mesh_.positions.size()) +
+        " repeated vertices welded, parted by normals, textures or missing indices");
   }
 
   const Json& document_;

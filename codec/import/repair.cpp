@@ -68,7 +68,8 @@ class Repairer {
   Expected<RepairedMesh> run() {
     if (auto ok = check(); !ok) return Unexpected(ok.error());
     drop_degenerate();
-    if (mesh_.faces.empty()) return bad_input("every face of the mesh repeats a vertex");
+    if (mesh_.faces.empty())
+      return bad_input("every face of the mesh repeats a vertex; export the surface again");
     EdgeGroups groups = edges();
     if (drop_duplicates(groups)) groups = edges();
     if (orient(groups)) groups = edges();

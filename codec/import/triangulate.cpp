@@ -6,8 +6,6 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kMostClippedCorners = 256;  // clipping is quadratic
-
 struct Point {
   double u, v;
   std::uint32_t vertex;

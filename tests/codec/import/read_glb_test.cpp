@@ -31,6 +31,17 @@ TEST(ReadGlb, TrianglesWithoutIndices) {
   EXPECT_EQ(result.mesh.positions[1], (Vec3{1, 0, 0}));
 }
 
+TEST(ReadGlb, TrianglesWithoutIndicesShareTheirCorners) {
+  const std::string two = kCorners + bytes_of<float>({1, 0, 0, 1, 1, 0, 0, 1, 0});
+  const auto result = read_text(
+      glb(std::string(R"({"buffers":[{"byteLength":72}],)") +
+              R"("bufferViews":[{"buffer":0,"byteLength":72}],"accessors":[)" +
+              R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":6}],)" + kOneMesh + "}",
+          two));
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{1, 3, 2}));
+  EXPECT_THAT(result.repairs, Contains(HasSubstr("2 repeated vertices welded")));
+}
+
 TEST(ReadGlb, IndicesOfEveryType) {
   const std::pair<int, std::string> kinds[] = {{5121, bytes_of<std::uint8_t>({2, 0, 1})},
                                                {5123, bytes_of<std::uint16_t>({2, 0, 1})},

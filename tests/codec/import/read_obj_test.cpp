@@ -27,6 +27,17 @@ TEST(ReadObj, PolygonsAndNegativeIndices) {
               ElementsAre(Triangle{4, 0, 1}, Triangle{0, 1, 2}, Triangle{0, 2, 3}));
 }
 
+TEST(ReadObj, APolygonTooLargeToClipIsNamed) {
+  std::string vertices, face = "f";
+  for (int i = 1; i <= 257; ++i) {
+    vertices += "v " + std::to_string(i) + " " + std::to_string(i * i) + " 0\n";
+    face += " " + std::to_string(i);
+  }
+  const auto result = read_text(vertices + face + "\n");
+  EXPECT_EQ(result.mesh.faces.size(), 255u);
+  EXPECT_THAT(result.repairs, ElementsAre(HasSubstr("1 polygon of more than 256 corners")));
+}
+
 TEST(ReadObj, LinesThatContinue) {
   const auto result =
       read_text(std::string(kSquare) + "f 1 \\\n 2 \\\r\n 3\nv 5 \\\n5 5\nf 1 2 5\n");
