@@ -87,6 +87,7 @@ Outcome build(const Arguments& arguments) {
   if (!options) return tl::unexpected(options.error());
   const std::string path = arguments.operand(0), out = arguments.text("-o");
   if (const auto writable = check_writable(out); !writable) return failed(writable.error());
+  if (const auto distinct = check_distinct(path, out); !distinct) return failed(distinct.error());
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
 

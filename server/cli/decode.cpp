@@ -97,6 +97,8 @@ Outcome decode(const Arguments& arguments) {
   const auto want = read_want(arguments);
   if (!want) return tl::unexpected(want.error());
   if (const auto writable = check_writable(out); !writable) return failed(writable.error());
+  if (const auto distinct = check_distinct(arguments.operand(0), out); !distinct)
+    return failed(distinct.error());
   const std::string path = arguments.operand(0);
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());

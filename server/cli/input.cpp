@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "codec/progressive/manifest.h"
@@ -23,6 +24,12 @@ Unexpected unreadable(const std::string& path, int error) {
 }
 
 }  // namespace
+
+Expected<void> check_distinct(const std::string& path, const std::string& out) {
+  std::error_code missing;  // then they differ
+  if (!std::filesystem::equivalent(path, out, missing)) return {};
+  return fail(ErrorCode::kIo, out + " is the input itself; choose another name for the output");
+}
 
 Expected<InputFile> InputFile::open(const std::string& path) {
   // Not to wait for a writer where it is a named pipe.

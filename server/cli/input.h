@@ -10,6 +10,9 @@
 
 namespace vitrine::cli {
 
+// Fails where writing `out` would replace the input `path`: a scan may have no second copy.
+Expected<void> check_distinct(const std::string& path, const std::string& out);
+
 // A file mapped into memory, read-only.
 class InputFile {
  public:

@@ -93,6 +93,15 @@ TEST_F(VitrineCommand, a_folder_or_device_is_not_replaced_by_the_output) {
   EXPECT_TRUE(std::filesystem::is_fifo(path("pipe.pmesh")));
 }
 
+TEST_F(VitrineCommand, the_input_is_never_replaced_by_the_output) {
+  const std::string mesh = bumpy_ply(500);
+  const std::string in = write("in.ply", mesh);
+  const ProgramResult result = vitrine({"build", in, "-o", path("./in.ply")});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("is the input itself"));
+  EXPECT_EQ(read("in.ply"), mesh);
+}
+
 TEST_F(VitrineCommand, a_name_that_is_not_utf8_does_not_break_the_json) {
   const std::string damaged = write("damaged\xFF.pmesh", "PMSH");
   const ProgramResult result = vitrine({"verify", damaged, "--json"});
