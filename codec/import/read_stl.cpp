@@ -109,8 +109,11 @@ class AsciiStl {
 bool is_binary_stl(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kHeaderBytes) return false;
   const std::size_t size = kHeaderBytes + kFacetBytes * load<std::uint32_t>(&bytes[80]);
-  const bool says_solid = std::equal(bytes.begin(), bytes.begin() + 5, "solid");
-  return size == bytes.size() || (!says_solid && size > kHeaderBytes && size < bytes.size());
+  // Text has no zero byte; the count of a binary file nearly always has one.
+  const auto header = bytes.first(kHeaderBytes);
+  const bool may_be_text = std::equal(header.begin(), header.begin() + 5, "solid") &&
+                           std::find(header.begin(), header.end(), 0) == header.end();
+  return size == bytes.size() || (!may_be_text && size > kHeaderBytes && size < bytes.size());
 }
 
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes) {

@@ -35,6 +35,7 @@ TEST(ReadStl, ABinaryFileThatStartsWithSolidIsStillBinary) {
   std::string file = as_text(*write_mesh(tetrahedron(), MeshFormat::kStl));
   file.replace(0, 6, "solid ");
   EXPECT_EQ(read_text(file).mesh.faces.size(), 4u);
+  EXPECT_EQ(read_text(file + "tail").mesh.faces.size(), 4u);
 }
 
 TEST(ReadStl, TrailingBytesAfterABinaryFileAreIgnored) {
