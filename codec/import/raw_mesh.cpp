@@ -6,6 +6,7 @@
 
 #include "codec/import/keep_vertices.h"
 #include "codec/import/triangulate.h"
+#include "codec/import/weld.h"
 
 namespace vitrine {
 namespace {
@@ -119,6 +120,19 @@ Expected<void> RawMesh::drop_stray_positions() {
   return {};
 }
 
+void RawMesh::close_seams() {
+  const std::size_t before = positions.size();
+  const std::vector<std::uint32_t> renamed =
+      is_baked ? weld_and_blend(positions, colours) : weld(positions, colours);
+  if (positions.size() == before) return;
+  for (Triangle& face : triangles_) {
+    for (std::uint32_t& v : face)
+      v = renamed[v];
+  }
+  repairs.push_back(std::to_string(before - positions.size()) +
+                    " repeated vertices welded, parted by normals, textures or missing indices");
+}
+
 Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
   if (auto ok = check_counts(limits); !ok) return Unexpected(ok.error());
   triangulate_polygons();
@@ -127,6 +141,7 @@ Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
                                        ", more than this installation accepts; simplify it first");
   }
   if (auto ok = drop_stray_positions(); !ok) return Unexpected(ok.error());
+  if (has_seams) close_seams();
   if (small_faces_ > 0) {
     repairs.push_back(counted(small_faces_, "face") +
                       " with fewer than three corners dropped, first at face " +

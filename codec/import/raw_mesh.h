@@ -18,6 +18,12 @@ class RawMesh {
   std::vector<Vec3> positions;
   std::vector<Colour> colours;  // empty, or as many as positions
   std::vector<std::string> repairs;
+  // Vertices may be repeated where an attribute jumps that is not carried, such as a normal, or for
+  // each face: those of equal position and colour are welded.
+  bool has_seams = false;
+  // The colours were sampled from pictures or materials: vertices of equal position are welded
+  // whatever their colours, which are averaged.
+  bool is_baked = false;
 
   // Faces are numbered from 0 in the order of these calls. Indices may refer to vertices to come.
   void add_triangle(const Triangle& face);
@@ -33,6 +39,7 @@ class RawMesh {
   Expected<void> check_counts(const Limits& limits) const;
   Expected<void> drop_stray_positions();
   void triangulate_polygons();
+  void close_seams();
 
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> polygon_corners_;  // of all faces with more than three corners

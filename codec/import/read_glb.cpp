@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Binary glTF 2.0: the triangles of all meshes of the scene, in the scene's coordinates.
 #include <algorithm>
+#include <array>
 #include <map>
-#include <tuple>
 
-#include "codec/core/srgb.h"
 #include "codec/import/draco_primitive.h"
 #include "codec/import/glb_file.h"
 #include "codec/import/gltf_accessor.h"
 #include "codec/import/gltf_buffer.h"
+#include "codec/import/gltf_material.h"
 #include "codec/import/gltf_scene.h"
 #include "codec/import/readers.h"
-#include "codec/import/weld.h"
 
 namespace vitrine {
 namespace {
@@ -23,6 +22,7 @@ class GlbReader {
   GlbReader(const GlbFile& file, std::size_t file_bytes, const Limits& limits)
       : document_(file.document),
         buffer_(file.document, file.binary),
+        materials_(file.document, buffer_),
         file_bytes_(file_bytes),
         limits_(limits) {}
 
@@ -41,8 +41,9 @@ class GlbReader {
   struct Range {
     std::uint32_t first, count;
   };
-  // What makes the vertices of two primitives the same: compressed data, positions, colours.
-  using VertexSource = std::tuple<std::uint64_t, std::uint64_t, std::uint64_t>;
+  // What makes the vertices of two primitives the same: compressed data, positions, colours,
+  // texture coordinates, material.
+  using VertexSource = std::array<std::uint64_t, 5>;
 
   Expected<void> read_mesh(const PlacedMesh& placed) {
     shared_.clear();
@@ -101,10 +102,16 @@ class GlbReader {
   Expected<Range> vertices_of(const Json& primitive, const DracoPrimitive* decoded,
                               std::uint64_t view, const Affine& place) {
     const Json& attributes = member(primitive, "attributes");
-    const std::uint64_t colour = whole(attributes, "COLOR_0", kAbsent);
-    has_seams_ = has_seams_ || attributes.contains("NORMAL") || attributes.contains("TEXCOORD_0");
-    const auto [it, is_new] =
-        shared_.try_emplace({view, whole(attributes, "POSITION", kAbsent), colour});
+    const BaseColour base = materials_.base_colour(primitive);
+    const std::string texcoord = "TEXCOORD_" + std::to_string(base.texcoord);
+    // glTF repeats a vertex wherever its normal or texture coordinate jumps.
+    mesh_.has_seams =
+        mesh_.has_seams || attributes.contains("NORMAL") || attributes.contains("TEXCOORD_0");
+    const VertexSource source{
+        view, whole(attributes, "POSITION", kAbsent), whole(attributes, "COLOR_0", kAbsent),
+        base.image == nullptr ? kAbsent : whole(attributes, texcoord, kAbsent),
+        base.is_white() ? kAbsent : whole(primitive, "material", kAbsent)};
+    const auto [it, is_new] = shared_.try_emplace(source);
     if (!is_new) return it->second;
     const auto points = attribute(primitive, "POSITION", decoded);
     if (!points) return Unexpected(points.error());
@@ -118,10 +125,8 @@ class GlbReader {
       mesh_.positions.push_back(
           place({points->real(i, 0), points->real(i, 1), points->real(i, 2)}));
     }
-    if (colour != kAbsent) {
-      const auto colours = attribute(primitive, "COLOR_0", decoded);
-      if (!colours) return Unexpected(colours.error());
-      if (auto ok = add_colours(*colours, it->second); !ok) return Unexpected(ok.error());
+    if (auto ok = add_colours(primitive, decoded, base, it->second); !ok) {
+      return Unexpected(ok.error());
     }
     return it->second;
   }
@@ -134,18 +139,42 @@ class GlbReader {
                                        "; export the mesh without instances");
   }
 
-  // glTF colours are linear light.
-  Expected<void> add_colours(const Accessor& colours, const Range& range) {
-    if (colours.width() < 3 || colours.count() != range.count) {
-      return bad_glb("COLOR_0 does not match POSITION");
+  // The product of vertex colour, factor and texture, all of them linear light but the texture's
+  // pixels.
+  Expected<void> add_colours(const Json& primitive, const DracoPrimitive* decoded,
+                             const BaseColour& base, const Range& range) {
+    const Json& attributes = member(primitive, "attributes");
+    const bool has_colours = attributes.contains("COLOR_0");
+    if (!has_colours && base.is_white()) return {};
+    Accessor colours, places;
+    if (has_colours) {
+      const auto opened = attribute(primitive, "COLOR_0", decoded);
+      if (!opened) return Unexpected(opened.error());
+      if (opened->width() < 3 || opened->count() != range.count) {
+        return bad_glb("COLOR_0 does not match POSITION");
+      }
+      colours = *opened;
     }
+    if (base.image != nullptr) {
+      const std::string name = "TEXCOORD_" + std::to_string(base.texcoord);
+      if (!attributes.contains(name)) return bad_glb("a textured primitive lacks " + name);
+      const auto opened = attribute(primitive, name, decoded);
+      if (!opened) return Unexpected(opened.error());
+      if (opened->width() != 2 || opened->count() != range.count) {
+        return bad_glb(name + " does not match POSITION");
+      }
+      places = *opened;
+    }
+    mesh_.is_baked = mesh_.is_baked || !base.is_white();
+    has_factors_ = has_factors_ || base.factor != LinearColour{1, 1, 1};
     mesh_.colours.resize(range.first, kWhite);
     for (std::uint64_t i = 0; i < range.count; ++i) {
-      Colour colour;
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        colour[k] = to_byte(linear_to_srgb(colours.real(i, k)));
+      LinearColour colour =
+          base.image == nullptr ? base.factor : base.at(places.real(i, 0), places.real(i, 1));
+      if (has_colours) {
+        colour = colour * LinearColour{colours.real(i, 0), colours.real(i, 1), colours.real(i, 2)};
       }
-      mesh_.colours.push_back(colour);
+      mesh_.colours.push_back(to_srgb(colour));
     }
     return {};
   }
@@ -153,8 +182,7 @@ class GlbReader {
   Expected<void> read_faces(const Json& primitive, std::uint64_t mode, const Range& range,
                             bool mirrored) {
     const std::uint64_t indices = whole(primitive, "indices", kAbsent);
-    has_seams_ =
-        has_seams_ || (indices == kAbsent && mode == 4);  // every corner a vertex of its own
+    if (indices == kAbsent && mode == 4) mesh_.has_seams = true;  // each corner has its own vertex
     std::uint64_t count = range.count;
     Accessor accessor;
     if (indices != kAbsent) {
@@ -199,14 +227,12 @@ class GlbReader {
 
   Expected<RawMesh> build() {
     if (!mesh_.colours.empty()) mesh_.colours.resize(mesh_.positions.size(), kWhite);
-    if (has_seams_ && std::all_of(mesh_.positions.begin(), mesh_.positions.end(), is_usable)) {
-      close_seams();
-    }
     mesh_.reserve_faces(faces_.size());
     for (const Triangle& face : faces_)
       mesh_.add_triangle(face);
-    if (const Json& images = member(document_, "images"); images.is_array() && !images.empty()) {
-      mesh_.repairs.push_back(counted(images.size(), "texture map") + " not carried");
+    mesh_.repairs = materials_.report();
+    if (has_factors_) {
+      mesh_.repairs.emplace_back("material colours baked into vertex colours");
     }
     if (skipped_primitives_ > 0) {
       mesh_.repairs.push_back(counted(skipped_primitives_, "set") + " of points or lines dropped");
@@ -214,23 +240,9 @@ class GlbReader {
     return std::move(mesh_);
   }
 
-  // glTF repeats a vertex wherever its normal or texture coordinate jumps, and for each face where
-  // there are no indices; none of these is carried, so the surface is whole again.
-  void close_seams() {
-    const std::size_t before = mesh_.positions.size();
-    const std::vector<std::uint32_t> renamed = weld(mesh_.positions, mesh_.colours);
-    if (mesh_.positions.size() == before) return;
-    for (Triangle& face : faces_) {
-      for (std::uint32_t& v : face)
-        v = renamed[v];
-    }
-    mesh_.repairs.push_back(
-        std::to_string(before - mesh_.positions.size()) +
-        " repeated vertices welded, parted by normals, textures or missing indices");
-  }
-
   const Json& document_;
   GltfBuffer buffer_;
+  GltfMaterials materials_;
   std::size_t file_bytes_;
   const Limits& limits_;
   RawMesh mesh_;
@@ -238,7 +250,7 @@ class GlbReader {
   std::map<VertexSource, Range> shared_;             // of the mesh that is being read
   std::map<std::uint64_t, DracoPrimitive> decoded_;  // by buffer view
   std::uint64_t skipped_primitives_ = 0;
-  bool has_seams_ = false;
+  bool has_factors_ = false;
 };
 
 }  // namespace

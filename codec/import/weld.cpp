@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "codec/import/linear_colour.h"
+
 namespace vitrine {
 namespace {
 
@@ -55,6 +57,18 @@ std::vector<std::uint32_t> weld(std::vector<Vec3>& positions, std::vector<Colour
   }
   positions.resize(kept);
   if (!colours.empty()) colours.resize(kept);
+  return renamed;
+}
+
+std::vector<std::uint32_t> weld_and_blend(std::vector<Vec3>& positions,
+                                          std::vector<Colour>& colours) {
+  std::vector<Colour> none;
+  std::vector<std::uint32_t> renamed = weld(positions, none);
+  if (renamed.size() == positions.size()) return renamed;
+  ColourMeans means(positions.size());
+  for (std::size_t v = 0; v < renamed.size(); ++v)
+    means.add(renamed[v], to_linear(colours[v]));
+  colours = means.take();
   return renamed;
 }
 

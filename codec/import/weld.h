@@ -13,4 +13,8 @@ namespace vitrine {
 // positions must be finite.
 std::vector<std::uint32_t> weld(std::vector<Vec3>& positions, std::vector<Colour>& colours);
 
+// The same by position alone: the colours of those that become one are averaged in linear light.
+std::vector<std::uint32_t> weld_and_blend(std::vector<Vec3>& positions,
+                                          std::vector<Colour>& colours);
+
 }  // namespace vitrine

@@ -145,7 +145,8 @@ def rooms(root):
 def normal(name):
     """Library names as the table spells them."""
     return {"Threads::Threads": "threads", "nlohmann_json::nlohmann_json": "nlohmann-json", "OpenMeshCore": "OpenMesh",
-            "OpenMeshTools": "OpenMesh", "SQLite::SQLite3": "SQLite", "${VITRINE_SECCOMP}": "seccomp"}.get(name, name)
+            "OpenMeshTools": "OpenMesh", "SQLite::SQLite3": "SQLite", "${VITRINE_SECCOMP}": "seccomp",
+            "${VITRINE_TURBOJPEG}": "TurboJPEG"}.get(name, name)
 
 
 def includes(root, table, reached):

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/gltf_material.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "codec/import/raw_mesh.h"
+
+namespace vitrine {
+namespace {
+
+Wrap wrap_of(const Json& sampler, std::string_view key) {
+  constexpr std::uint64_t kClampToEdge = 33071, kMirroredRepeat = 33648;
+  const std::uint64_t mode = whole(sampler, key, 0);
+  return mode == kClampToEdge      ? Wrap::kClamp
+         : mode == kMirroredRepeat ? Wrap::kMirror
+                                   : Wrap::kRepeat;
+}
+
+void place_texture(const Json& reference, const Json& sampler, BaseColour& out) {
+  out.texcoord = whole(reference, "texCoord", 0);
+  out.wrap_u = wrap_of(sampler, "wrapS");
+  out.wrap_v = wrap_of(sampler, "wrapT");
+  const Json& transform = extension(reference, "KHR_texture_transform");
+  out.texcoord = whole(transform, "texCoord", out.texcoord);
+  out.offset = numbers<2>(member(transform, "offset"), {0, 0});
+  out.scale = numbers<2>(member(transform, "scale"), {1, 1});
+  out.rotation = real(transform, "rotation", 0);
+}
+
+}  // namespace
+
+LinearColour BaseColour::at(double u, double v) const {
+  if (image == nullptr) return factor;
+  const double c = std::cos(rotation), s = std::sin(rotation);
+  const double x = scale[0] * u, y = scale[1] * v;
+  return factor *
+         sample(*image, offset[0] + c * x + s * y, offset[1] + c * y - s * x, wrap_u, wrap_v);
+}
+
+BaseColour GltfMaterials::base_colour(const Json& primitive) {
+  const Json& material = element(document_, "materials", whole(primitive, "material", kAbsent));
+  const Json& surface = member(material, "pbrMetallicRoughness");
+  const auto factor = numbers<4>(member(surface, "baseColorFactor"), {1, 1, 1, 1});
+  BaseColour out{.factor = {factor[0], factor[1], factor[2]}};
+  const Json& reference = member(surface, "baseColorTexture");
+  const Json& texture = element(document_, "textures", whole(reference, "index", kAbsent));
+  if (!texture.is_object()) return out;
+  out.image = image(whole(texture, "source", kAbsent));
+  place_texture(reference, element(document_, "samplers", whole(texture, "sampler", kAbsent)), out);
+  return out;
+}
+
+const Image* GltfMaterials::image(std::uint64_t index) {
+  const auto [it, is_new] = images_.try_emplace(index);
+  if (is_new) {
+    auto decoded = decode(index);
+    if (decoded) {
+      pixels_left_ -= std::uint64_t{decoded->width} * decoded->height;
+      it->second = *std::move(decoded);
+    } else {
+      faults_.push_back("texture map " +
+                        (index == kAbsent ? std::string() : std::to_string(index) + ' ') +
+                        "not carried: it " + decoded.error().message);
+    }
+  }
+  return it->second ? &*it->second : nullptr;
+}
+
+Expected<Image> GltfMaterials::decode(std::uint64_t index) {
+  const std::uint64_t view = whole(element(document_, "images", index), "bufferView", kAbsent);
+  if (view == kAbsent) return bad_input("is not in the file");
+  const auto bytes = buffer_.view(view);
+  if (!bytes) return bad_input("lies beyond the end of the file");
+  return decode_image(bytes->bytes, pixels_left_);
+}
+
+std::vector<std::string> GltfMaterials::report() const {
+  std::vector<std::string> lines;
+  const Json& all = member(document_, "images");
+  const std::uint64_t count = all.is_array() ? all.size() : 0;
+  const auto baked = static_cast<std::uint64_t>(std::count_if(
+      images_.begin(), images_.end(), [](const auto& entry) { return entry.second.has_value(); }));
+  if (baked > 0) lines.push_back(counted(baked, "texture map") + " baked into vertex colours");
+  lines.insert(lines.end(), faults_.begin(), faults_.end());
+  const std::uint64_t told = baked + faults_.size();
+  if (count > told) lines.push_back(counted(count - told, "texture map") + " not carried");
+  return lines;
+}
+
+}  // namespace vitrine

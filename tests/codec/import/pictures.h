@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small pictures, coded by the libraries that decode them.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <turbojpeg.h>
+
+#include <string>
+#include <vector>
+
+namespace vitrine::testing {
+
+// `pixels` are RGB, rows from the top.
+inline std::string png_of(const std::vector<std::uint8_t>& pixels, std::uint32_t width) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = width;
+  image.height = static_cast<std::uint32_t>(pixels.size() / 3 / width);
+  image.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = 0;
+  EXPECT_TRUE(png_image_write_to_memory(&image, nullptr, &size, 0, pixels.data(), 0, nullptr));
+  std::string out(size, '\0');
+  EXPECT_TRUE(png_image_write_to_memory(&image, out.data(), &size, 0, pixels.data(), 0, nullptr));
+  out.resize(size);
+  return out;
+}
+
+inline std::string jpeg_of(const std::vector<std::uint8_t>& pixels, int width) {
+  const tjhandle jpeg = tjInitCompress();
+  unsigned char* data = nullptr;
+  unsigned long size = 0;
+  const int height = static_cast<int>(pixels.size()) / 3 / width;
+  EXPECT_EQ(
+      tjCompress2(jpeg, pixels.data(), width, 0, height, TJPF_RGB, &data, &size, TJSAMP_444, 95, 0),
+      0);
+  std::string out(reinterpret_cast<const char*>(data), size);
+  tjFree(data);
+  tjDestroy(jpeg);
+  return out;
+}
+
+// One pixel of red beside one of blue.
+inline std::string red_and_blue() {
+  return png_of({255, 0, 0, 0, 0, 255}, 2);
+}
+
+}  // namespace vitrine::testing
