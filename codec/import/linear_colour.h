@@ -28,8 +28,10 @@ inline LinearColour operator+(const LinearColour& a, const LinearColour& b) {
 // The mean colour of each vertex.
 class ColourMeans {
  public:
-  explicit ColourMeans(std::size_t vertices) : sums_(vertices), counts_(vertices) {}
+  explicit ColourMeans(std::size_t vertices = 0) { resize(vertices); }
 
+  void resize(std::size_t vertices) { sums_.resize(vertices), counts_.resize(vertices); }
+  bool empty() const { return sums_.empty(); }
   void add(std::size_t vertex, const LinearColour& colour) {
     sums_[vertex] = sums_[vertex] + colour;
     ++counts_[vertex];

@@ -136,7 +136,9 @@ Expected<void> HeaderParser::property(std::string_view line) {
 }
 
 void HeaderParser::comment(std::string_view line) {
-  if (take_word(line) == "TextureFile") header_.texture = in_quotes(take_word(line));
+  if (take_word(line) != "TextureFile") return;
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  header_.textures.emplace_back(line.substr(0, line.find_last_not_of(" \t") + 1));
 }
 
 Expected<void> HeaderParser::statement(std::string_view line) {

@@ -32,8 +32,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
-  std::string texture;         // the file that a TextureFile comment names, or empty
-  std::size_t data_begin = 0;  // byte offset of the first element
+  std::vector<std::string> textures;  // the files that TextureFile comments name
+  std::size_t data_begin = 0;         // byte offset of the first element
 };
 
 // Fails unless the data after the header can hold all the elements that it claims.

@@ -27,17 +27,18 @@ bool is_glb(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
 }
 
-Expected<RawMesh> read_any(std::span<const std::uint8_t> bytes, const Limits& limits) {
+Expected<RawMesh> read_any(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
   if (bytes.empty()) return bad_input("the file is empty; copy or export it again");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (is_glb(bytes)) return read_glb(bytes, limits);
-  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return read_ply(bytes);
+  if (is_glb(bytes)) return read_glb(bytes, options.limits);
+  if (text.starts_with("ply\n") || text.starts_with("ply\r"))
+    return read_ply(bytes, options.beside);
   // Many binary STL files start with "solid" too, so the size decides before the word.
   if (is_binary_stl(bytes)) return read_stl(bytes);
   const std::string_view word = first_word(bytes);
   if (word == "solid" || word == "SOLID") return read_stl(bytes);
   if (is_off(word)) return read_off(bytes);
-  if (is_obj_keyword(word)) return read_obj(bytes);
+  if (is_obj_keyword(word)) return read_obj(bytes, options.beside);
   return bad_input("not a mesh file Vitrine reads (PLY, OBJ, STL, OFF, GLB); convert it first");
 }
 
@@ -50,7 +51,7 @@ void turn_z_up_to_y(std::vector<Vec3>& positions) {
 }  // namespace
 
 Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
-  auto raw = read_any(bytes, options.limits);
+  auto raw = read_any(bytes, options);
   if (!raw) return Unexpected(raw.error());
   auto imported = std::move(*raw).finish(options.limits);
   if (!imported) return imported;

@@ -10,6 +10,7 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/limits.h"
+#include "codec/import/companions.h"
 #include "codec/mesh/triangle_mesh.h"
 
 namespace vitrine {
@@ -22,6 +23,7 @@ struct ReadOptions {
   std::string_view unit =
       {};                  // of kLengthUnits, instead of what the file states; empty: none given
   UpAxis up = UpAxis::kY;  // kZ: the file's z axis points up and is turned to y
+  Companions beside = {};  // files that an OBJ or PLY may name: colours come out of them
 };
 
 // A mesh as its file has it, polygons cut into triangles: every index is in range and every
@@ -33,10 +35,10 @@ struct ImportedMesh {
 };
 
 // GLB is in metres by its standard; the other formats may state a unit in a comment (see
-// unit_comment.h). For untrusted bytes, but in the sandbox: GLB may hold Draco data, and that
-// decoder is not safe. Allocates at most about 64 times the input, for compressed parts of GLB 1024
-// times, and nothing on the word of a count alone. Fails (kBadInput, kUnsupported, kLimit) with the
-// place of the fault.
+// unit_comment.h). For untrusted bytes, but in the sandbox: the decoders of
+// Draco data and of pictures are not safe. Allocates at most about 64 times the input, for
+// compressed parts of GLB 1024 times, and nothing on the word of a count alone. Fails (kBadInput,
+// kUnsupported, kLimit) with the place of the fault.
 Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes,
                                  const ReadOptions& options = {});
 

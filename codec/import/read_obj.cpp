@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ: vertices (with the common r g b extension) and polygons.
+// Wavefront OBJ: vertices (with the common r g b extension), polygons, and the diffuse colours of
+// their materials.
 #include <algorithm>
 
+#include "codec/import/obj_materials.h"
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
 
@@ -10,7 +12,8 @@ namespace {
 
 class ObjReader {
  public:
-  explicit ObjReader(std::span<const std::uint8_t> bytes) : text_(bytes) {}
+  ObjReader(std::span<const std::uint8_t> bytes, const Companions& beside)
+      : text_(bytes), materials_(beside) {}
 
   Expected<RawMesh> read() {
     while (text_.seek_word()) {
@@ -18,13 +21,15 @@ class ObjReader {
       bool ok = true;
       if (keyword == "v") ok = vertex();
       if (keyword == "f") ok = face();
-      if (keyword == "vt") has_texture_coordinates_ = true;
-      if (keyword == "mtllib") library_ = in_quotes(text_.rest_of_line());
+      if (keyword == "vt") texture_coordinates();
+      if (keyword == "vn") mesh_.has_seams = true;
+      if (keyword == "mtllib") open_library(text_.rest_of_line());
+      if (keyword == "usemtl") materials_.use(text_.rest_of_line());
       if (!ok) return bad_line(keyword);
       text_.next_line();
     }
     convert_colours();
-    name_textures();
+    finish_materials();
     return std::move(mesh_);
   }
 
@@ -44,6 +49,17 @@ class ObjReader {
     return true;
   }
 
+  void texture_coordinates() {
+    std::array<float, 2> at{};
+    if (text_.number(at[0])) text_.number(at[1]);
+    places_.push_back(at);
+    mesh_.has_seams = true;
+  }
+
+  void open_library(std::string_view name) {
+    if (!materials_.open_library(name)) missing_library_ = in_quotes(name);
+  }
+
   // Corners are v, v/vt, v//vn or v/vt/vn; negative numbers count back from the newest vertex.
   bool face() {
     corners_.clear();
@@ -53,7 +69,12 @@ class ObjReader {
       if (v < 0) v += static_cast<std::int64_t>(mesh_.positions.size()) + 1;
       if (v <= 0) return false;
       corners_.push_back(static_cast<std::uint32_t>(std::min<std::int64_t>(v - 1, 0xFFFF'FFFF)));
-      if (text_.skip('/')) text_.word();
+      std::int64_t vt = 0;
+      if (text_.skip('/')) {
+        text_.number(vt, '/');
+        if (text_.skip('/')) text_.word();
+      }
+      if (materials_.has_current()) add_sample(corners_.back(), vt);
     }
     mesh_.add_face(corners_);
     return true;
@@ -75,11 +96,31 @@ class ObjReader {
     }
   }
 
-  void name_textures() {
-    if (!has_texture_coordinates_) return;
-    mesh_.repairs.push_back(library_.empty()
-                                ? "texture coordinates not carried"
-                                : "texture map (material library " + library_ + ") not carried");
+  // Takes the material's colour for a corner; `vt` counts like v, 0 where there is none.
+  void add_sample(std::uint32_t vertex, std::int64_t vt) {
+    if (vertex >= mesh_.positions.size()) return;
+    const auto count = static_cast<std::int64_t>(places_.size());
+    if (vt < 0) vt += count + 1;
+    const bool known = vt > 0 && vt <= count;
+    const auto [u, v] = known ? places_[static_cast<std::size_t>(vt - 1)] : std::array<float, 2>{};
+    means_.resize(mesh_.positions.size());
+    means_.add(vertex, materials_.colour_at(u, v));
+  }
+
+  void finish_materials() {
+    if (!means_.empty() && colours_.empty()) {
+      means_.resize(mesh_.positions.size());
+      mesh_.colours = means_.take();
+      mesh_.is_baked = true;
+      mesh_.repairs = materials_.report();
+    } else if (!means_.empty()) {
+      mesh_.repairs.emplace_back("materials not carried: the vertices have colours of their own");
+    } else if (!missing_library_.empty()) {
+      mesh_.repairs.push_back("material library " + missing_library_ +
+                              " not carried: it is not beside the mesh file");
+    } else if (!places_.empty()) {
+      mesh_.repairs.emplace_back("texture coordinates not carried");
+    }
   }
 
   Unexpected bad_line(std::string_view keyword) const {
@@ -95,14 +136,16 @@ class ObjReader {
   RawMesh mesh_;
   std::vector<std::array<float, 3>> colours_;
   std::vector<std::uint32_t> corners_;
-  std::string library_;
-  bool has_texture_coordinates_ = false;
+  ObjMaterials materials_;
+  std::vector<std::array<float, 2>> places_;  // texture coordinates
+  ColourMeans means_;  // of the materials' colours; empty while there are none
+  std::string missing_library_;
 };
 
 }  // namespace
 
-Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes) {
-  return ObjReader(bytes).read();
+Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const Companions& beside) {
+  return ObjReader(bytes, beside).read();
 }
 
 }  // namespace vitrine

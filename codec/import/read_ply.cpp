@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "codec/import/byte_cursor.h"
+#include "codec/import/named_pictures.h"
 #include "codec/import/ply_header.h"
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
@@ -83,7 +84,9 @@ class BinaryValues {
   ByteCursor bytes_;
 };
 
-enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kNowhere };
+enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kNowhere };
+
+using Row = std::array<double, kNowhere + 1>;
 
 Slot slot_of(const std::string& name) {
   if (name == "x") return kX;
@@ -92,6 +95,8 @@ Slot slot_of(const std::string& name) {
   if (name == "red" || name == "r" || name == "diffuse_red") return kRed;
   if (name == "green" || name == "g" || name == "diffuse_green") return kGreen;
   if (name == "blue" || name == "b" || name == "diffuse_blue") return kBlue;
+  if (name == "u" || name == "s" || name == "texture_u") return kU;
+  if (name == "v" || name == "t" || name == "texture_v") return kV;
   return kNowhere;
 }
 
@@ -100,38 +105,60 @@ struct VertexPlan {
   std::vector<Slot> slots;
   unsigned found = 0;       // bit per slot
   double colour_scale = 1;  // to 0..1
+  bool has_normal = false;
 
   explicit VertexPlan(const PlyElement& element) {
     for (const PlyProperty& property : element.properties) {
       const Slot slot = property.is_list ? kNowhere : slot_of(property.name);
       slots.push_back(slot);
       found |= 1u << slot;
+      has_normal = has_normal || property.name == "nx";
       if (slot == kRed && property.type == PlyType::kUint8) colour_scale = 1.0 / 255;
       if (slot == kRed && property.type == PlyType::kUint16) colour_scale = 1.0 / 65535;
     }
   }
   bool has_position() const { return (found & 7) == 7; }
   bool has_colour() const { return (found >> kRed & 7) == 7; }
+  bool has_place() const { return (found >> kU & 3) == 3; }
 };
 
 template <class Values>
 class BodyReader {
  public:
-  BodyReader(const PlyHeader& header, std::span<const std::uint8_t> body)
-      : header_(header), values_(body) {}
+  BodyReader(const PlyHeader& header, std::span<const std::uint8_t> body, const Companions& beside)
+      : header_(header), values_(body), pictures_(beside) {}
 
   Expected<RawMesh> read() {
+    if (header_.textures.size() == 1) picture_ = pictures_.find(header_.textures[0]);
     for (const PlyElement& element : header_.elements) {
       auto ok = read_element(element);
       if (!ok) return Unexpected(ok.error());
     }
-    if (!header_.texture.empty()) {
-      mesh_.repairs.push_back("texture map " + header_.texture + " not carried");
-    }
+    finish_texture();
     return std::move(mesh_);
   }
 
  private:
+  void finish_texture() {
+    if (picture_ != nullptr && !means_.empty() && mesh_.colours.empty()) {
+      means_.resize(mesh_.positions.size());
+      mesh_.colours = means_.take();
+      mesh_.is_baked = true;
+    } else if (picture_ != nullptr || header_.textures.size() > 1) {
+      mesh_.repairs.push_back(counted(header_.textures.size(), "texture map") +
+                              " not carried: only one can be, on vertices without colours");
+      return;
+    }
+    const auto lines = pictures_.report();
+    mesh_.repairs.insert(mesh_.repairs.end(), lines.begin(), lines.end());
+  }
+
+  void add_sample(std::uint32_t vertex, double u, double v) {
+    if (vertex >= mesh_.positions.size()) return;
+    means_.resize(mesh_.positions.size());
+    means_.add(vertex, sample_upwards(*picture_, u, v));
+  }
+
   Expected<void> read_element(const PlyElement& element) {
     if (element.properties.empty()) return {};
     if (element.name == "vertex") return read_vertices(element);
@@ -151,10 +178,11 @@ class BodyReader {
     const VertexPlan plan(element);
     if (!plan.has_position()) return bad_input("the PLY vertices lack a property x, y or z");
     if (!mesh_.positions.empty()) return bad_input("the PLY file has two vertex elements");
+    mesh_.has_seams = plan.has_place() || plan.has_normal;
     mesh_.positions.reserve(element.count);
     if (plan.has_colour()) mesh_.colours.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      std::array<double, 7> row;
+      Row row;
       for (std::size_t p = 0; p < plan.slots.size(); ++p) {
         const PlyProperty& property = element.properties[p];
         if (property.is_list) {
@@ -166,11 +194,14 @@ class BodyReader {
       if (values_.failed()) return cut_short(element, i);
       mesh_.positions.push_back({row[kX], row[kY], row[kZ]});
       if (plan.has_colour()) mesh_.colours.push_back(colour(row, plan.colour_scale));
+      if (plan.has_place() && picture_ != nullptr) {
+        add_sample(static_cast<std::uint32_t>(i), row[kU], row[kV]);
+      }
     }
     return {};
   }
 
-  static Colour colour(const std::array<double, 7>& row, double scale) {
+  static Colour colour(const Row& row, double scale) {
     return {to_byte(row[kRed] * scale), to_byte(row[kGreen] * scale), to_byte(row[kBlue] * scale)};
   }
 
@@ -181,13 +212,17 @@ class BodyReader {
     bool has_list = false;
     for (const PlyProperty& p : element.properties) {
       has_list = has_list || (p.is_list && p.name.starts_with(list));
-      if (p.name == "texcoord") mesh_.repairs.emplace_back("texture coordinates not carried");
+      if (p.name == "texcoord" && picture_ == nullptr) {
+        mesh_.repairs.emplace_back("texture coordinates not carried");
+      }
     }
     if (!has_list) return bad_input("the PLY faces have no list vertex_indices");
     std::vector<std::uint32_t> corners;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) {
-        if (!property.is_list || !property.name.starts_with(list)) {
+        if (picture_ != nullptr && property.is_list && property.name == "texcoord") {
+          read_places(property, corners);
+        } else if (!property.is_list || !property.name.starts_with(list)) {
           skip(property);
         } else if (read_list(property, corners)) {
           (this->*add)(corners);
@@ -205,6 +240,16 @@ class BodyReader {
     for (std::uint32_t& corner : corners)
       corner = values_.index(property.type);
     return !values_.failed();
+  }
+
+  // u and v for each corner of the face that was read last.
+  void read_places(const PlyProperty& property, const std::vector<std::uint32_t>& corners) {
+    const std::uint32_t count = values_.index(property.count_type);
+    if (count != 2 * corners.size()) return values_.skip(property.type, count);
+    for (const std::uint32_t vertex : corners) {
+      const double u = values_.real(property.type), v = values_.real(property.type);
+      add_sample(vertex, u, v);
+    }
   }
 
   void face_of(const std::vector<std::uint32_t>& corners) { mesh_.add_face(corners); }
@@ -234,22 +279,25 @@ class BodyReader {
 
   const PlyHeader& header_;
   Values values_;
+  NamedPictures pictures_;
+  const Image* picture_ = nullptr;
+  ColourMeans means_;  // empty while there are no texture coordinates
   RawMesh mesh_;
 };
 
 }  // namespace
 
-Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes) {
+Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const Companions& beside) {
   const auto header = parse_ply_header(bytes);
   if (!header) return Unexpected(header.error());
   const auto body = bytes.subspan(header->data_begin);
   switch (header->format) {
     case PlyFormat::kAscii:
-      return BodyReader<AsciiValues>(*header, body).read();
+      return BodyReader<AsciiValues>(*header, body, beside).read();
     case PlyFormat::kLittleEndian:
-      return BodyReader<BinaryValues<false>>(*header, body).read();
+      return BodyReader<BinaryValues<false>>(*header, body, beside).read();
     default:
-      return BodyReader<BinaryValues<true>>(*header, body).read();
+      return BodyReader<BinaryValues<true>>(*header, body, beside).read();
   }
 }
 

@@ -8,12 +8,13 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/limits.h"
+#include "codec/import/companions.h"
 #include "codec/import/raw_mesh.h"
 
 namespace vitrine {
 
-Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes);
-Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes);
+Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const Companions& beside);
+Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const Companions& beside);
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes);
 Expected<RawMesh> read_off(std::span<const std::uint8_t> bytes);
 Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const Limits& limits);

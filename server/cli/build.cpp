@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "server/cli/command.h"
+#include "server/cli/companion_files.h"
 #include "server/cli/console.h"
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
@@ -83,13 +84,15 @@ std::string as_text(const json& report, const Manifest& manifest, const std::str
 
 Outcome build(const Arguments& arguments) {
   if (!arguments.has("-o")) return misused("-o is missing: name the output file");
-  const auto options = read_options(arguments);
+  auto options = read_options(arguments);
   if (!options) return tl::unexpected(options.error());
   const std::string path = arguments.operand(0), out = arguments.text("-o");
   if (const auto writable = check_writable(out); !writable) return failed(writable.error());
   if (const auto distinct = check_distinct(path, out); !distinct) return failed(distinct.error());
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
+  const CompanionFiles companions(path, file->bytes());
+  options->reading.beside = companions.contents();
 
   auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
     auto result = build_model(file->bytes(), *options, progress);

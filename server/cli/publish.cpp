@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "server/cli/command.h"
+#include "server/cli/companion_files.h"
 #include "server/cli/console.h"
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
@@ -43,7 +44,7 @@ Outcome publish_file(const Arguments& arguments) {
         "vitrine publish IN --data DIR on the server itself");
   }
   if (!arguments.has("--data")) return misused("--data is missing: name the data folder");
-  const auto reading = reading_options(arguments);
+  auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
   const std::string path = arguments.operand(0);
   const auto file = InputFile::open(path);
@@ -51,6 +52,8 @@ Outcome publish_file(const Arguments& arguments) {
   if (file->is_pmesh() && (arguments.has("--unit") || arguments.has("--up"))) {
     return misused("--unit and --up are for meshes; a .pmesh has its own, so build it again");
   }
+  const CompanionFiles companions(path, file->bytes());
+  reading->beside = companions.contents();
   const auto pmesh = make_pmesh(*file, path, *reading);
   if (!pmesh) return tl::unexpected(pmesh.error());
 

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "server/cli/command.h"
+#include "server/cli/companion_files.h"
 #include "server/cli/console.h"
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
@@ -41,16 +42,19 @@ Outcome report_fault(bool as_json, const Fault& fault) {
 }
 
 Outcome verify(const Arguments& arguments) {
-  const auto reading = reading_options(arguments);
+  auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
   const std::string path = arguments.operand(0);
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
   std::optional<InputFile> input;
+  std::optional<CompanionFiles> companions;
   if (arguments.has("--against")) {
     auto opened = InputFile::open(arguments.text("--against"));
     if (!opened) return failed(opened.error());
     input.emplace(std::move(*opened));
+    companions.emplace(arguments.text("--against"), input->bytes());
+    reading->beside = companions->contents();
   }
   const auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
     std::optional<OriginalFile> against;

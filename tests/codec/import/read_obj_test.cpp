@@ -61,7 +61,9 @@ TEST(ReadObj, SaysThatATextureIsNotCarried) {
   const auto result = read_text(
       "mtllib bust.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl skin\n"
       "f 1/1 2/1 3/1\n");
-  EXPECT_THAT(result.repairs, ElementsAre("texture map (material library 'bust.mtl') not carried"));
+  EXPECT_THAT(
+      result.repairs,
+      ElementsAre("material library 'bust.mtl' not carried: it is not beside the mesh file"));
 }
 
 TEST(ReadObj, NamesTheLineOfAFault) {

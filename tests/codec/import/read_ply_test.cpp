@@ -107,7 +107,8 @@ TEST(ReadPly, TriangleStrips) {
 TEST(ReadPly, SaysThatATextureIsNotCarried) {
   const auto result = read_text(header("ascii", "comment TextureFile skin.png\n" + kPlain) +
                                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  EXPECT_THAT(result.repairs, ElementsAre("texture map 'skin.png' not carried"));
+  EXPECT_THAT(result.repairs,
+              ElementsAre("texture map 'skin.png' not carried: it is not beside the mesh file"));
 }
 
 TEST(ReadPly, RefusesACountThatTheFileCannotHold) {

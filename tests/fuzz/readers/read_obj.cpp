@@ -2,6 +2,6 @@
 #include "fuzz/readers/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size <= vitrine::fuzz::kMostBytes) vitrine::fuzz::check(vitrine::read_obj({data, size}));
+  if (size <= vitrine::fuzz::kMostBytes) vitrine::fuzz::check(vitrine::read_obj({data, size}, {}));
   return 0;
 }

@@ -205,6 +205,19 @@ TEST_F(VitrineCommand, a_model_that_was_turned_up_is_lossless_only_against_the_t
   expect_fault(vitrine({"verify", path("out.pmesh"), "--against", in}), 1);
 }
 
+TEST_F(VitrineCommand, materials_that_lie_beside_an_obj_colour_the_model) {
+  write("Bust.MTL", "newmtl stone\nKd 0.2 0.4 0.6\n");
+  const std::string in = write("in.obj",
+                               "mtllib C:\\scans\\bust.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                               "usemtl stone\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const json report = vitrine_json({"build", in, "-o", path("out.pmesh")});
+  EXPECT_EQ(report["input"]["repairs"],
+            json::array({"material colours baked into vertex colours"}));
+  EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in})["lossless"], true);
+  vitrine_json({"decode", path("out.pmesh"), "-o", path("out.ply")});
+  EXPECT_NE(read("out.ply").find("property uchar red"), std::string::npos);
+}
+
 TEST_F(VitrineCommand, help_and_version_go_to_stdout) {
   for (const char* command : {"build", "info", "decode", "verify", "measure", "publish"}) {
     const ProgramResult help = vitrine({command, "--help"});

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/companions.h"
+
+namespace vitrine {
+
+std::string companion_key(std::string_view path) {
+  const std::size_t slash = path.find_last_of("/\\");
+  std::string key(slash == path.npos ? path : path.substr(slash + 1));
+  for (char& c : key)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return key;
+}
+
+std::optional<std::span<const std::uint8_t>> find_companion(const Companions& companions,
+                                                            std::string_view path) {
+  const auto it = companions.find(companion_key(path));
+  return it == companions.end() ? std::nullopt : std::optional(it->second);
+}
+
+}  // namespace vitrine
