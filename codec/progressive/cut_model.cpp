@@ -8,6 +8,8 @@
 namespace vitrine {
 namespace {
 
+constexpr double kNegligible = 1e-3;  // probability of a candidate that learning passes over
+
 // Sums over the real ring vertices before each position, twice round.
 struct Prefix {
   std::array<Vec3, 2 * kMaxSplitValence + 1> sum{};
@@ -54,8 +56,14 @@ CutModel::CutModel() {
 }
 
 Vec3 CutModel::estimate(const CutRing& ring, const Cut& cut) {
-  const Prefix prefix = prefix_of(ring);
-  return (arc(prefix, cut.j, cut.i + ring.size).mean - arc(prefix, cut.i, cut.j).mean) * kArcToEdge;
+  Arc near, far;
+  for (std::uint32_t k = 0; k < ring.size; ++k) {
+    if (ring.is_virtual[k]) continue;
+    if (k >= cut.i && k <= cut.j) near.sum += ring.at[k], ++near.count;
+    if (k <= cut.i || k >= cut.j) far.sum += ring.at[k], ++far.count;
+  }
+  return (far.sum * (1.0 / std::max(far.count, 1)) - near.sum * (1.0 / std::max(near.count, 1))) *
+         kArcToEdge;
 }
 
 void CutModel::evaluate(const CutRing& ring) {
@@ -122,6 +130,7 @@ void CutModel::learn(std::uint32_t chosen) {
   Features mean{};
   for (std::uint32_t k = 0; k < count_; ++k) {
     const Candidate& c = candidates_[k];
+    if (c.probability < kNegligible) continue;
     for (std::size_t f = 0; f < kFeatures; ++f)
       mean[f] += c.probability * c.features[f];
   }

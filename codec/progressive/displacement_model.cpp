@@ -10,8 +10,7 @@ namespace {
 
 constexpr double kRidge = 4;  // how many splits the start weights count for
 constexpr std::uint32_t kSolveEvery = 16;
-constexpr double kPriorWeight = 12;  // how many splits a start energy counts for
-constexpr double kMemory = 300;      // splits that an error energy remembers
+constexpr double kMemory = 600;  // splits that the evidence remembers
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double l = length(v);
@@ -34,36 +33,54 @@ void DisplacementModel::Regression::start(const double* prior) {
 }
 
 DisplacementModel::DisplacementModel() {
-  tangential_.start(trained::kTangentialWeights);
-  normal_.start(trained::kNormalWeights);
-  for (std::size_t k = 0; k < energy_.size(); ++k) {
-    std::copy_n(trained::kEnergy + 3 * k, 3, energy_[k].begin());
-    weight_[k].fill(kPriorWeight);
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    part_[kind].tangential.start(trained::kTangentialWeights + kind * kFeatures);
+    part_[kind].normal.start(trained::kNormalWeights + kind * kFeatures);
+  }
+  const double* start = trained::kEvidence;
+  for (auto& clue : evidence_) {
+    for (Evidence& e : clue) {
+      e = {{start[0], start[1], start[2]}, start[3], kPriorWeight};
+      start += 4;
+    }
   }
 }
 
-Vec3 DisplacementModel::predict(const SplitSurroundings& s) const {
+Vec3 DisplacementModel::combine(const SplitSurroundings& s) const {
+  const Part& part = part_[s.kind];
   Vec3 d;
   for (std::size_t k = 0; k < kFeatures; ++k) {
     const double across = dot(s.features[k], s.normal);
-    d += s.features[k] * tangential_.weights[k] +
-         s.normal * (across * (normal_.weights[k] - tangential_.weights[k]));
+    const double tangential = part.tangential.weights[k];
+    d += s.features[k] * tangential + s.normal * (across * (part.normal.weights[k] - tangential));
   }
   return d;
 }
 
 DisplacementModel::Spread DisplacementModel::spread_of(const SplitSurroundings& s,
-                                                       const Vec3& predicted) const {
+                                                       const Vec3& linear) const {
   Spread spread;
   const Vec3 normal = unit_or(s.normal, {0, 0, 1});
-  const Vec3 in_plane = predicted - normal * dot(predicted, normal);
+  const Vec3 in_plane = linear - normal * dot(linear, normal);
   const Vec3 along = unit_or(in_plane, any_perpendicular(normal));
   spread.frame = {along, normal, cross(normal, along)};
-  const auto& energy = energy_[static_cast<std::size_t>(s.context)];
-  auto& c = spread.covariance;
-  c = {kGrain, 0, 0, kGrain, 0, kGrain};
+  spread.variance.fill(1);
+  for (std::size_t clue = 0; clue < kClues; ++clue) {
+    const Evidence& e = evidence_[clue][s.clues[clue]];
+    for (std::size_t k = 0; k < 3; ++k)
+      spread.variance[k] *= e.factor[k];
+    spread.bias += e.bias;
+  }
+  for (double& v : spread.variance)
+    v = std::clamp(v, 1e-7, 16.0);
+  return spread;
+}
+
+std::array<double, 6> DisplacementModel::covariance(const SplitSurroundings& s,
+                                                    const Spread& spread) {
+  std::array<double, 6> c = {kGrain, 0, 0, kGrain, 0, kGrain};
   for (std::size_t k = 0; k < 3; ++k) {
-    const double variance = energy[k] * s.scale * s.scale;
+    const double variance = spread.variance[k] * s.scale * s.scale;
     const Vec3& e = spread.frame[k];
     c[0] += variance * e.x * e.x;
     c[1] += variance * e.x * e.y;
@@ -72,38 +89,48 @@ DisplacementModel::Spread DisplacementModel::spread_of(const SplitSurroundings& 
     c[4] += variance * e.y * e.z;
     c[5] += variance * e.z * e.z;
   }
-  return spread;
+  return c;
 }
 
-void DisplacementModel::learn(const SplitSurroundings& s, const Spread& spread, const Vec3& error,
-                              const Vec3& d) {
+void DisplacementModel::learn_spread(const SplitSurroundings& s, const Spread& spread,
+                                     const Vec3& error) {
   const double inverse = 1 / (s.scale * s.scale);
-  auto& energy = energy_[static_cast<std::size_t>(s.context)];
-  auto& weight = weight_[static_cast<std::size_t>(s.context)];
+  std::array<double, 3> surprise;  // observed variance against the expected one, less 1
   for (std::size_t k = 0; k < 3; ++k) {
     const double e = dot(error, spread.frame[k]);
-    const double seen = std::min(e * e * inverse, 16.0);
-    energy[k] += (seen - energy[k]) / (weight[k] + 1);
-    energy[k] = std::max(energy[k], 1e-7);
-    weight[k] = std::min(weight[k] + 1, kMemory);
+    surprise[k] = std::min(e * e * inverse / spread.variance[k], 8.0) - 1;
   }
+  const double along = std::clamp(dot(error, spread.frame[0]) / s.scale, -1.0, 1.0);
+  for (std::size_t clue = 0; clue < kClues; ++clue) {
+    Evidence& e = evidence_[clue][s.clues[clue]];
+    const double rate = 1 / (e.seen + 1);
+    for (std::size_t k = 0; k < 3; ++k)
+      e.factor[k] = std::clamp(e.factor[k] * (1 + surprise[k] * rate), 1e-3, 1e3);
+    e.bias = std::clamp(e.bias + along * rate, -1.0, 1.0);
+    e.seen = std::min(e.seen + 1, kMemory);
+  }
+}
+
+void DisplacementModel::learn_weights(const SplitSurroundings& s, const Vec3& d) {
+  Part& part = part_[s.kind];
+  const double inverse = 1 / (s.scale * s.scale);
   const double d_normal = dot(d, s.normal);
   std::array<double, kFeatures> f_normal;
   for (std::size_t a = 0; a < kFeatures; ++a)
     f_normal[a] = dot(s.features[a], s.normal);
   for (std::size_t a = 0; a < kFeatures; ++a) {
     const double along_normal = f_normal[a] * d_normal;
-    tangential_.right_side[a] += (dot(s.features[a], d) - along_normal) * inverse;
-    normal_.right_side[a] += along_normal * inverse;
+    part.tangential.right_side[a] += (dot(s.features[a], d) - along_normal) * inverse;
+    part.normal.right_side[a] += along_normal * inverse;
     for (std::size_t b = 0; b <= a; ++b) {
       const double both_normal = f_normal[a] * f_normal[b];
-      tangential_.matrix[a][b] += (dot(s.features[a], s.features[b]) - both_normal) * inverse;
-      normal_.matrix[a][b] += both_normal * inverse;
+      part.tangential.matrix[a][b] += (dot(s.features[a], s.features[b]) - both_normal) * inverse;
+      part.normal.matrix[a][b] += both_normal * inverse;
     }
   }
-  if (++learned_ % kSolveEvery == 0) {
-    tangential_.solve();
-    normal_.solve();
+  if (++part.learned % kSolveEvery == 0) {
+    part.tangential.solve();
+    part.normal.solve();
   }
 }
 

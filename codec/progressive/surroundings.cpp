@@ -32,10 +32,15 @@ struct Mean {
 };
 
 struct HalfFeatures {
-  Mean all, inner, parallelogram, neighbour_d;
+  Mean all, inner, parallelogram, tip;
+  Vec3 shoulders;  // sum of the neighbours next to the two cut vertices
   double distance = 0;
-  double error = 0;  // of neighbour_d's predictions, relative to their scale
-  int pending = 0;   // neighbours of the region that split in this level and are still estimates
+};
+
+struct NeighbourSplits {
+  Mean d;
+  SplitError error;  // sums over d's predictions
+  int pending = 0;   // splits of this level that are still estimates
 };
 
 // Parallelogram prediction of the vertex across the edge that faces it.
@@ -45,21 +50,23 @@ void add_parallelogram(const MeshState& mesh, const HalfRing& half, std::uint32_
   if (mesh.region_of(a) != region || mesh.region_of(b) != region) return;
   const VertexId tip = mesh.connectivity.vertex(mesh.connectivity.opposite(half.corners[k]));
   if (mesh.region_of(tip) != region) return;
-  f.parallelogram.add(
-      to_vec3(mesh.positions[a] + mesh.positions[b] - mesh.positions[tip] - origin));
+  const Vec3i& across = mesh.positions[tip];
+  f.parallelogram.add(to_vec3(mesh.positions[a] + mesh.positions[b] - across - origin));
+  f.tip.add(to_vec3(across - origin));
 }
 
-void add_neighbour_d(const MeshState& mesh, std::span<const Split> splits, std::size_t s,
-                     VertexId q, HalfFeatures& f, const Vec3& sense) {
+void add_neighbour_split(const MeshState& mesh, std::span<const Split> splits, std::size_t s,
+                         VertexId q, const Vec3& sense, NeighbourSplits& out) {
   const std::uint32_t t = mesh.split_of[q];
   if (t >= splits.size() || (splits[t].v != q && splits[t].w != q)) return;
   if (t >= s) {
-    ++f.pending;
+    ++out.pending;
     return;
   }
   const Vec3 d = to_vec3(mesh.positions[splits[t].v] - mesh.positions[splits[t].w]);
-  f.neighbour_d.add(dot(d, sense) < 0 ? d * -1.0 : d);
-  f.error += splits[t].error;
+  out.d.add(dot(d, sense) < 0 ? d * -1.0 : d);
+  out.error.all += splits[t].error.all;
+  out.error.normal += splits[t].error.normal;
 }
 
 HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, std::uint16_t region,
@@ -71,7 +78,11 @@ HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, std::uin
     const Vec3 p = to_vec3(mesh.positions[q] - origin);
     f.all.add(p);
     f.distance += length(p);
-    if (k > 0 && k + 1 < half.size) f.inner.add(p);
+    if (k > 0 && k + 1 < half.size) {
+      f.inner.add(p);
+      if (k == 1) f.shoulders += p;
+      if (k + 2 == half.size) f.shoulders += p;
+    }
     if (k + 1 < half.size) add_parallelogram(mesh, half, k, region, origin, f);
   }
   return f;
@@ -105,6 +116,30 @@ Vec3 unit(const Vec3& v) {
   const double l = length(v);
   return l > 1e-9 ? v * (1 / l) : Vec3{};
 }
+
+// floor(2^kFraction log2 x) from `least` on, as one of `count` levels.
+template <int kFraction>
+std::uint8_t level_of(double x, int least, int count) {
+  const int level = exact::log2_bucket<kFraction>(x + 1e-6) - least;
+  return static_cast<std::uint8_t>(std::clamp(level, 0, count - 1));
+}
+
+// How the neighbours lie: mean squares of their heights above the plane and of their distances'
+// deviations from the mean distance.
+struct Unevenness {
+  double height = 0, distance = 0;
+  int count = 0;
+
+  void add(const MeshState& mesh, const HalfRing& half, const Vec3i& origin, const Vec3& normal,
+           double scale) {
+    for (std::uint32_t k = 0; k < half.size; ++k) {
+      if (is_virtual(half.vertices[k])) continue;
+      const Vec3 p = to_vec3(mesh.positions[half.vertices[k]] - origin);
+      const double h = dot(p, normal), l = length(p) - scale;
+      height += h * h, distance += l * l, ++count;
+    }
+  }
+};
 
 }  // namespace
 
@@ -177,12 +212,13 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   const std::uint16_t region = mesh.region[split.v];
   const HalfRing of_v = half_ring(mesh, 3 * (split.new_face + 1));
   const HalfRing of_w = half_ring(mesh, 3 * split.new_face + 2);
-  HalfFeatures v = half_features(mesh, of_v, region, split.merged);
-  HalfFeatures w = half_features(mesh, of_w, region, split.merged);
+  const HalfFeatures v = half_features(mesh, of_v, region, split.merged);
+  const HalfFeatures w = half_features(mesh, of_w, region, split.merged);
 
   SplitSurroundings out;
   const int neighbours = std::max(v.all.count + w.all.count, 1);
-  out.scale = std::max((v.distance + w.distance) / neighbours, 0.5);
+  const double scale = std::max((v.distance + w.distance) / neighbours, 0.5);
+  out.scale = scale;
   out.normal = outline_normal(mesh, of_v, of_w, split.merged);
 
   const Vec3 arcs = v.all.value() - w.all.value();
@@ -191,33 +227,64 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   const Vec3 inner_arcs = inner ? v.inner.value() - w.inner.value() : arcs;
   const Vec3 parallelograms =
       tips ? v.parallelogram.value() - w.parallelogram.value() : arcs * CutModel::kArcToEdge;
+  const int tip_count = std::max(v.tip.count + w.tip.count, 1);
+  const Vec3 tip_arcs = (v.tip.sum - w.tip.sum) * (2.0 / tip_count);
 
   Vec3 chord;
   const VertexId qj = of_v.vertices[0], qi = of_w.vertices[0];
   if (of_v.size > 0 && of_w.size > 0 && !is_virtual(qi) && !is_virtual(qj)) {
     chord = to_vec3(mesh.positions[qj] - mesh.positions[qi]);
   }
-  HalfFeatures around;
+  NeighbourSplits around;
   for (const HalfRing* half : {&of_v, &of_w}) {
     for (std::uint32_t k = 0; k < half->size; ++k) {
       const VertexId q = half->vertices[k];
-      if (mesh.region_of(q) == region) add_neighbour_d(mesh, splits, s, q, around, arcs);
+      if (mesh.region_of(q) == region) add_neighbour_split(mesh, splits, s, q, arcs, around);
     }
   }
-  const Vec3 across = unit(cross(out.normal, chord)) * out.scale;
-  const Vec3 neighbour_d =
-      around.neighbour_d.count > 0 ? around.neighbour_d.value() : arcs * CutModel::kArcToEdge;
+  const Vec3 across = unit(cross(out.normal, chord)) * scale;
+  const int known = around.d.count;
+  const Vec3 neighbour_d = known > 0 ? around.d.value() : arcs * CutModel::kArcToEdge;
   // Both vertices in the middle of their neighbours, one of which is the other vertex.
   const auto umbrella = [](const HalfFeatures& f) { return f.all.sum * (2.0 / (f.all.count + 2)); };
   const Vec3 laplace = (umbrella(v) - umbrella(w)) * 0.5;
-  out.features = {
-      laplace, arcs, inner_arcs, parallelograms, across, neighbour_d, cross(out.normal, chord)};
-  const double disagreement = length(laplace - parallelograms) / out.scale;
-  const int bucket = std::clamp(exact::log2_bucket<1>(disagreement + 1e-6) + 6, 0, 6);
-  const int known = around.neighbour_d.count;
-  const int rough =
-      known == 0 ? 0 : std::clamp(exact::log2_bucket<0>(around.error / known + 1e-6) + 6, 1, 5);
-  out.context = (bucket * 6 + rough) * 2 + (2 * around.pending > neighbours ? 1 : 0);
+  out.features = {laplace,
+                  arcs,
+                  inner_arcs,
+                  parallelograms,
+                  across,
+                  neighbour_d,
+                  cross(out.normal, chord),
+                  tip_arcs,
+                  (v.shoulders - w.shoulders) * 0.5};
+
+  const auto fewer = static_cast<int>(std::min(of_v.size, of_w.size));
+  const auto more = static_cast<int>(std::max(of_v.size, of_w.size));
+  out.kind = fewer > 4 ? 1 : 0;
+  Unevenness uneven;
+  uneven.add(mesh, of_v, split.merged, out.normal, scale);
+  uneven.add(mesh, of_w, split.merged, out.normal, scale);
+  const double inverse = 1 / scale, per_square = inverse * inverse / std::max(uneven.count, 1);
+  const double lengths = length(arcs) * length(chord);
+  const double slant = lengths > 0 ? std::fabs(dot(arcs, chord)) / lengths : 0;
+  const auto settled = 8 * std::max(neighbours - around.pending, 0) / neighbours;
+  const auto if_known = [&](std::uint8_t level) {
+    return static_cast<std::uint8_t>(known > 0 ? level + 1 : 0);
+  };
+  out.clues = {
+      static_cast<std::uint8_t>(std::clamp(more - 2, 0, 5) * 4 + std::clamp(fewer - 2, 0, 3)),
+      level_of<1>(scale, 0, 21),
+      level_of<2>(length(parallelograms) * inverse, -8, 17),
+      level_of<0>(uneven.height * per_square, -12, 13),
+      level_of<1>(uneven.distance * per_square, -12, 13),
+      static_cast<std::uint8_t>(settled),
+      level_of<1>(length(chord) * inverse, -6, 13),
+      static_cast<std::uint8_t>(std::min(static_cast<int>(slant * 12), 11)),
+      if_known(level_of<1>(around.error.all / std::max(known, 1), -20, 23)),
+      if_known(level_of<0>(around.error.normal / std::max(known, 1), -18, 23)),
+      if_known(level_of<1>(length(neighbour_d - laplace) * inverse, -14, 23)),
+      level_of<1>(length(arcs - laplace) * inverse, -14, 23),
+      level_of<1>(length(laplace - parallelograms) * inverse, -14, 23)};
   return out;
 }
 

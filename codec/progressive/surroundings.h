@@ -21,7 +21,7 @@ struct Split {
   Vec3i merged_colour;         // YCoCg-R
   Vec3i term;                  // r of the placement
   std::uint32_t new_face = 0;  // (v, q_i, w); the next face is (v, w, q_j)
-  double error = 0;            // squared error of the predicted D, relative to its scale
+  SplitError error;            // of its predicted D
 };
 
 struct Ring {

@@ -12,9 +12,9 @@
 namespace vitrine::trained {
 
 extern const double kCutWeights[];           // CutModel::kFeatures
-extern const double kTangentialWeights[];    // DisplacementModel::kFeatures
-extern const double kNormalWeights[];        // DisplacementModel::kFeatures
-extern const double kEnergy[];               // 3 * SplitSurroundings::kContexts
+extern const double kTangentialWeights[];    // DisplacementModel::kKinds * kFeatures
+extern const double kNormalWeights[];        // DisplacementModel::kKinds * kFeatures
+extern const double kEvidence[];             // DisplacementModel::kClues * kLevels * 4: Evidence
 extern const std::uint16_t kFlagBits[];      // FlagModel::kBits, AdaptiveBit::from_packed
 extern const std::uint16_t kCutBits[];       // CutModel::kBits
 extern const std::uint16_t kResidualBits[];  // ResidualCoder::kBits

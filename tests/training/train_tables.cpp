@@ -69,7 +69,7 @@ struct MeanStudy {
 
 struct Study {
   BitStudy flags, cuts, residuals;
-  MeanStudy cut_weights, tangential, normal, energy;
+  MeanStudy cut_weights, tangential, normal, evidence;
 
   template <class Pass>
   void add(const CountingCoder& coder, const Pass& pass, std::uint32_t splits) {
@@ -80,14 +80,22 @@ struct Study {
     for (std::size_t k = 0; k < CutModel::kFeatures; ++k) {
       cut_weights.add(k, pass.cuts().weights()[k], learned);
     }
-    for (std::size_t k = 0; k < DisplacementModel::kFeatures; ++k) {
-      tangential.add(k, pass.displacements().tangential_weights()[k], learned);
-      normal.add(k, pass.displacements().normal_weights()[k], learned);
+    add_displacements(pass.displacements(), learned);
+  }
+
+ private:
+  void add_displacements(const DisplacementModel& model, double learned) {
+    for (std::size_t k = 0; k < DisplacementModel::kKinds * DisplacementModel::kFeatures; ++k) {
+      const std::size_t kind = k / DisplacementModel::kFeatures;
+      const std::size_t feature = k % DisplacementModel::kFeatures;
+      tangential.add(k, model.tangential_weights(kind)[feature], learned);
+      normal.add(k, model.normal_weights(kind)[feature], learned);
     }
-    const auto& model = pass.displacements();
-    for (std::size_t c = 0; c < SplitSurroundings::kContexts; ++c) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        energy.add(3 * c + k, model.energy()[c][k], model.energy_weight()[c][k]);
+    std::size_t k = 0;
+    for (const auto& clue : model.evidence()) {
+      for (const DisplacementModel::Evidence& e : clue) {
+        for (const double value : {e.factor[0], e.factor[1], e.factor[2], e.bias})
+          evidence.add(k++, value, e.seen);
       }
     }
   }
@@ -144,7 +152,7 @@ void print_tables(const Study& study) {
   print_means("kCutWeights", study.cut_weights);
   print_means("kTangentialWeights", study.tangential);
   print_means("kNormalWeights", study.normal);
-  print_means("kEnergy", study.energy);
+  print_means("kEvidence", study.evidence);
   print_bits("kFlagBits", study.flags);
   print_bits("kCutBits", study.cuts);
   print_bits("kResidualBits", study.residuals);
