@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "codec/core/srgb.h"
-#include "codec/export/byte_writer.h"
+#include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
 namespace vitrine {
@@ -25,7 +25,7 @@ Box bounding_box(const std::vector<Vec3>& positions) {
   return box;
 }
 
-void put_vector(ByteWriter& json, const Vec3& v) {
+void put_vector(FileWriter& json, const Vec3& v) {
   json.text("["), json.number(static_cast<float>(v.x));
   json.text(","), json.number(static_cast<float>(v.y));
   json.text(","), json.number(static_cast<float>(v.z)), json.text("]");
@@ -85,7 +85,7 @@ class JsonPart {
 
   const TriangleMesh& mesh_;
   const bool coloured_;
-  ByteWriter out_;
+  FileWriter out_;
   std::size_t at_ = 0;
 };
 
@@ -101,7 +101,7 @@ FileBytes write_glb(const TriangleMesh& mesh) {
                              mesh.faces.size() * sizeof(Triangle) +
                              mesh.colours.size() * kColourBytes;
   const std::size_t total = 12 + 8 + json.size() + 8 + binary;
-  ByteWriter out(total);
+  FileWriter out(total);
   out.text("glTF");
   out.put(std::uint32_t{2});
   out.put(static_cast<std::uint32_t>(total));

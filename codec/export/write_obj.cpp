@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/export/byte_writer.h"
+#include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
 namespace vitrine {
 
 FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit) {
-  ByteWriter out(64 + mesh.positions.size() * 32 + mesh.faces.size() * 24);
+  FileWriter out(64 + mesh.positions.size() * 32 + mesh.faces.size() * 24);
   out.text("# written by Vitrine\n");
   if (!unit.empty()) out.text("# unit "), out.text(unit), out.text("\n");
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {

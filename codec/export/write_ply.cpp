@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/export/byte_writer.h"
+#include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
 namespace vitrine {
 
 FileBytes write_ply(const TriangleMesh& mesh, std::string_view unit) {
   const bool coloured = !mesh.colours.empty();
-  ByteWriter out(300 + mesh.positions.size() * (coloured ? 15 : 12) + mesh.faces.size() * 13);
+  FileWriter out(300 + mesh.positions.size() * (coloured ? 15 : 12) + mesh.faces.size() * 13);
   out.text("ply\nformat binary_little_endian 1.0\ncomment written by Vitrine\n");
   if (!unit.empty()) out.text("comment unit "), out.text(unit), out.text("\n");
   out.text("element vertex ");

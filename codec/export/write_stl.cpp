@@ -2,13 +2,13 @@
 #include <cmath>
 #include <string>
 
-#include "codec/export/byte_writer.h"
+#include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
 namespace vitrine {
 
 FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit) {
-  ByteWriter out(84 + mesh.faces.size() * 50);
+  FileWriter out(84 + mesh.faces.size() * 50);
   std::array<char, 80> title{};  // must not start with "solid", which is for the text format
   std::string text = "binary STL written by Vitrine";
   if (!unit.empty()) text.append(", unit ").append(unit);

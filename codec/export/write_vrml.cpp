@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // VRML 97 (ISO/IEC 14772-1): one shape, an IndexedFaceSet.
-#include "codec/export/byte_writer.h"
+#include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
 namespace vitrine {
@@ -20,7 +20,7 @@ constexpr std::string_view kOpening =
 }  // namespace
 
 FileBytes write_vrml(const TriangleMesh& mesh) {
-  ByteWriter out(512 + mesh.positions.size() * 44 + mesh.faces.size() * 28);
+  FileWriter out(512 + mesh.positions.size() * 44 + mesh.faces.size() * 28);
   out.text(kOpening);
   for (const Vec3& p : mesh.positions)
     out.numbers(p), out.text(",\n");

@@ -7,13 +7,15 @@
 namespace vitrine {
 namespace {
 
-// An edge waits in the bucket of its smaller vertex until the face across comes by.
-struct Waiting {
-  std::uint32_t other;  // its larger vertex
-  std::uint32_t face;
-  std::uint32_t edge;
-  bool upwards;  // the face runs from the smaller vertex to the larger
+// The half-edge runs from one vertex to the other.
+struct Ends {
+  std::uint32_t from, to;
 };
+
+Ends ends(std::span<const Triangle> faces, std::uint32_t half_edge) {
+  const Triangle& f = faces[half_edge / 3];
+  return {f[half_edge % 3], f[(half_edge + 1) % 3]};
+}
 
 std::vector<std::uint32_t> bucket_starts(std::span<const Triangle> faces,
                                          std::size_t vertex_count) {
@@ -34,24 +36,23 @@ std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triang
                                                           std::size_t vertex_count) {
   const std::vector<std::uint32_t> start = bucket_starts(faces, vertex_count);
   std::vector<std::uint32_t> size(vertex_count, 0);
-  std::vector<Waiting> waiting(3 * faces.size());
+  // A half-edge waits in the bucket of its smaller vertex until the one across comes by.
+  std::vector<std::uint32_t> waiting(3 * faces.size());
   std::vector<std::array<std::uint32_t, 3>> across(faces.size());
-  for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    across[f] = {3 * f, 3 * f + 1, 3 * f + 2};
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
-      const Waiting own{high, f, k, faces[f][k] == low};
-      Waiting* const bucket = waiting.data() + start[low];
-      std::uint32_t& n = size[low];
-      Waiting* const twin = std::find_if(bucket, bucket + n, [&own](const Waiting& w) {
-        return w.other == own.other && w.upwards != own.upwards;
-      });
-      if (twin == bucket + n) {
-        bucket[n++] = own;
-      } else {
-        across[f][k] = 3 * twin->face + twin->edge, across[twin->face][twin->edge] = 3 * f + k;
-        *twin = bucket[--n];
-      }
+  for (std::uint32_t h = 0; h < 3 * faces.size(); ++h) {
+    const auto [from, to] = ends(faces, h);
+    across[h / 3][h % 3] = h;
+    std::uint32_t* const bucket = waiting.data() + start[std::min(from, to)];
+    std::uint32_t& n = size[std::min(from, to)];
+    std::uint32_t* const twin = std::find_if(bucket, bucket + n, [&](std::uint32_t other) {
+      const Ends e = ends(faces, other);
+      return e.from == to && e.to == from;
+    });
+    if (twin == bucket + n) {
+      bucket[n++] = h;
+    } else {
+      across[h / 3][h % 3] = *twin, across[*twin / 3][*twin % 3] = h;
+      *twin = bucket[--n];
     }
   }
   return across;

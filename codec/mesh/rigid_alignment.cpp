@@ -102,10 +102,10 @@ RigidMotion align(std::span<const Vec3> points, const TriangleBvh& surface) {
   for (int i = 0; i < kMaxIterations; ++i) {
     double sum = 0;
     for (std::size_t k = 0; k < moved.size(); ++k) {
-      const double bound = squared_distance(surface.triangles()[last[k]], moved[k]);
+      const double bound = squared_distance(surface.triangle(last[k]), moved[k]);
       const SurfacePoint hit = surface.closest(moved[k], {bound, last[k]});
       last[k] = hit.triangle;
-      target[k] = closest_point(surface.triangles()[hit.triangle], moved[k]);
+      target[k] = closest_point(surface.triangle(hit.triangle), moved[k]);
       sum += hit.squared;
     }
     if (!(sum < before * (1 - kConverged))) break;

@@ -33,8 +33,8 @@ OneWayDistance one_way(const TriangleBvh& from, const TriangleBvh& to,
   squared.reserve(options.samples);
   double sum = 0;
   std::uint32_t last = 0;
-  for (const auto& [p, _] : sample_surface(from.triangles(), options.samples, options.seed)) {
-    const SurfacePoint hit = to.closest(p, {squared_distance(to.triangles()[last], p), last});
+  for (const auto& [p, _] : sample_surface(from, options.samples, options.seed)) {
+    const SurfacePoint hit = to.closest(p, {squared_distance(to.triangle(last), p), last});
     last = hit.triangle;
     squared.push_back(hit.squared);
     sum += hit.squared;
@@ -56,7 +56,7 @@ double diagonal(const TriangleBvh::Node& n) {
 TriangleMesh moved(TriangleMesh mesh, const TriangleBvh& from, const TriangleBvh& onto,
                    std::uint64_t seed) {
   std::vector<Vec3> points;
-  for (const SurfaceSample& s : sample_surface(from.triangles(), kAlignSamples, seed)) {
+  for (const SurfaceSample& s : sample_surface(from, kAlignSamples, seed)) {
     points.push_back(s.point);
   }
   const RigidMotion motion = align(points, onto);

@@ -31,23 +31,23 @@ Vec3 point_in(const Corners& t, SplitMix64& random) {
 
 }  // namespace
 
-std::vector<SurfaceSample> sample_surface(std::span<const Corners> triangles, std::size_t count,
+std::vector<SurfaceSample> sample_surface(const TriangleBvh& surface, std::size_t count,
                                           std::uint64_t seed) {
   std::vector<SurfaceSample> points;
-  if (triangles.empty()) return points;
+  if (surface.empty()) return points;
   points.reserve(count);
   double total = 0;
-  for (const Corners& t : triangles)
-    total += area(t);
+  for (std::uint32_t t = 0; t < surface.size(); ++t)
+    total += area(surface.triangle(t));
   SplitMix64 random(seed);
-  std::size_t i = 0;
-  double up_to = area(triangles[0]);  // area of the triangles [0, i]
+  std::uint32_t i = 0;
+  double up_to = area(surface.triangle(0));  // area of the triangles [0, i]
   for (std::size_t k = 0; k < count; ++k) {
     const double at =
         total * ((static_cast<double>(k) + random.unit()) / static_cast<double>(count));
-    while (up_to <= at && i + 1 < triangles.size())
-      up_to += area(triangles[++i]);
-    points.push_back({point_in(triangles[i], random), static_cast<std::uint32_t>(i)});
+    while (up_to <= at && i + 1 < surface.size())
+      up_to += area(surface.triangle(++i));
+    points.push_back({point_in(surface.triangle(i), random), i});
   }
   return points;
 }

@@ -27,6 +27,8 @@ double squared_distance(const TriangleBvh::Node& n, const Vec3& p) {
   return x * x + y * y + z * z;
 }
 
+constexpr std::uint32_t kUnnamed = 0xFFFF'FFFFu;
+
 struct Centre {
   std::array<float, 3> at;
   std::uint32_t face;
@@ -77,16 +79,29 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
   if (mesh.faces.empty()) return;
   std::vector<Centre> centres = centres_of(mesh);
   order(centres);
-  triangles_.reserve(centres.size());
+  faces_.reserve(centres.size());
   face_.reserve(centres.size());
+  std::vector<std::uint32_t> renamed(mesh.positions.size(), kUnnamed);
   for (const Centre& c : centres) {
-    const Triangle& f = mesh.faces[c.face];
-    triangles_.push_back({mesh.positions[f[0]], mesh.positions[f[1]], mesh.positions[f[2]]});
+    add_face(mesh.faces[c.face], mesh, renamed);
     face_.push_back(c.face);
   }
   nodes_.reserve(centres.size());
   nodes_.resize(1);
   build(0, 0, static_cast<std::uint32_t>(centres.size()));
+}
+
+void TriangleBvh::add_face(const Triangle& face, const TriangleMesh& mesh,
+                           std::span<std::uint32_t> renamed) {
+  Triangle& out = faces_.emplace_back();
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::uint32_t& name = renamed[face[k]];
+    if (name == kUnnamed) {
+      name = static_cast<std::uint32_t>(positions_.size());
+      positions_.push_back(mesh.positions[face[k]]);
+    }
+    out[k] = name;
+  }
 }
 
 // Fills `node` for the triangles [first, first + count), children first: boxes come from below.
@@ -105,11 +120,13 @@ void TriangleBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t c
 }
 
 TriangleBvh::TriangleBvh(const TriangleBvh& shape, const TriangleMesh& moved)
-    : nodes_(shape.nodes_), face_(shape.face_) {
-  triangles_.reserve(face_.size());
-  for (const std::uint32_t face : face_) {
-    const Triangle& f = moved.faces[face];
-    triangles_.push_back({moved.positions[f[0]], moved.positions[f[1]], moved.positions[f[2]]});
+    : nodes_(shape.nodes_),
+      faces_(shape.faces_),
+      positions_(shape.positions_.size()),
+      face_(shape.face_) {
+  for (std::uint32_t t = 0; t < size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k)
+      positions_[faces_[t][k]] = moved.positions[moved.faces[face_[t]][k]];
   }
   for (std::size_t i = nodes_.size(); i-- > 0;) {  // children stand behind their parent
     Node& n = nodes_[i];
@@ -126,8 +143,9 @@ void TriangleBvh::bound_children(Node& node) const {
 }
 
 void TriangleBvh::bound_box(Node& node, std::uint32_t first, std::uint32_t count) const {
-  Vec3 low = triangles_[first].a, high = low;
-  for (const Corners& t : triangles().subspan(first, count)) {
+  Vec3 low = positions_[faces_[first][0]], high = low;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const Corners t = triangle(i);
     for (const Vec3& p : {t.a, t.b, t.c}) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
@@ -150,7 +168,7 @@ SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
     if (top.squared >= best.squared) continue;
     const Node& node = nodes_[top.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const double squared = squared_distance(triangles_[i], p);
+      const double squared = squared_distance(triangle(i), p);
       if (squared < best.squared) best = {squared, i};
     }
     if (node.count > 0) continue;

@@ -16,7 +16,7 @@ namespace vitrine {
 
 struct SurfacePoint {
   double squared = std::numeric_limits<double>::infinity();  // distance to the query point
-  std::uint32_t triangle = 0xFFFF'FFFFu;                     // index into TriangleBvh::triangles()
+  std::uint32_t triangle = 0xFFFF'FFFFu;                     // of the TriangleBvh
 };
 
 class TriangleBvh {
@@ -34,22 +34,32 @@ class TriangleBvh {
   // Queries stay fast where vertices moved little.
   TriangleBvh(const TriangleBvh& shape, const TriangleMesh& moved);
 
-  bool empty() const { return triangles_.empty(); }
-  std::span<const Node> nodes() const { return nodes_; }                        // [0] is the root
-  std::span<const Corners> triangles() const { return triangles_; }             // in leaf order
+  bool empty() const { return faces_.empty(); }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(faces_.size()); }
+  std::span<const Node> nodes() const { return nodes_; }  // [0] is the root
+  // Triangles are counted in leaf order.
+  Corners triangle(std::uint32_t t) const {
+    const Triangle& f = faces_[t];
+    return {positions_[f[0]], positions_[f[1]], positions_[f[2]]};
+  }
   std::uint32_t face(std::uint32_t triangle) const { return face_[triangle]; }  // in the mesh
+  // The triangles as faces over vertices that are numbered as they come by.
+  std::span<const Triangle> faces() const { return faces_; }
+  std::size_t vertex_count() const { return positions_.size(); }
 
   // The closest triangle, or `bound` as given where none is closer than it. A good bound, such as
   // the distance to a triangle near by, makes the query several times faster.
   SurfacePoint closest(const Vec3& p, SurfacePoint bound = {}) const;
 
  private:
+  void add_face(const Triangle& face, const TriangleMesh& mesh, std::span<std::uint32_t> renamed);
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void bound_box(Node& node, std::uint32_t first, std::uint32_t count) const;
   void bound_children(Node& node) const;
 
   std::vector<Node> nodes_;
-  std::vector<Corners> triangles_;
+  std::vector<Triangle> faces_;  // over positions_, so that neighbours lie close in memory
+  std::vector<Vec3> positions_;
   std::vector<std::uint32_t> face_;
 };
 

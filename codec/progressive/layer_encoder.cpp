@@ -20,7 +20,9 @@ Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const Bas
   auto mesh = MeshState::from_base(base);
   if (!mesh) return tl::unexpected(mesh.error());
   LayerEncoder encoder(hierarchy, std::move(*mesh));
+  encoder.mesh_.reserve(hierarchy.region.size());
   encoder.fine_ = std::move(fine_ids);
+  encoder.fine_.reserve(hierarchy.region.size());
   encoder.state_.assign(hierarchy.region.size(), kNone);
   encoder.collapse_of_.assign(hierarchy.region.size(), kNone);
   for (VertexId v = 0; v < encoder.fine_.size(); ++v)

@@ -32,6 +32,19 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base) {
   return mesh;
 }
 
+void MeshState::reserve(std::size_t vertices) {
+  connectivity.reserve(vertices, 2 * vertices);
+  positions.reserve(vertices);
+  if (!colours.empty()) colours.reserve(vertices);
+  region.reserve(vertices);
+  index.reserve(vertices);
+  split_level.reserve(vertices);
+  visited_level.reserve(vertices);
+  border.reserve(vertices);
+  valence.reserve(vertices);
+  split_of.reserve(vertices);
+}
+
 void MeshState::count_valence(VertexId v) {
   const Corner first = connectivity.corner_at(v);
   Corner c = first;

@@ -46,6 +46,8 @@ struct MeshState {
   }
 
   void count_valence(VertexId v);
+  // Makes room for that many vertices of a closed mesh.
+  void reserve(std::size_t vertices);
   // Appends what the vertex that was split off `v` inherits from it.
   void inherit(VertexId v);
   // Takes the newest vertex back (after Connectivity::unsplit).

@@ -49,7 +49,7 @@ class Sampler {
                  Fit& fit) const {
     const Vec3 model = lattice_.origin + p * lattice_.step;
     const SurfacePoint hit = original_.closest(model);
-    const Vec3 nearest = closest_point(original_.triangles()[hit.triangle], model);
+    const Vec3 nearest = closest_point(original_.triangle(hit.triangle), model);
     const double offset = dot(nearest - model, normal) * (1 / lattice_.step);
     fit.add(offset, dot(shift, normal), weight);
   }

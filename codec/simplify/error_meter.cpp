@@ -55,7 +55,7 @@ void add_worst(HausdorffBound& bound, const Sampled& sampled, const TriangleBvh&
                const WitnessSurface& target) {
   for (const Worst& w : sampled.worst) {
     bound.know(std::sqrt(w.squared));
-    bound.add(source.triangles()[w.triangle], target, w.nearest);
+    bound.add(source.triangle(w.triangle), target, w.nearest);
   }
 }
 
@@ -63,13 +63,13 @@ void add_worst(HausdorffBound& bound, const Sampled& sampled, const TriangleBvh&
 
 ErrorMeter::ErrorMeter(const TriangleMesh& original)
     : bvh_(original),
-      surface_(bvh_, original),
-      samples_(sample_surface(bvh_.triangles(), kSamples, kSeed)),
+      surface_(bvh_),
+      samples_(sample_surface(bvh_, kSamples, kSeed)),
       negligible_(kNegligible * diagonal(bvh_)) {}
 
 LevelError ErrorMeter::measure(const TriangleMesh& level) const {
   const TriangleBvh bvh(level);
-  const WitnessSurface surface(bvh, level);
+  const WitnessSurface surface(bvh);
   HausdorffBound bound(kTolerance, negligible_);
   const double rms = sample_both(bvh, surface, bound);
   const std::vector<std::uint8_t> settled = bound.add(bvh, surface_);
@@ -88,7 +88,7 @@ LevelError ErrorMeter::measure_moved(const TriangleMesh& moved) const {
 
 double ErrorMeter::sample_both(const TriangleBvh& bvh, const WitnessSurface& surface,
                                HausdorffBound& bound) const {
-  const Sampled there = sample(sample_surface(bvh.triangles(), kSamples, kSeed), surface_);
+  const Sampled there = sample(sample_surface(bvh, kSamples, kSeed), surface_);
   const Sampled back = sample(samples_, surface);
   add_worst(bound, there, bvh, surface_);
   add_worst(bound, back, bvh_, surface);

@@ -49,7 +49,7 @@ void HausdorffBound::add(const Corners& triangle, const WitnessSurface& target,
 // Points at the same place of twin triangles are no farther apart than the farthest corners are.
 void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& other) {
   for (std::uint32_t t = 0; t < one.size(); ++t) {
-    const Corners &a = one.triangle(t), &b = other.triangle(t);
+    const Corners a = one.triangle(t), b = other.triangle(t);
     const double apart = std::max({length(a.a - b.a), length(a.b - b.b), length(a.c - b.c)});
     if (apart <= limit()) {
       bound_ = std::max(bound_, apart);
@@ -87,7 +87,7 @@ void HausdorffBound::visit(Visit& all, std::uint32_t index) {
   bool near = false;
   for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
     if (!all.settled.empty() && all.settled[t] != 0) continue;
-    const Corners& triangle = all.source.triangles()[t];
+    const Corners triangle = all.source.triangle(t);
     if (!near) approach(centre_of(triangle));
     near = true;
     visit_triangle(triangle, all.patches);

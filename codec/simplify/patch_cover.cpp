@@ -72,7 +72,7 @@ PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t star
   bool over_centre = false;
   ++call_;
   seen_[start] = call_;
-  const Corners& first = surface_.triangle(start);
+  const Corners first = surface_.triangle(start);
   open_.assign(1, {start, 0, prism.place(first.a), prism.place(first.b)});
   while (!open_.empty()) {
     const Open open = open_.back();
@@ -87,7 +87,7 @@ PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t star
 bool PatchCover::step(const Prism& prism, const Open& open, double limit, Result& result,
                       bool& over_centre) {
   const std::uint32_t t = open.triangle;
-  const Corners& s = surface_.triangle(t);
+  const Corners s = surface_.triangle(t);
   std::array<Place, 3> places;
   places[open.edge] = open.from, places[(open.edge + 1) % 3] = open.to;
   places[(open.edge + 2) % 3] = prism.place(corner(s, (open.edge + 2) % 3));

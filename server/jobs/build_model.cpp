@@ -68,21 +68,18 @@ class LevelErrors {
 
   // `last`: full resolution is shown as it is, which is `fine`.
   void add(const MeshState& level, bool last) {
+    while (pending_.size() + 1 >= threads_ && !pending_.empty())
+      settle();
     double filter = last ? 0 : fit_display_filter(level, lattice_, meter_.original());
     filter = static_cast<float>(filter);  // as the header stores it
     filters_.push_back(filter);
-    auto mesh = std::make_shared<TriangleMesh>();
-    filter_for_display(
-        level, [&](VertexId) { return filter; }, mesh->positions);
-    for (Vec3& p : mesh->positions)
-      p = lattice_.origin + p * lattice_.step;
-    mesh->faces = level.real_faces();
-    while (pending_.size() + 1 >= threads_ && !pending_.empty())
-      settle();
-    pending_.push_back(
-        std::async(threads_ > 1 ? std::launch::async : std::launch::deferred, [this, mesh, last] {
-          return last ? meter_.measure_moved(to_model(fine_)) : meter_.measure(*mesh);
-        }));
+    const auto how = threads_ > 1 ? std::launch::async : std::launch::deferred;
+    if (last) {
+      pending_.push_back(std::async(how, [this] { return meter_.measure_moved(to_model(fine_)); }));
+    } else {
+      pending_.push_back(std::async(
+          how, [this, mesh = displayed(level, filter)] { return meter_.measure(*mesh); }));
+    }
   }
 
   // Waits for all levels and enters what they showed.
@@ -97,6 +94,16 @@ class LevelErrors {
   }
 
  private:
+  std::shared_ptr<const TriangleMesh> displayed(const MeshState& level, double filter) const {
+    auto mesh = std::make_shared<TriangleMesh>();
+    filter_for_display(
+        level, [&](VertexId) { return filter; }, mesh->positions);
+    for (Vec3& p : mesh->positions)
+      p = lattice_.origin + p * lattice_.step;
+    mesh->faces = level.real_faces();
+    return mesh;
+  }
+
   void settle() {
     errors_.push_back(pending_.front().get());
     pending_.pop_front();
@@ -120,9 +127,7 @@ SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& op
 }
 
 Expected<EncodedModel> encode(const Hierarchy& hierarchy, const LatticeMesh& fine,
-                              const TriangleMesh& original, const BuildOptions& options,
-                              const BuildProgress& progress) {
-  LevelErrors errors(original, fine, options.threads);
+                              LevelErrors& errors, const BuildProgress& progress) {
   std::size_t level = 0;
   auto model = encode_model(hierarchy, fine, [&](const MeshState& mesh) {
     errors.add(mesh, level == hierarchy.levels.size());
@@ -147,7 +152,7 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
   const std::string unit = imported->unit;
   auto repaired = repair(std::move(*imported));
   if (!repaired) return tl::unexpected(repaired.error());
-  const TriangleMesh& mesh = repaired->mesh;
+  TriangleMesh& mesh = repaired->mesh;
   report.input = {.vertices = mesh.positions.size(),
                   .faces = mesh.faces.size(),
                   .boundary_edges = repaired->boundary_edges,
@@ -162,7 +167,9 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
   if (!hierarchy) return tl::unexpected(hierarchy.error());
   report.seconds.simplify = watch.lap();
 
-  auto model = encode(*hierarchy, fine, mesh, options, progress);
+  LevelErrors errors(mesh, fine, options.threads);
+  mesh = {};  // the error bounds have their own copy
+  auto model = encode(*hierarchy, fine, errors, progress);
   if (!model) return tl::unexpected(model.error());
   report.manifest = std::move(model->manifest);
   report.manifest.unit = unit;

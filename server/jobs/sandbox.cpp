@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <malloc.h>
 #include <sched.h>
 #include <seccomp.h>
 #include <sys/mman.h>
@@ -118,6 +119,10 @@ Expected<void> install_filter() {
   return {};
 }
 
+// Blocks from this size on go back to the system as soon as they are freed. glibc by itself raises
+// the size with use, after which freed memory stays scattered: a seventh more at the peak.
+constexpr int kLargeBlock = 1 << 20;
+
 int set_limit(int which, rlim_t soft, rlim_t hard) {
   const rlimit limit{soft, hard};
   return ::setrlimit(static_cast<__rlimit_resource_t>(which), &limit) == 0 ? 0 : errno;
@@ -156,6 +161,7 @@ void close_all_but(int kept) {
 }  // namespace
 
 Expected<void> confine(const SandboxLimits& limits) {
+  ::mallopt(M_MMAP_THRESHOLD, kLargeBlock);
   if (auto limited = set_limits(limits); !limited) return limited;
   if (::prctl(PR_SET_DUMPABLE, 0) != 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) {
     return refused("drop privileges", errno);

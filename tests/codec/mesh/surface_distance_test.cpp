@@ -50,7 +50,8 @@ TEST(ClosestPoint, IsAsCloseAsTheBestOfManyPoints) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-0.5, 1.5);
   const TriangleBvh soup(random_soup(7, 40));
-  for (const Corners& t : soup.triangles()) {
+  for (std::uint32_t i = 0; i < soup.size(); ++i) {
+    const Corners t = soup.triangle(i);
     const Vec3 p{unit(random), unit(random), unit(random)};
     const double exact = std::sqrt(squared_distance(t, p)), sampled = sampled_distance(t, p);
     EXPECT_LE(exact, sampled + 1e-12);
@@ -66,13 +67,13 @@ TEST(TriangleBvh, FindsTheSameDistanceAsATestOfEveryTriangle) {
   for (int i = 0; i < 300; ++i) {
     const Vec3 p{unit(random), unit(random), unit(random)};
     double best = 1e300;
-    for (const Corners& t : bvh.triangles())
-      best = std::min(best, squared_distance(t, p));
+    for (std::uint32_t t = 0; t < bvh.size(); ++t)
+      best = std::min(best, squared_distance(bvh.triangle(t), p));
     EXPECT_EQ(bvh.closest(p).squared, best);
     const std::uint32_t any = static_cast<std::uint32_t>(random() % mesh.faces.size());
-    const SurfacePoint bounded = bvh.closest(p, {squared_distance(bvh.triangles()[any], p), any});
+    const SurfacePoint bounded = bvh.closest(p, {squared_distance(bvh.triangle(any), p), any});
     EXPECT_EQ(bounded.squared, best);
-    EXPECT_EQ(squared_distance(bvh.triangles()[bounded.triangle], p), best);
+    EXPECT_EQ(squared_distance(bvh.triangle(bounded.triangle), p), best);
   }
 }
 
@@ -83,7 +84,7 @@ TEST(TriangleBvh, HoldsEveryFaceOnce) {
   for (std::uint32_t t = 0; t < mesh.faces.size(); ++t) {
     EXPECT_FALSE(seen[bvh.face(t)]);
     seen[bvh.face(t)] = true;
-    EXPECT_EQ(bvh.triangles()[t].a, mesh.positions[mesh.faces[bvh.face(t)][0]]);
+    EXPECT_EQ(bvh.triangle(t).a, mesh.positions[mesh.faces[bvh.face(t)][0]]);
   }
 }
 

@@ -17,9 +17,9 @@ namespace vitrine {
 
 static_assert(std::endian::native == std::endian::little);
 
-class ByteWriter {
+class FileWriter {
  public:
-  explicit ByteWriter(std::size_t expected_size) { bytes_.reserve(expected_size); }
+  explicit FileWriter(std::size_t expected_size) { bytes_.reserve(expected_size); }
 
   template <class T>
   void put(T value) {
