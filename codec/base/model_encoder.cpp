@@ -37,8 +37,7 @@ Manifest frame_of(const Hierarchy& hierarchy, const LatticeMesh& fine) {
 }
 
 void add_level(const MeshState& level, Manifest& manifest) {
-  manifest.levels.push_back({.vertices = level.vertex_count(),
-                             .faces = static_cast<std::uint32_t>(level.real_faces().size())});
+  manifest.levels.push_back({.vertices = level.vertex_count(), .faces = level.real_face_count()});
 }
 
 void add_chunk(const EncodedChunk& chunk, std::uint32_t level, EncodedModel& model) {
@@ -67,7 +66,7 @@ Expected<LayerEncoder> start_with_base(const Hierarchy& hierarchy, EncodedModel&
 
 }  // namespace
 
-Expected<EncodedModel> encode_model(const Hierarchy& hierarchy, const LatticeMesh& fine,
+Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LatticeMesh& fine,
                                     const LevelSink& on_level) {
   EncodedModel model{.manifest = frame_of(hierarchy, fine), .body = {}};
   auto encoder = start_with_base(hierarchy, model);
@@ -79,6 +78,7 @@ Expected<EncodedModel> encode_model(const Hierarchy& hierarchy, const LatticeMes
     if (!chunks) return tl::unexpected(chunks.error());
     for (const EncodedChunk& chunk : *chunks)
       add_chunk(chunk, level, model);
+    hierarchy.levels[level - 1] = {};
     add_level(encoder->mesh(), model.manifest);
     on_level(encoder->mesh());
   }

@@ -83,9 +83,16 @@ void MeshState::disinherit() {
   split_of.pop_back();
 }
 
+std::uint32_t MeshState::real_face_count() const {
+  std::uint32_t count = 0;
+  for (std::uint32_t f = 0; f < connectivity.face_count(); ++f)
+    count += connectivity.is_real(f) ? 1 : 0;
+  return count;
+}
+
 std::vector<Triangle> MeshState::real_faces() const {
   std::vector<Triangle> faces;
-  faces.reserve(connectivity.face_count());
+  faces.reserve(real_face_count());
   for (std::uint32_t f = 0; f < connectivity.face_count(); ++f) {
     if (!connectivity.is_real(f)) continue;
     faces.push_back({connectivity.vertex(3 * f), connectivity.vertex(3 * f + 1),

@@ -55,6 +55,7 @@ struct MeshState {
   // Sets `border` of a real vertex from its one-ring.
   void mark_border(VertexId v);
 
+  std::uint32_t real_face_count() const;
   std::vector<Triangle> real_faces() const;
   std::vector<Colour> display_colours() const;  // sRGB, or empty
 };

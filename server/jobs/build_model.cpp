@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/build_model.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <deque>
@@ -126,11 +129,12 @@ SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& op
   return how;
 }
 
-Expected<EncodedModel> encode(const Hierarchy& hierarchy, const LatticeMesh& fine,
-                              LevelErrors& errors, const BuildProgress& progress) {
+Expected<EncodedModel> encode(Hierarchy hierarchy, const LatticeMesh& fine, LevelErrors& errors,
+                              const BuildProgress& progress) {
+  const std::size_t levels = hierarchy.levels.size();
   std::size_t level = 0;
-  auto model = encode_model(hierarchy, fine, [&](const MeshState& mesh) {
-    errors.add(mesh, level == hierarchy.levels.size());
+  auto model = encode_model(std::move(hierarchy), fine, [&](const MeshState& mesh) {
+    errors.add(mesh, level == levels);
     if (level++ == 0 || !progress) return;
     const double share =
         static_cast<double>(mesh.vertex_count()) / static_cast<double>(fine.positions.size());
@@ -138,6 +142,14 @@ Expected<EncodedModel> encode(const Hierarchy& hierarchy, const LatticeMesh& fin
   });
   if (model) errors.finish(model->manifest);
   return model;
+}
+
+// A mapped file need not stay in memory once it is read; harmless for memory of any other kind.
+void let_go(std::span<const std::uint8_t> input) {
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(input.data()) / page * page;
+  const auto end = reinterpret_cast<std::uintptr_t>(input.data() + input.size());
+  ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_PAGEOUT);
 }
 
 }  // namespace
@@ -149,6 +161,7 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
   BuildReport& report = out.report;
   auto imported = read_mesh(input, options.reading);
   if (!imported) return tl::unexpected(imported.error());
+  let_go(input);
   const std::string unit = imported->unit;
   auto repaired = repair(std::move(*imported));
   if (!repaired) return tl::unexpected(repaired.error());
@@ -163,13 +176,13 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
 
   const int bits = options.bits != 0 ? options.bits : automatic_bits(mesh);
   const LatticeMesh fine = quantise(mesh, fit_lattice(mesh.positions, bits));
-  const auto hierarchy = simplify(fine, simplify_options(fine, options, progress));
+  auto hierarchy = simplify(fine, simplify_options(fine, options, progress));
   if (!hierarchy) return tl::unexpected(hierarchy.error());
   report.seconds.simplify = watch.lap();
 
   LevelErrors errors(mesh, fine, options.threads);
   mesh = {};  // the error bounds have their own copy
-  auto model = encode(*hierarchy, fine, errors, progress);
+  auto model = encode(std::move(*hierarchy), fine, errors, progress);
   if (!model) return tl::unexpected(model.error());
   report.manifest = std::move(model->manifest);
   report.manifest.unit = unit;
