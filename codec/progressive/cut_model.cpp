@@ -29,6 +29,14 @@ Prefix prefix_of(const CutRing& ring) {
   return p;
 }
 
+// 1 / n; the quotients are exact roundings, so the table only saves the divisions.
+constexpr auto kReciprocal = [] {
+  std::array<double, kMaxSplitValence + 2> r{};
+  for (std::size_t n = 1; n < r.size(); ++n)
+    r[n] = 1.0 / static_cast<double>(n);
+  return r;
+}();
+
 struct Arc {
   Vec3 mean, sum;
   double squares = 0;
@@ -40,7 +48,7 @@ Arc arc(const Prefix& p, std::uint32_t from, std::uint32_t to) {  // both ends i
   a.count = p.count[to + 1] - p.count[from];
   a.sum = p.sum[to + 1] - p.sum[from];
   a.squares = p.squares[to + 1] - p.squares[from];
-  if (a.count > 0) a.mean = a.sum * (1.0 / a.count);
+  if (a.count > 0) a.mean = a.sum * kReciprocal[static_cast<std::size_t>(a.count)];
   return a;
 }
 

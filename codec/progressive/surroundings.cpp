@@ -9,12 +9,13 @@ constexpr std::uint32_t kMaxNeighbours = 64;
 // The neighbours of one vertex of a split but the other one, from cut vertex to cut vertex.
 struct HalfRing {
   std::uint32_t size = 0;
-  std::array<Corner, kMaxNeighbours> corners{};  // at the vertex; the face's next is the neighbour
-  std::array<VertexId, kMaxNeighbours> vertices{};
+  std::array<Corner, kMaxNeighbours> corners;  // at the vertex; the face's next is the neighbour
+  std::array<VertexId, kMaxNeighbours> vertices;
 };
 
 HalfRing half_ring(const MeshState& mesh, Corner towards_partner) {
   HalfRing half;
+  half.vertices[0] = kVirtualBit;  // where there is none
   for (Corner c = mesh.connectivity.swing(towards_partner);
        c != towards_partner && half.size < kMaxNeighbours; c = mesh.connectivity.swing(c)) {
     half.corners[half.size] = c;
