@@ -37,7 +37,8 @@ Manifest frame_of(const Hierarchy& hierarchy, const LatticeMesh& fine) {
 }
 
 void add_level(const MeshState& level, Manifest& manifest) {
-  manifest.levels.push_back({.vertices = level.vertex_count(), .faces = level.real_face_count()});
+  manifest.levels.push_back(
+      {.vertices = level.vertex_count(), .faces = level.real_face_count(), .shift = level.shift});
 }
 
 void add_chunk(const EncodedChunk& chunk, std::uint32_t level, EncodedModel& model) {

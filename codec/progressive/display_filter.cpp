@@ -42,13 +42,15 @@ Vec3 display_shift(const MeshState& mesh, VertexId v) {
   return shape.area * (-dot(shape.area, shape.mean) / size);  // the mean is relative to p
 }
 
-void filter_for_display(const MeshState& mesh, const std::function<double(VertexId)>& strength,
+void filter_for_display(const MeshState& mesh,
+                        const std::function<const LevelInfo&(VertexId)>& level,
                         std::vector<Vec3>& out) {
   out.resize(mesh.vertex_count());
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-    out[v] = to_vec3(mesh.positions[v]);
-    const double a = strength(v);
-    if (a != 0) out[v] += display_shift(mesh, v) * a;
+    const LevelInfo& at = level(v);
+    const double offset = display_offset(at.shift);
+    out[v] = to_vec3(mesh.positions[v]) + Vec3{offset, offset, offset};
+    if (at.display_filter != 0) out[v] += display_shift(mesh, v) * at.display_filter;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "codec/progressive/manifest.h"
 #include "codec/progressive/mesh_state.h"
 
 namespace vitrine {
@@ -13,8 +14,9 @@ namespace vitrine {
 // The shift of v for a = 1, lattice units. Vertices on a boundary stay where they are.
 Vec3 display_shift(const MeshState& mesh, VertexId v);
 
-// One filtered position per vertex, lattice units. `strength(v)` is `a` at v.
-void filter_for_display(const MeshState& mesh, const std::function<double(VertexId)>& strength,
+// One filtered position per vertex, lattice units. `level(v)` is the level that v has reached.
+void filter_for_display(const MeshState& mesh,
+                        const std::function<const LevelInfo&(VertexId)>& level,
                         std::vector<Vec3>& out);
 
 }  // namespace vitrine

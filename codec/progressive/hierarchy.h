@@ -17,22 +17,31 @@ struct Collapse {
   VertexId v1, v2;
   VertexId apex12;  // third vertex of the face with the directed edge v1 -> v2 (may be virtual)
   VertexId apex21;  // third vertex of the face with the directed edge v2 -> v1 (may be virtual)
-  Vec3i p1, p2;     // positions before the collapse
+  Vec3i p1, p2;     // positions before the collapse: cells (cell.h) of the finer level
   Vec3i c1, c2;     // colours before the collapse, YCoCg-R; zero where the mesh has none
 };
 
 // One level: collapses in the order performed, which is ascending lexicographic order of v~.
 using CollapseLevel = std::vector<Collapse>;
 
+// Where a vertex of a level stands on the finer lattice of the next one.
+struct Refined {
+  VertexId vertex;
+  Vec3i cell;
+};
+
 struct Hierarchy {
   Placement placement = Placement::kMidpoint;
-  LatticeMesh base;                 // compacted: real faces, coarse positions, no colours
+  LatticeMesh base;                 // compacted: real faces, cells of level 0, no colours
   std::vector<Vec3i> base_colours;  // YCoCg-R per base vertex; empty where there are none
   std::vector<VertexId> base_ids;   // fine id of each base vertex
   std::uint32_t loops = 0;          // boundary loops; apexes name them in the fine mesh's order
   std::vector<std::uint32_t> loop_member;  // per loop: a base vertex on it
   std::vector<CollapseLevel> levels;       // [0] leads from the base to level 1 (coarse to fine)
-  std::vector<std::uint16_t> region;       // per fine vertex
+  std::vector<std::uint32_t> shift;        // of each level's lattice (cell.h); the base first
+  // [l]: all vertices of level l; empty where level l + 1 has the same lattice.
+  std::vector<std::vector<Refined>> refined;
+  std::vector<std::uint16_t> region;  // per fine vertex
   std::uint32_t regions = 1;
   std::uint32_t fork_level = 0;     // first level with chunks per region; levels.size()+1 if none
   std::vector<RegionPlane> planes;  // regions - 1, in pre-order

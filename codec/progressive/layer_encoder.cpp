@@ -17,7 +17,7 @@ VertexId virtual_neighbour(const Connectivity& mesh, VertexId v) {
 
 Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const BaseMesh& base,
                                            std::vector<VertexId> fine_ids) {
-  auto mesh = MeshState::from_base(base);
+  auto mesh = MeshState::from_base(base, hierarchy.shift[0]);
   if (!mesh) return tl::unexpected(mesh.error());
   LayerEncoder encoder(hierarchy, std::move(*mesh));
   encoder.mesh_.reserve(hierarchy.region.size());
@@ -44,6 +44,9 @@ std::vector<EncodedChunk> LayerEncoder::begin_level() {
     collapse_of_[collapses[k].v1] = k;
     ++chunks[forked ? hierarchy_->region[collapses[k].v1] : 0].splits;
   }
+  cell_.resize(hierarchy_->refined[level_ - 1].empty() ? 0 : hierarchy_->region.size());
+  for (const Refined& r : hierarchy_->refined[level_ - 1])
+    cell_[r.vertex] = r.cell;
   return chunks;
 }
 

@@ -51,6 +51,7 @@ class LayerEncoder {
   std::vector<VertexId> state_;             // and back; kNoCorner where not born yet
   std::vector<VertexId> loop_;              // virtual vertex of the state per loop of the hierarchy
   std::vector<std::uint32_t> collapse_of_;  // per fine id: its collapse in the level being coded
+  std::vector<Vec3i> cell_;                 // per fine id, where the level refines the lattice
   std::uint32_t level_ = 0;
 };
 
@@ -61,9 +62,11 @@ Expected<void> LayerEncoder::code_chunk(Coder& coder, const EncodedChunk& chunk,
       .level = level_,
       .region = chunk.region,
       .splits = chunk.splits,
+      .shift = hierarchy_->shift[level_],
+      .shift_before = hierarchy_->shift[level_ - 1],
       .placement = hierarchy_->placement,
       .parity = level_parity(level_, static_cast<std::uint32_t>(hierarchy_->levels.size()))};
-  Replay replay(hierarchy_->levels[level_ - 1], collapse_of_, fine_, state_, loop_);
+  Replay replay(hierarchy_->levels[level_ - 1], collapse_of_, fine_, state_, loop_, cell_);
   const auto pass = std::make_unique<LayerPass<Coder, Replay>>(mesh_, frame, coder, replay);
   if (auto ok = pass->run(); !ok) return tl::unexpected(ok.error());
   observe(*pass);

@@ -3,6 +3,9 @@
 // pass over the same state, instantiated with a RangeEncoder that is told the truth or with a
 // RangeDecoder that finds it out, so the two cannot drift apart.
 //
+// Where the level's lattice is finer than the one before, the low bits of the region's vertices
+// come first.
+//
 // Pass 1 visits the region's vertices in descending lexicographic order of their positions (the
 // collapses were performed in ascending order, so each split meets the one-ring that its collapse
 // left), codes a split flag and the cut pair, and splits with an estimated D. Pass 2 codes the D.
@@ -32,23 +35,26 @@ namespace vitrine {
 // What the encoder knows about a vertex that splits, in the ids of the state.
 struct SplitTruth {
   VertexId qi = 0, qj = 0;  // the new vertex takes the faces from q_i round to q_j
-  Vec3i d;                  // position of v minus position of the new vertex
+  Vec3i d;                  // cell of v minus cell of the new vertex
   Vec3i colour_d;           // the same for YCoCg-R
 };
 
 struct ChunkFrame {
   std::uint32_t level = 1;
   std::uint16_t region = 0;
-  std::uint32_t splits = 0;  // stated by the header
+  std::uint32_t splits = 0;                   // stated by the header
+  std::uint32_t shift = 0, shift_before = 0;  // of this level's lattice and of the one before
   Placement placement = Placement::kMidpoint;
   std::int32_t parity = 0;  // level_parity()
 };
 
 // `Truth` tells an encoder what happens; a decoder passes NoTruth.
 //   bool find(VertexId v, SplitTruth&)                 does v split, and how
+//   Vec3i cell(VertexId v)                             on the level's lattice, if it is a finer one
 //   void applied(VertexId v, VertexId w, bool swapped)  w carries what v was told to keep
 struct NoTruth {
   bool find(VertexId, SplitTruth&) { return false; }
+  Vec3i cell(VertexId) { return {}; }
   void applied(VertexId, VertexId, bool) {}
 };
 
@@ -61,6 +67,7 @@ class LayerPass {
   Expected<std::vector<Split>> run() {
     // Each vertex splits at most once: memory follows the mesh, not what the header says.
     if (frame_.splits > mesh_.members[frame_.region].size()) return damaged("too many splits");
+    refine_lattice();
     splits_.reserve(frame_.splits);
     for (const VertexId v : visiting_order()) {
       if (auto ok = visit(v); !ok) return tl::unexpected(ok.error());
@@ -81,6 +88,26 @@ class LayerPass {
     return fail(ErrorCode::kBadInput, "damaged chunk (level " + std::to_string(frame_.level) +
                                           ", region " + std::to_string(frame_.region) +
                                           "): " + what);
+  }
+
+  // The low bits are as good as random, because a lattice is about as fine as its level is exact.
+  void refine_lattice() {
+    mesh_.shift = frame_.shift, mesh_.foreign_shift = frame_.shift_before;
+    const auto bits = static_cast<int>(frame_.shift_before - frame_.shift);
+    if (bits == 0) return;
+    const auto refined = [&](std::int32_t coarse, std::int32_t told) {
+      const std::uint32_t low = static_cast<std::uint32_t>(told) & ((1u << bits) - 1);
+      return coarse << bits | static_cast<std::int32_t>(coder_.raw(low, bits));
+    };
+    for (const VertexId v : mesh_.members[frame_.region]) {
+      const Vec3i coarse = cell_of(mesh_.positions[v], frame_.shift_before);
+      const Vec3i told = truth_.cell(v);
+      Vec3i fine;
+      fine.x = refined(coarse.x, told.x);
+      fine.y = refined(coarse.y, told.y);
+      fine.z = refined(coarse.z, told.z);
+      mesh_.positions[v] = middle_of(fine, frame_.shift);
+    }
   }
 
   std::vector<VertexId> visiting_order() const {
@@ -182,7 +209,7 @@ class LayerPass {
     std::size_t n = 0, m = 0;
     for (std::uint32_t k = 0; k < ring.size; ++k) {
       if (is_virtual(ring.vertices[k])) continue;
-      const Vec3i& p = mesh_.positions[ring.vertices[k]];
+      const Vec3i p = cell_of(mesh_.seen_from(frame_.region, ring.vertices[k]), frame_.shift);
       if (k == cut.i || k == cut.j) {
         opposite[m++] = p;
       } else {
@@ -197,10 +224,12 @@ class LayerPass {
     const SplitSurroundings around = split_surroundings(mesh_, splits_, s);
     const Vec3i d = displacements_.code(coder_, around, Coder::kEncodes ? told_[s].first : Vec3i{},
                                         split.error);
-    const SplitPair pair = unmerge(split.merged, d, split.term);
+    const SplitPair pair = unmerge(cell_of(split.merged, frame_.shift), d, split.term);
     if (!in_coordinate_bound(pair.v1) || !in_coordinate_bound(pair.v2)) return false;
-    mesh_.positions[split.v] = pair.v1;
-    mesh_.positions[split.w] = pair.v2;
+    const Vec3i v = middle_of(pair.v1, frame_.shift), w = middle_of(pair.v2, frame_.shift);
+    if (!in_coordinate_bound(v) || !in_coordinate_bound(w)) return false;
+    mesh_.positions[split.v] = v;
+    mesh_.positions[split.w] = w;
     return mesh_.colours.empty() || place_colour(s);
   }
 

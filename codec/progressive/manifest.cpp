@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "codec/core/byte_cursor.h"
+#include "codec/progressive/cell.h"
 
 namespace vitrine {
 namespace {
@@ -18,7 +19,7 @@ constexpr std::uint64_t kKnownFeatures = kFeaturePyramid | kFeatureColours;
 
 constexpr std::size_t kMaxUnitBytes = 16;
 constexpr std::size_t kHashBytes = 32;
-constexpr std::size_t kLevelBytes = 2 + 3 * 4;       // fewest bytes of a level record
+constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;   // fewest bytes of a level record
 constexpr std::size_t kChunkBytes = 2 + kHashBytes;  // fewest bytes of a chunk record
 
 Unexpected bad(const std::string& what) {
@@ -49,6 +50,7 @@ void write_levels(ByteWriter& out, const Manifest& m) {
     write_float(out, round_up(level.max_error));
     write_float(out, static_cast<float>(level.rms_error));
     write_float(out, static_cast<float>(level.display_filter));
+    out.u8(static_cast<std::uint8_t>(level.shift));
   }
 }
 
@@ -69,14 +71,19 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
     level.max_error = read_float(in);
     level.rms_error = read_float(in);
     level.display_filter = read_float(in);
+    level.shift = in.u8();
     if (!is_sane_error(level.max_error) || !is_sane_error(level.rms_error) ||
         !(level.display_filter >= 0 && level.display_filter <= 1)) {
       return bad("a level's error or display filter is out of range");
     }
   }
+  if (m.levels.front().shift > kMaxShift || m.levels.back().shift != 0) {
+    return bad("the lattice of a level is impossible");
+  }
   for (std::size_t l = 1; l < m.levels.size(); ++l) {
     const LevelInfo &fine = m.levels[l], &coarse = m.levels[l - 1];
     if (fine.vertices < coarse.vertices) return bad("levels lose vertices");
+    if (fine.shift > coarse.shift) return bad("a finer level has a coarser lattice");
     // A split adds two faces, at a boundary one.
     const std::uint64_t born = fine.vertices - coarse.vertices;
     if (fine.faces < coarse.faces + born || fine.faces > coarse.faces + 2 * born) {

@@ -25,6 +25,7 @@ struct LevelInfo {
   double max_error = 0;        // model units; a true bound of the displayed surface's distance
   double rms_error = 0;        // model units
   double display_filter = 0;   // `a` of the display filter, 0 at full resolution
+  std::uint32_t shift = 0;     // of the level's lattice (cell.h), 0 at full resolution
 };
 
 struct ChunkInfo {

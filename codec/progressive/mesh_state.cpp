@@ -7,7 +7,7 @@
 
 namespace vitrine {
 
-Expected<MeshState> MeshState::from_base(const BaseMesh& base) {
+Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shift) {
   const auto n = static_cast<std::uint32_t>(base.positions.size());
   auto closed = Connectivity::close(n, base.faces);
   if (!closed) return tl::unexpected(closed.error());
@@ -15,7 +15,12 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base) {
       !std::all_of(base.colours.begin(), base.colours.end(), in_coordinate_bound)) {
     return fail(ErrorCode::kBadInput, "the base mesh leaves the lattice or the range of colours");
   }
-  MeshState mesh{.connectivity = std::move(*closed), .positions = base.positions};
+  MeshState mesh{.connectivity = std::move(*closed), .positions = {}};
+  mesh.shift = mesh.foreign_shift = shift;
+  for (const Vec3i& cell : base.positions)
+    mesh.positions.push_back(middle_of(cell, shift));
+  if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), in_coordinate_bound))
+    return fail(ErrorCode::kBadInput, "the base mesh leaves the lattice");
   mesh.colours = base.colours;
   mesh.region.assign(n, 0);
   mesh.split_level.assign(n, 0);

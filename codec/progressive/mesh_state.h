@@ -7,6 +7,7 @@
 
 #include "codec/mesh/connectivity.h"
 #include "codec/progressive/base_mesh.h"
+#include "codec/progressive/cell.h"
 
 namespace vitrine {
 
@@ -20,8 +21,9 @@ constexpr bool in_coordinate_bound(const Vec3i& p) {
 }
 
 struct MeshState {
-  // One region, level 0. Fails where the base is not a manifold or leaves the bound.
-  static Expected<MeshState> from_base(const BaseMesh& base);
+  // One region, level 0. `base` holds the cells (cell.h) of a level with `shift`. Fails where the
+  // base is not a manifold or leaves the bound.
+  static Expected<MeshState> from_base(const BaseMesh& base, std::uint32_t shift);
 
   Connectivity connectivity;
   std::vector<Vec3i> positions;
@@ -33,6 +35,10 @@ struct MeshState {
   std::vector<std::uint32_t> index;
   std::vector<std::vector<VertexId>> members;
 
+  // Of the chunk decoded last: positions of its region are middles of cells of 2^shift, those of
+  // other regions count as far as they are known at the level before, 2^foreign_shift.
+  std::uint32_t shift = 0, foreign_shift = 0;
+
   std::vector<std::uint8_t> split_level;    // level of the vertex' last split
   std::vector<std::uint8_t> visited_level;  // level in which the vertex was last visited
   std::vector<std::uint8_t> valence;        // saturates at 255
@@ -40,6 +46,12 @@ struct MeshState {
   std::vector<std::uint8_t> border;         // 1 where a neighbour is of another region
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size()); }
+  // A real vertex as a chunk of region `from` may see it, whether or not its own region has reached
+  // the chunk's level.
+  Vec3i seen_from(std::uint16_t from, VertexId v) const {
+    if (region[v] == from) return positions[v];
+    return middle_of(cell_of(positions[v], foreign_shift), foreign_shift);
+  }
   std::uint16_t region_of(VertexId v) const { return is_virtual(v) ? kNoRegion : region[v]; }
   std::uint64_t canonical(VertexId v) const {
     return is_virtual(v) ? std::uint64_t{v} << 32 | v : std::uint64_t{region[v]} << 32 | index[v];

@@ -32,6 +32,8 @@ ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
   return {.level = chunk.level,
           .region = static_cast<std::uint16_t>(chunk.region),
           .splits = chunk.splits,
+          .shift = manifest.levels[chunk.level].shift,
+          .shift_before = manifest.levels[chunk.level - 1].shift,
           .placement = manifest.placement,
           .parity = level_parity(chunk.level, last)};
 }
@@ -55,7 +57,7 @@ Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) noexce
       base.colours.size() != colours) {
     return fail(ErrorCode::kBadInput, "the base mesh does not have the counts of the header");
   }
-  auto mesh = MeshState::from_base(base);
+  auto mesh = MeshState::from_base(base, level.shift);
   if (!mesh) return tl::unexpected(mesh.error());
   if (mesh->connectivity.loop_count() != manifest.loops) {
     return fail(ErrorCode::kBadInput, "the base mesh does not have the loops of the header");
@@ -154,7 +156,7 @@ std::span<const Vec3i> Refiner::colours() const {
 void Refiner::display_positions(std::vector<Vec3>& out) const {
   filter_for_display(
       state_->mesh,
-      [this](VertexId v) { return state_->manifest.levels[level_of(v)].display_filter; }, out);
+      [this](VertexId v) -> const LevelInfo& { return state_->manifest.levels[level_of(v)]; }, out);
 }
 
 LatticeMesh Refiner::lattice_mesh() const {

@@ -40,7 +40,7 @@ class Refiner {
   Expected<void> apply(std::size_t chunk, std::span<const std::uint8_t> bytes) noexcept;
 
   // Takes back splits of the chunk applied last, newest first, until at most `faces` real faces
-  // are left or the chunk is undone: a level can so be shown in part. No chunk can be applied
+  // are left or all are undone: a level can so be shown in part. No chunk can be applied
   // afterwards.
   void undo_to_faces(std::uint32_t faces) noexcept;
 

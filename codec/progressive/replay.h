@@ -16,8 +16,15 @@ class Replay {
 
   Replay(const CollapseLevel& collapses, const std::vector<std::uint32_t>& collapse_of,
          std::vector<VertexId>& fine, std::vector<VertexId>& state,
-         const std::vector<VertexId>& loop)
-      : collapses_(collapses), collapse_of_(collapse_of), fine_(fine), state_(state), loop_(loop) {}
+         const std::vector<VertexId>& loop, const std::vector<Vec3i>& cell)
+      : collapses_(collapses),
+        collapse_of_(collapse_of),
+        fine_(fine),
+        state_(state),
+        loop_(loop),
+        cell_(cell) {}
+
+  Vec3i cell(VertexId v) const { return cell_[fine_[v]]; }
 
   bool find(VertexId v, SplitTruth& told) {
     const std::uint32_t k = collapse_of_[fine_[v]];
@@ -46,6 +53,7 @@ class Replay {
   std::vector<VertexId>& fine_;
   std::vector<VertexId>& state_;
   const std::vector<VertexId>& loop_;
+  const std::vector<Vec3i>& cell_;
 };
 
 }  // namespace vitrine

@@ -76,7 +76,7 @@ HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, std::uin
   for (std::uint32_t k = 0; k < half.size; ++k) {
     const VertexId q = half.vertices[k];
     if (is_virtual(q)) continue;
-    const Vec3 p = to_vec3(mesh.positions[q] - origin);
+    const Vec3 p = to_vec3(mesh.seen_from(region, q) - origin);
     f.all.add(p);
     f.distance += length(p);
     if (k > 0 && k + 1 < half.size) {
@@ -91,13 +91,13 @@ HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, std::uin
 
 // Area vector of the closed outline: the half ring of v from q_j round to q_i, then that of w.
 Vec3 outline_normal(const MeshState& mesh, const HalfRing& a, const HalfRing& b,
-                    const Vec3i& origin) {
+                    std::uint16_t region, const Vec3i& origin) {
   Vec3 area, first, last;
   bool any = false;
   const auto visit = [&](const HalfRing& half) {
     for (std::uint32_t k = 0; k < half.size; ++k) {
       if (is_virtual(half.vertices[k])) continue;
-      const Vec3 p = to_vec3(mesh.positions[half.vertices[k]] - origin);
+      const Vec3 p = to_vec3(mesh.seen_from(region, half.vertices[k]) - origin);
       if (any) {
         area += cross(last, p);
       } else {
@@ -131,11 +131,11 @@ struct Unevenness {
   double height = 0, distance = 0;
   int count = 0;
 
-  void add(const MeshState& mesh, const HalfRing& half, const Vec3i& origin, const Vec3& normal,
-           double scale) {
+  void add(const MeshState& mesh, const HalfRing& half, std::uint16_t region, const Vec3i& origin,
+           const Vec3& normal, double scale) {
     for (std::uint32_t k = 0; k < half.size; ++k) {
       if (is_virtual(half.vertices[k])) continue;
-      const Vec3 p = to_vec3(mesh.positions[half.vertices[k]] - origin);
+      const Vec3 p = to_vec3(mesh.seen_from(region, half.vertices[k]) - origin);
       const double h = dot(p, normal), l = length(p) - scale;
       height += h * h, distance += l * l, ++count;
     }
@@ -197,7 +197,7 @@ CutRing cut_ring(const MeshState& mesh, VertexId v, const Ring& ring) {
     out.valence[k] = 6;
     out.is_virtual[k] = is_virtual(q);
     if (out.is_virtual[k]) continue;
-    out.at[k] = to_vec3(mesh.positions[q] - mesh.positions[v]);
+    out.at[k] = to_vec3(mesh.seen_from(mesh.region[v], q) - mesh.positions[v]);
     sum += length(out.at[k]);
     ++real;
     const bool known = mesh.region[q] == mesh.region[v] && mesh.border[q] == 0;
@@ -218,9 +218,11 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
 
   SplitSurroundings out;
   const int neighbours = std::max(v.all.count + w.all.count, 1);
-  const double scale = std::max((v.distance + w.distance) / neighbours, 0.5);
-  out.scale = scale;
-  out.normal = outline_normal(mesh, of_v, of_w, split.merged);
+  // From lattice units to cells; a power of two, so nothing is rounded.
+  const double cells = 1.0 / static_cast<double>(1u << mesh.shift);
+  const double scale = std::max((v.distance + w.distance) / neighbours, 0.5 / cells);
+  out.scale = scale * cells;
+  out.normal = outline_normal(mesh, of_v, of_w, region, split.merged);
 
   const Vec3 arcs = v.all.value() - w.all.value();
   const bool inner = v.inner.count > 0 && w.inner.count > 0;
@@ -234,7 +236,7 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   Vec3 chord;
   const VertexId qj = of_v.vertices[0], qi = of_w.vertices[0];
   if (of_v.size > 0 && of_w.size > 0 && !is_virtual(qi) && !is_virtual(qj)) {
-    chord = to_vec3(mesh.positions[qj] - mesh.positions[qi]);
+    chord = to_vec3(mesh.seen_from(region, qj) - mesh.seen_from(region, qi));
   }
   NeighbourSplits around;
   for (const HalfRing* half : {&of_v, &of_w}) {
@@ -258,13 +260,15 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
                   cross(out.normal, chord),
                   tip_arcs,
                   (v.shoulders - w.shoulders) * 0.5};
+  for (Vec3& feature : out.features)
+    feature = feature * cells;
 
   const auto fewer = static_cast<int>(std::min(of_v.size, of_w.size));
   const auto more = static_cast<int>(std::max(of_v.size, of_w.size));
   out.kind = fewer > 4 ? 1 : 0;
   Unevenness uneven;
-  uneven.add(mesh, of_v, split.merged, out.normal, scale);
-  uneven.add(mesh, of_w, split.merged, out.normal, scale);
+  uneven.add(mesh, of_v, region, split.merged, out.normal, scale);
+  uneven.add(mesh, of_w, region, split.merged, out.normal, scale);
   const double inverse = 1 / scale, per_square = inverse * inverse / std::max(uneven.count, 1);
   const double lengths = length(arcs) * length(chord);
   const double slant = lengths > 0 ? std::fabs(dot(arcs, chord)) / lengths : 0;
@@ -274,7 +278,7 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   };
   out.clues = {
       static_cast<std::uint8_t>(std::clamp(more - 2, 0, 5) * 4 + std::clamp(fewer - 2, 0, 3)),
-      level_of<1>(scale, 0, 21),
+      level_of<1>(out.scale, 0, 21),
       level_of<2>(length(parallelograms) * inverse, -8, 17),
       level_of<0>(uneven.height * per_square, -12, 13),
       level_of<1>(uneven.distance * per_square, -12, 13),

@@ -101,7 +101,7 @@ Vec3i merged_position(const Surface& surface, const EdgeStar& edge, Placement pl
 }
 
 bool keeps_orientation(const Surface& surface, const EdgeStar& edge, const Vec3i& target) {
-  const Vec3 to = to_vec3(target);
+  const Vec3 to = surface.middle(target);
   return fan_survives(surface, edge.star1, edge.v1, edge.v2, to) &&
          fan_survives(surface, edge.star2, edge.v2, edge.v1, to);
 }

@@ -32,7 +32,8 @@ class Sampler {
     std::array<Vec3, 3> at, shift;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const VertexId v = level_.connectivity.vertex(3 * face + k);
-      at[k] = to_vec3(level_.positions[v]);
+      const double offset = display_offset(level_.shift);
+      at[k] = to_vec3(level_.positions[v]) + Vec3{offset, offset, offset};
       shift[k] = display_shift(level_, v);
     }
     const Vec3 area = cross(at[1] - at[0], at[2] - at[0]);

@@ -12,11 +12,6 @@ std::uint32_t cost_key(double cost) {
   return std::bit_cast<std::uint32_t>(static_cast<float>(std::max(cost, 0.0)));
 }
 
-bool inside(const Vec3i& p, const Vec3i& low, const Vec3i& high) {
-  return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
-         p.z <= high.z;
-}
-
 }  // namespace
 
 const std::vector<Pick>& Matcher::match(const LevelRules& rules) {
@@ -103,7 +98,7 @@ bool Matcher::choose(const LevelRules& rules, Corner c) {
   const EdgeStar edge(mesh, c);
   if (!keeps_manifold(mesh, edge)) return false;
   const Vec3i target = merged_position(surface_, edge, rules.placement, rules.parity);
-  if (!inside(target, rules.low, rules.high)) return false;
+  if (!rules.allow(target)) return false;
   if (!keeps_orientation(surface_, edge, target)) return false;
   taken_[edge.v1] = taken_[edge.v2] = 1;
   withhold_neighbours(rules, edge);

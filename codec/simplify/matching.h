@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec/progressive/manifest.h"
+#include "codec/simplify/apply_collapse.h"
 #include "codec/simplify/collapse_rules.h"
 #include "codec/simplify/radix_sort.h"
 #include "codec/simplify/surface.h"
@@ -19,11 +20,11 @@ struct LevelRules {
   double length_weight = 0;         // of the squared edge length, against the planes of the edge
   std::uint32_t most = 0xFFFFFFFF;  // collapses at most
   Vec3i low, high;                  // v~ stays in this box, inclusive
-};
 
-struct Pick {
-  Corner corner;  // of v1 in the face (v1, v2, apex12)
-  Vec3i target;   // v~
+  bool allow(const Vec3i& p) const {
+    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
+           p.z <= high.z;
+  }
 };
 
 class Matcher {

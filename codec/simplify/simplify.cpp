@@ -2,10 +2,13 @@
 #include "codec/simplify/simplify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "codec/progressive/colour.h"
 #include "codec/progressive/placement.h"
+#include "codec/simplify/apply_collapse.h"
+#include "codec/simplify/heap_order.h"
 #include "codec/simplify/matching.h"
 #include "codec/simplify/region_tree.h"
 #include "codec/simplify/surface.h"
@@ -15,9 +18,10 @@ namespace {
 
 constexpr std::uint32_t kRegularLevels = 3;  // finest levels that also prefer short edges
 constexpr double kLengthWeight = 1e-2;
+constexpr double kCellPerError = 2;  // side of a cell against the rms distance from the planes
 constexpr std::uint32_t kMaxRegions = 65'535;
-// A level that removes less than this share of the vertices is the last one: what is left is
-// locked by topology, and each level has its price.
+// A level that removes less than this share of the vertices is the last one:
+// what is left is locked by topology, and each level has its price.
 constexpr std::uint32_t kLeastShare = 50;
 
 Surface make_surface(const LatticeMesh& fine, Connectivity mesh) {
@@ -42,6 +46,17 @@ class Simplifier {
 
   // Levels from fine to coarse.
   std::vector<CollapseLevel> run() {
+    return options_.order == CollapseOrder::kHeap ? run_heap() : run_batches();
+  }
+
+  std::uint32_t levels_by_region() const { return levels_by_region_; }
+  // Per level from fine to coarse, the finest and the base included; refined()
+  // without the finest.
+  std::vector<std::uint32_t> shifts() && { return std::move(shifts_); }
+  std::vector<std::vector<Refined>> refined() && { return std::move(refined_); }
+
+ private:
+  std::vector<CollapseLevel> run_batches() {
     std::vector<CollapseLevel> levels;
     while (levels.size() + 1 < Limits{}.levels &&
            surface_.live.size() > options_.target_vertices + options_.target_vertices / 4) {
@@ -49,27 +64,66 @@ class Simplifier {
       CollapseLevel level = collapse_level(rules(static_cast<std::uint32_t>(levels.size())));
       if (level.empty()) break;
       levels.push_back(std::move(level));
+      coarsen_lattice();
       report();
       if ((before - surface_.live.size()) * kLeastShare < before) break;
     }
     return levels;
   }
 
-  std::uint32_t levels_by_region() const { return levels_by_region_; }
+  std::vector<CollapseLevel> run_heap() {
+    auto levels = collapse_by_heap(surface_, rules(kRegularLevels), options_.target_vertices,
+                                   Limits{}.levels - 1);
+    shifts_.resize(levels.size() + 1);
+    refined_.resize(levels.size());
+    return levels;
+  }
 
- private:
+  // The lattice may be as coarse as the level is inexact: finer bits would be
+  // paid for before they can be seen. What is cut off here comes back with the
+  // splits of the level.
+  void coarsen_lattice() {
+    const std::uint32_t before = surface_.shift;
+    const std::uint32_t wanted = splits_see_other_regions_ ? before : coarsest_shift();
+    std::vector<Refined> refined;
+    if (wanted > before) {
+      refined.reserve(surface_.live.size());
+      for (VertexId v : surface_.live) {
+        refined.push_back({v, surface_.position[v]});
+        surface_.position[v] = cell_of(surface_.position[v], wanted - before);
+      }
+      surface_.shift = wanted;
+    }
+    shifts_.push_back(surface_.shift);
+    refined_.push_back(std::move(refined));
+  }
+
+  std::uint32_t coarsest_shift() const {
+    double error = 0, weight = 0;
+    for (VertexId v : surface_.live) {
+      error += surface_.quadric[v].at(surface_.point(v));
+      weight += surface_.quadric[v].weight();
+    }
+    const double step = kCellPerError * std::sqrt(std::max(error, 0.0) / std::max(weight, 1e-9));
+    std::uint32_t shift = surface_.shift;
+    while (shift < kMaxShift && static_cast<double>(2u << shift) <= step)
+      ++shift;
+    return shift;
+  }
+
   LevelRules rules(std::uint32_t from_finest) {
     const std::uint64_t few = std::uint64_t{options_.regions} * options_.vertices_per_region;
     const bool by_region = options_.regions > 1 && surface_.live.size() > few;
     if (by_region) ++levels_by_region_;
+    splits_see_other_regions_ = by_region && options_.placement == Placement::kPyramid;
     const auto live = static_cast<std::uint32_t>(surface_.live.size());
     return {.placement = options_.placement,
             .parity = static_cast<std::int32_t>(from_finest & 1),
             .by_region = by_region,
             .length_weight = from_finest < kRegularLevels ? kLengthWeight : 0,
             .most = live - options_.target_vertices,
-            .low = low_,
-            .high = high_};
+            .low = cell_of(low_, surface_.shift),
+            .high = cell_of(high_, surface_.shift)};
   }
 
   CollapseLevel collapse_level(const LevelRules& rules) {
@@ -80,32 +134,12 @@ class Simplifier {
     for (const Pick& pick : picks) {
       const EdgeStar edge(surface_.mesh, pick.corner);
       if (keeps_manifold(surface_.mesh, edge) && keeps_orientation(surface_, edge, pick.target)) {
-        level.push_back(collapse(edge, pick));
+        level.push_back(apply_collapse(surface_, edge, pick));
       }
     }
     std::erase_if(surface_.live,
                   [&](VertexId v) { return surface_.mesh.corner_at(v) == kNoCorner; });
     return level;
-  }
-
-  Collapse collapse(const EdgeStar& edge, const Pick& pick) {
-    const auto [v1, v2] = std::pair(edge.v1, edge.v2);
-    Collapse done{.v1 = v1,
-                  .v2 = v2,
-                  .apex12 = edge.apex12,
-                  .apex21 = edge.apex21,
-                  .p1 = surface_.position[v1],
-                  .p2 = surface_.position[v2],
-                  .c1 = {},
-                  .c2 = {}};
-    surface_.mesh.collapse(pick.corner);
-    surface_.position[v1] = pick.target;
-    surface_.quadric[v1] += surface_.quadric[v2];
-    if (!surface_.colour.empty()) {
-      done.c1 = surface_.colour[v1], done.c2 = surface_.colour[v2];
-      surface_.colour[v1] = merge_colours(done.c1, done.c2);
-    }
-    return done;
   }
 
   void report() const {
@@ -119,6 +153,9 @@ class Simplifier {
   Matcher matcher_;
   Vec3i low_, high_;
   std::uint32_t levels_by_region_ = 0;
+  bool splits_see_other_regions_ = false;  // v~ of the level depends on their exact places
+  std::vector<std::uint32_t> shifts_{0};
+  std::vector<std::vector<Refined>> refined_;
 };
 
 // Remembers a base vertex of the boundary loop that `face` closes.
@@ -169,6 +206,10 @@ Expected<Hierarchy> simplify_in_regions(const LatticeMesh& fine, const SimplifyO
   Simplifier simplifier(surface, fine.lattice, options);
   out.levels = simplifier.run();
   std::reverse(out.levels.begin(), out.levels.end());
+  out.shift = std::move(simplifier).shifts();
+  std::reverse(out.shift.begin(), out.shift.end());
+  out.refined = std::move(simplifier).refined();
+  std::reverse(out.refined.begin(), out.refined.end());
   out.fork_level =
       static_cast<std::uint32_t>(out.levels.size()) + 1 - simplifier.levels_by_region();
   compact_base(surface, fine.lattice, out);
@@ -182,14 +223,17 @@ Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& opt
     return fail(ErrorCode::kLimit, "regions is " + std::to_string(options.regions) +
                                        ", choose 1 to " + std::to_string(kMaxRegions));
   }
+  SimplifyOptions whole = options;
+  whole.regions = 1;
+  const bool parted = options.regions > 1 && options.order == CollapseOrder::kBatch;
+  if (!parted) return simplify_in_regions(fine, whole);
   auto hierarchy = simplify_in_regions(fine, options);
-  if (!hierarchy || options.regions == 1) return hierarchy;
-  // The fork is coded behind the splits of a common level, and parts a level behind it.
+  if (!hierarchy) return hierarchy;
+  // The fork is coded behind the splits of a common level, and parts a level
+  // behind it.
   const bool forks =
       hierarchy->fork_level >= 2 && hierarchy->fork_level <= hierarchy->levels.size();
   if (forks) return hierarchy;
-  SimplifyOptions whole = options;
-  whole.regions = 1;
   return simplify_in_regions(fine, whole);
 }
 

@@ -12,8 +12,14 @@
 
 namespace vitrine {
 
+enum class CollapseOrder : std::uint8_t {
+  kBatch,  // few levels, each of many collapses with disjoint ends (matching.h)
+  kHeap,   // the cheapest pair of all, one at a time (heap_order.h): many levels and one region
+};
+
 struct SimplifyOptions {
   Placement placement = Placement::kMidpoint;
+  CollapseOrder order = CollapseOrder::kBatch;
   std::uint32_t target_vertices = 300;        // of the base mesh, about
   std::uint32_t regions = 1;                  // leaves of the region tree, 1..65535
   std::uint32_t vertices_per_region = 600;    // collapses stay inside regions down to this mean

@@ -34,6 +34,9 @@ tl::expected<BuildOptions, Fault> read_options(const Arguments& arguments) {
   constexpr std::string_view kPlacements[] = {"midpoint", "pyramid"};
   const auto placement = arguments.choice("--placement", kPlacements);
   if (!placement) return tl::unexpected(placement.error());
+  constexpr std::string_view kOrders[] = {"batch", "heap"};
+  const auto order = arguments.choice("--order", kOrders);
+  if (!order) return tl::unexpected(order.error());
   const auto threads = arguments.number("--threads", 1, 256);
   if (!threads) return tl::unexpected(threads.error());
   const auto reading = reading_options(arguments);
@@ -42,6 +45,7 @@ tl::expected<BuildOptions, Fault> read_options(const Arguments& arguments) {
   options.reading = *reading;
   options.bits = *bits;
   options.placement = *placement == 1 ? Placement::kPyramid : Placement::kMidpoint;
+  options.order = *order == 1 ? CollapseOrder::kHeap : CollapseOrder::kBatch;
   options.threads =
       static_cast<unsigned>(threads->value_or(std::max(1u, std::thread::hardware_concurrency())));
   return options;
@@ -121,6 +125,7 @@ constexpr Flag kFlags[] = {
     kUpFlag,
     {"--bits", "auto|10..16", "grid of the coordinates (default auto)"},
     {"--placement", "midpoint|pyramid", "smallest file, or best coarse levels (default midpoint)"},
+    {"--order", "batch|heap", "few large levels, or the cheapest pair first (default batch)"},
     {"--threads", "N", "default: one for each core"},
     {"--json", "", "print one JSON object"}};
 

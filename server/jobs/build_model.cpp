@@ -99,8 +99,9 @@ class LevelErrors {
  private:
   std::shared_ptr<const TriangleMesh> displayed(const MeshState& level, double filter) const {
     auto mesh = std::make_shared<TriangleMesh>();
+    const LevelInfo shown{.display_filter = filter, .shift = level.shift};
     filter_for_display(
-        level, [&](VertexId) { return filter; }, mesh->positions);
+        level, [&](VertexId) -> const LevelInfo& { return shown; }, mesh->positions);
     for (Vec3& p : mesh->positions)
       p = lattice_.origin + p * lattice_.step;
     mesh->faces = level.real_faces();
@@ -124,6 +125,7 @@ class LevelErrors {
 SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& options,
                                  const BuildProgress& progress) {
   SimplifyOptions how{.placement = options.placement,
+                      .order = options.order,
                       .regions = region_count(fine.positions.size())};
   if (progress) how.progress = [&](double done) { progress("simplify", 0.1 + 0.4 * done); };
   return how;

@@ -13,6 +13,7 @@
 #include "codec/core/expected.h"
 #include "codec/import/read_mesh.h"
 #include "codec/progressive/manifest.h"
+#include "codec/simplify/simplify.h"
 
 namespace vitrine {
 
@@ -20,6 +21,7 @@ struct BuildOptions {
   ReadOptions reading = {};
   int bits = 0;  // kMinBits..kMaxBits; 0: the fewest whose step is at most 1/32 of the median edge
   Placement placement = Placement::kMidpoint;
+  CollapseOrder order = CollapseOrder::kBatch;
   unsigned threads = 1;  // >= 1; the output does not depend on it
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/manifest.h"
+#include "codec/progressive/cell.h"
 
 #include <gtest/gtest.h>
 
@@ -28,6 +29,7 @@ void add_levels(Dice& dice, Manifest& m) {
     level.vertices += born;
     level.faces += born + dice.below(born + 1);
   }
+  if (m.levels.size() > 1) m.levels[0].shift = dice.below(kMaxShift + 1);
 }
 
 void add_regions(Dice& dice, Manifest& m) {
@@ -101,6 +103,7 @@ void expect_equal(const Manifest& a, const Manifest& b) {
     EXPECT_EQ(a.levels[i].max_error, b.levels[i].max_error);
     EXPECT_EQ(a.levels[i].rms_error, b.levels[i].rms_error);
     EXPECT_EQ(a.levels[i].display_filter, b.levels[i].display_filter);
+    EXPECT_EQ(a.levels[i].shift, b.levels[i].shift);
   }
   ASSERT_EQ(a.planes.size(), b.planes.size());
   for (std::size_t i = 0; i < a.planes.size(); ++i) {
@@ -170,6 +173,13 @@ TEST(Manifest, RefusesWhatCannotBe) {
   contains(refusal([](Manifest& m) { m.levels[1].faces = 9; }), "faces of level 1");
   contains(refusal([](Manifest& m) { m.levels[1].vertices = 3; }), "lose vertices");
   contains(refusal([](Manifest& m) { m.levels[0].display_filter = 1.5; }), "display filter");
+  contains(refusal([](Manifest& m) { m.levels[0].shift = kMaxShift + 1; }), "lattice");
+  contains(refusal([](Manifest& m) {
+             for (LevelInfo& l : m.levels)
+               l.shift = 1;
+           }),
+           "lattice");
+  contains(refusal([](Manifest& m) { m.levels[1].shift = 1; }), "lattice");
   contains(refusal([](Manifest& m) { m.chunks[1].splits = 2; }), "level 2");
   contains(refusal([](Manifest& m) { m.chunks[1].splits = 0; }), "do not make up");
   contains(refusal([](Manifest& m) { m.adjacency = {{1}, {}}; }), "symmetric");

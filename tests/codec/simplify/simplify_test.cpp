@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "codec/progressive/cell.h"
 #include "codec/progressive/colour.h"
 #include "codec/progressive/placement.h"
 #include "support/meshes.h"
@@ -39,6 +40,7 @@ class Replay {
       ASSERT_TRUE(last == nullptr || *last < positions_[c.v1]) << "v~ does not ascend";
       last = &positions_[c.v1];
     }
+    ASSERT_NO_FATAL_FAILURE(coarsen_lattice(level));
   }
 
   // The closed mesh of the level must be a manifold with all of its boundary loops.
@@ -70,6 +72,21 @@ class Replay {
         faces_at_[faces_[f][k]].push_back(f);
         neighbours_[faces_[f][k]].insert({faces_[f][(k + 1) % 3], faces_[f][(k + 2) % 3]});
       }
+    }
+  }
+
+  // What is cut off must be on record, for every vertex that is left.
+  void coarsen_lattice(std::uint32_t level) {
+    const std::uint32_t bits = hierarchy_.shift[level - 1] - hierarchy_.shift[level];
+    const auto& refined = hierarchy_.refined[level - 1];
+    std::set<VertexId> left;
+    for (const Triangle& f : faces_)
+      left.insert(f.begin(), f.end());
+    ASSERT_EQ(refined.size(), bits > 0 ? left.size() : 0);
+    for (const Refined& r : refined) {
+      ASSERT_EQ(positions_[r.vertex], r.cell);
+      ASSERT_TRUE(left.erase(r.vertex));
+      positions_[r.vertex] = cell_of(r.cell, bits);
     }
   }
 
@@ -154,6 +171,9 @@ std::vector<Case> cases() {
       all.push_back({"tube", tube(24, 18), options});
       all.push_back({"torus", torus(30, 16), options});
     }
+    all.push_back({"heap",
+                   tube(24, 18),
+                   {.placement = placement, .order = CollapseOrder::kHeap, .target_vertices = 40}});
   }
   return all;
 }
@@ -257,8 +277,41 @@ TEST(Simplify, RimsKeepTheirPlace) {
   const auto [low, high] =
       std::minmax_element(hierarchy->base.positions.begin(), hierarchy->base.positions.end(),
                           [](const Vec3i& a, const Vec3i& b) { return a.z < b.z; });
-  EXPECT_LE(low->z, 2);
-  EXPECT_GE(high->z, 4093);
+  const std::uint32_t shift = hierarchy->shift[0];
+  const std::int32_t tolerance = 2 + (1 << shift) / 2;
+  EXPECT_LE(middle_of(*low, shift).z, tolerance);
+  EXPECT_GE(middle_of(*high, shift).z, 4095 - tolerance);
+}
+
+TEST(Simplify, CoarseLevelsStandOnACoarserLatticeThatIsFinerThanTheirError) {
+  for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
+    const auto hierarchy =
+        simplify(on_lattice(shipped_model("demosthenes.obj")), {.placement = placement});
+    ASSERT_TRUE(hierarchy.has_value());
+    const auto& shift = hierarchy->shift;
+    ASSERT_EQ(shift.size(), hierarchy->levels.size() + 1);
+    EXPECT_EQ(shift.back(), 0u);
+    EXPECT_TRUE(std::is_sorted(shift.rbegin(), shift.rend()));
+    EXPECT_GE(shift.front(), 2u);
+    EXPECT_LE(shift.front(), 7u);
+  }
+}
+
+TEST(Simplify, TheHeapTakesTheCheapestPairFirst) {
+  // A flat sheet with one bump: what costs nothing goes before what carries shape.
+  TriangleMesh bumped = sheet(30, 30);
+  for (Vec3& p : bumped.positions)
+    p.z = 0;
+  const VertexId bump = 15 * 30 + 15;
+  bumped.positions[bump].z = 3;
+  const LatticeMesh fine = on_lattice(bumped);
+  const auto hierarchy =
+      simplify(fine, {.order = CollapseOrder::kHeap, .target_vertices = 60, .regions = 4});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_EQ(hierarchy->regions, 1u);
+  const auto& base = hierarchy->base.positions;
+  EXPECT_LT(base.size(), 300u);
+  EXPECT_NE(std::find(base.begin(), base.end(), fine.positions[bump]), base.end());
 }
 
 TEST(Simplify, FacesWithoutAreaCollapseToo) {
