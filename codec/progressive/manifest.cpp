@@ -272,7 +272,9 @@ Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) noexc
   in.u16();  // a newer minor version decodes with this reader
   const std::uint64_t length = in.u32();
   if (!in.ok() || !std::equal(magic.begin(), magic.end(), kMagic.begin())) {
-    return fail(ErrorCode::kBadInput, "not a .pmesh file (its first bytes are not the signature)");
+    return fail(ErrorCode::kBadInput,
+                "not a .pmesh file (its first bytes are not the signature); make one of a mesh "
+                "with vitrine build");
   }
   if (major != kFormatMajor) {
     return fail(ErrorCode::kUnsupported, "the file has format version " + std::to_string(major) +

@@ -16,6 +16,7 @@ add_library(vitrine_flags INTERFACE)
 target_compile_options(vitrine_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                                -Wno-sign-conversion -Wno-missing-field-initializers -Werror -ffp-contract=off
                                                -fno-tree-slp-vectorize)
+target_link_options(vitrine_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Werror=odr>)
 
 # vitrine_room(codec/core SOURCES a.cpp b.cpp USES codec/other Lib::target)
 function(vitrine_room folder)

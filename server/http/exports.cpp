@@ -14,6 +14,9 @@
 namespace vitrine {
 namespace {
 
+constexpr std::string_view kParameters[] = {"triangles", "error", "bytes",
+                                            "level",     "kbps",  "seconds"};
+
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number value{};
@@ -44,15 +47,37 @@ tl::expected<Want, std::string> parse_want(std::string_view name, std::string_vi
   return WantTriangles{*count};
 }
 
+// What a line of `kbps` kilobits per second carries in `seconds`.
+tl::expected<Want, ParameterFault> parse_line(const Query& query) {
+  double product = 1;
+  for (const std::string name : {"kbps", "seconds"}) {
+    const auto text = query.get(name);
+    if (!text) return tl::unexpected(ParameterFault{name, "kbps and seconds go together"});
+    const auto value = parse_number<double>(*text);
+    if (!value || !(*value > 0 && *value <= 1e9))
+      return tl::unexpected(ParameterFault{name, "a number above 0, at most 1e9"});
+    product *= *value;
+  }
+  return WantBytes{static_cast<std::uint64_t>(product * 1000 / 8)};
+}
+
 // What the query asks for; the whole model where it does not say.
 tl::expected<Want, ParameterFault> read_want(const Query& query, const Manifest& manifest) {
   const auto levels = static_cast<std::uint32_t>(manifest.levels.size());
+  if (const auto name = query.unknown(kParameters))
+    return tl::unexpected(ParameterFault{std::string(*name), "unknown here"});
   std::optional<Want> wanted;
+  if (query.get("kbps") || query.get("seconds")) {
+    const auto line = parse_line(query);
+    if (!line) return tl::unexpected(line.error());
+    wanted = *line;
+  }
   for (const std::string name : {"triangles", "error", "bytes", "level"}) {
     const auto text = query.get(name);
     if (!text) continue;
     if (wanted)
-      return tl::unexpected(ParameterFault{name, "only one of triangles, error, bytes, level"});
+      return tl::unexpected(
+          ParameterFault{name, "only one of triangles, error, bytes, level, kbps with seconds"});
     const auto want = parse_want(name, *text, levels);
     if (!want) return tl::unexpected(ParameterFault{name, want.error()});
     wanted = *want;

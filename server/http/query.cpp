@@ -59,4 +59,11 @@ std::optional<std::string_view> Query::get(std::string_view name) const {
   return std::nullopt;
 }
 
+std::optional<std::string_view> Query::unknown(std::span<const std::string_view> known) const {
+  for (const auto& [key, value] : parameters_) {
+    if (std::ranges::find(known, key) == known.end()) return key;
+  }
+  return std::nullopt;
+}
+
 }  // namespace vitrine

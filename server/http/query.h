@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,8 @@ class Query {
   // Nothing where an escape is malformed or there are more than kMaxParameters.
   static std::optional<Query> parse(std::string_view text);
 
+  // The first parameter that is not one of `known`.
+  std::optional<std::string_view> unknown(std::span<const std::string_view> known) const;
   // The value of a parameter, the first where it is given several times.
   std::optional<std::string_view> get(std::string_view name) const;
 

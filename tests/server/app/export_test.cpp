@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exports of the real daemon, of a model that was really built.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -91,6 +92,9 @@ TEST_F(ExportTest, MeetsTrianglesBytesAndError) {
   EXPECT_EQ(ply_faces(get("ply?bytes=" + std::to_string(manifest.cumulative_bytes(1))).body),
             levels[1].faces);
   EXPECT_EQ(ply_faces(get("ply?error=1e9").body), levels.front().faces);
+  const double kilobits = static_cast<double>(manifest.cumulative_bytes(1)) * 8 / 1000;
+  const std::string line = fmt::format("ply?seconds=2&kbps={}", kilobits / 2 + 0.001);
+  EXPECT_EQ(ply_faces(get(line).body), levels[1].faces);
 }
 
 TEST_F(ExportTest, WritesEveryFormat) {
@@ -112,7 +116,8 @@ TEST_F(ExportTest, IsAnEntityThatCanBeHeldAndReadInParts) {
 
 TEST_F(ExportTest, RefusesParametersThatMakeNoSense) {
   for (const char* query : {"triangles=many", "triangles=-1", "error=nan", "error=-1", "level=99",
-                            "level=top", "bytes=1.5", "triangles=1&level=1"}) {
+                            "level=top", "bytes=1.5", "triangles=1&level=1", "kbps=100",
+                            "kbps=0&seconds=1", "kbps=100&seconds=1&level=1", "faces=100"}) {
     EXPECT_EQ(get(std::string("ply?") + query).status, 400) << query;
   }
 }
