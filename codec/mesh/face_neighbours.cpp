@@ -40,13 +40,13 @@ std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triang
   std::vector<std::uint32_t> waiting(3 * faces.size());
   std::vector<std::array<std::uint32_t, 3>> across(faces.size());
   for (std::uint32_t h = 0; h < 3 * faces.size(); ++h) {
-    const auto [from, to] = ends(faces, h);
+    const Ends own = ends(faces, h);
     across[h / 3][h % 3] = h;
-    std::uint32_t* const bucket = waiting.data() + start[std::min(from, to)];
-    std::uint32_t& n = size[std::min(from, to)];
+    std::uint32_t* const bucket = waiting.data() + start[std::min(own.from, own.to)];
+    std::uint32_t& n = size[std::min(own.from, own.to)];
     std::uint32_t* const twin = std::find_if(bucket, bucket + n, [&](std::uint32_t other) {
       const Ends e = ends(faces, other);
-      return e.from == to && e.to == from;
+      return e.from == own.to && e.to == own.from;
     });
     if (twin == bucket + n) {
       bucket[n++] = h;
