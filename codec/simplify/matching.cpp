@@ -21,7 +21,8 @@ const std::vector<Pick>& Matcher::match(const LevelRules& rules) {
   radix_sort(edges_, scratch_);
 
   picks_.clear();
-  const std::size_t cheap = edges_.size() * 9 / 10;
+  const std::size_t cheap =
+      rules.length_weight > 0 ? edges_.size() * 9 / 10 : edges_.size() * 3 / 4;
   const std::size_t enough = surface_.live.size() / 5;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     if (picks_.size() == rules.most || (i >= cheap && picks_.size() >= enough)) break;
