@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
     return model.clean.faces.size() <= kSpeedFaces;
   });
   if (large != models.rend()) speeds(report, *large);
+  variants(report, models[models.size() / 2]);
   return report.finish() ? 0 : 1;
 }
 

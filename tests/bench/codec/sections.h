@@ -18,6 +18,10 @@ void sizes(Report& report, const std::vector<Model>& models);
 // (single_files.h), for the models without colours that are large enough to have such levels.
 void rate_distortion(Report& report, const std::vector<Model>& models);
 
+// The three other variants of pyramid or midpoint placement and heap or batch order against the
+// default: error at equal faces, at equal bytes, and total bytes.
+void variants(Report& report, const Model& model);
+
 // Build time against meshoptimizer's, decode time against Draco's, WebAssembly against native.
 void speeds(Report& report, const Model& model);
 

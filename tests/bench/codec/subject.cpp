@@ -29,9 +29,12 @@ TriangleMesh read_clean(std::span<const std::uint8_t> file) {
   return value_of(repair(value_of(read_mesh(file)))).mesh;
 }
 
-Bytes build(std::span<const std::uint8_t> file, int bits) {
+Bytes build(std::span<const std::uint8_t> file, int bits, Placement placement,
+            CollapseOrder order) {
   BuildOptions options;
   options.bits = bits;
+  options.placement = placement;
+  options.order = order;
   return value_of(build_model(file, options, {})).file;
 }
 

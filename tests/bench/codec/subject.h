@@ -3,6 +3,8 @@
 // something broken has no figures.
 #pragma once
 
+#include "codec/progressive/manifest.h"
+#include "codec/simplify/simplify.h"
 #include "peers.h"
 
 namespace vitrine::bench {
@@ -11,7 +13,9 @@ namespace vitrine::bench {
 TriangleMesh read_clean(std::span<const std::uint8_t> file);
 
 // The `.pmesh` of a mesh file, one thread.
-Bytes build(std::span<const std::uint8_t> file, int bits);
+Bytes build(std::span<const std::uint8_t> file, int bits,
+            Placement placement = Placement::kMidpoint,
+            CollapseOrder order = CollapseOrder::kBatch);
 
 // Checks and decodes every chunk; the number of faces at full resolution.
 std::uint32_t decode(std::span<const std::uint8_t> pmesh);
