@@ -44,18 +44,19 @@ class Simplifier {
     high_ = {side - 1 + margin, side - 1 + margin, side - 1 + margin};
   }
 
-  // Levels from fine to coarse.
-  std::vector<CollapseLevel> run() {
-    return options_.order == CollapseOrder::kHeap ? run_heap() : run_batches();
+  // Simplifies, and records the levels, coarse to fine.
+  void run(Hierarchy& out) {
+    out.levels = options_.order == CollapseOrder::kHeap ? run_heap() : run_batches();
+    out.shift = std::move(shifts_);
+    out.refined = std::move(refined_);
+    std::ranges::reverse(out.levels);
+    std::ranges::reverse(out.shift);
+    std::ranges::reverse(out.refined);
+    out.fork_level = static_cast<std::uint32_t>(out.levels.size()) + 1 - levels_by_region_;
   }
 
-  std::uint32_t levels_by_region() const { return levels_by_region_; }
-  // Per level from fine to coarse, the finest and the base included; refined()
-  // without the finest.
-  std::vector<std::uint32_t> shifts() && { return std::move(shifts_); }
-  std::vector<std::vector<Refined>> refined() && { return std::move(refined_); }
-
  private:
+  // Levels from fine to coarse, here and below.
   std::vector<CollapseLevel> run_batches() {
     std::vector<CollapseLevel> levels;
     while (levels.size() + 1 < Limits{}.levels &&
@@ -203,15 +204,7 @@ Expected<Hierarchy> simplify_in_regions(const LatticeMesh& fine, const SimplifyO
 
   Surface surface = make_surface(fine, std::move(*mesh));
   surface.region = std::move(tree.region);
-  Simplifier simplifier(surface, fine.lattice, options);
-  out.levels = simplifier.run();
-  std::reverse(out.levels.begin(), out.levels.end());
-  out.shift = std::move(simplifier).shifts();
-  std::reverse(out.shift.begin(), out.shift.end());
-  out.refined = std::move(simplifier).refined();
-  std::reverse(out.refined.begin(), out.refined.end());
-  out.fork_level =
-      static_cast<std::uint32_t>(out.levels.size()) + 1 - simplifier.levels_by_region();
+  Simplifier(surface, fine.lattice, options).run(out);
   compact_base(surface, fine.lattice, out);
   return out;
 }
