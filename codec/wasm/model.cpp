@@ -30,7 +30,7 @@ Want to_want(std::uint32_t kind, double value) {
   }
 }
 
-Vec3 box_centre(const std::vector<Vec3i>& positions) {
+Vec3 box_centre(std::span<const Vec3i> positions) {
   if (positions.empty()) return {};
   Vec3i low = positions[0], high = positions[0];
   for (const Vec3i& p : positions) {
@@ -74,8 +74,10 @@ Expected<void> Model::check_chunk(std::size_t chunk, std::span<const std::uint8_
 
 Expected<void> Model::start(BaseMesh base) {
   base_ = std::move(base);
-  centre_ = box_centre(base_.positions);
-  return restart();
+  if (auto started = restart(); !started) return started;
+  centre_ =
+      box_centre(refiner_->positions());  // the base itself counts in cells of its own lattice
+  return {};
 }
 
 Expected<void> Model::restart() {

@@ -24,9 +24,19 @@ function state(decoder) {
   return `${shown.triangles} ${hash.digest("hex")}`;
 }
 
+// A page shows the base mesh in the middle: its box lies around the surface's own origin.
+function checkCentred({ positions }) {
+  for (const axis of [0, 1, 2]) {
+    const along = positions.filter((_, i) => i % 3 === axis);
+    const low = along.reduce((a, b) => Math.min(a, b)), high = along.reduce((a, b) => Math.max(a, b));
+    if (Math.abs(low + high) > 0.1 * (high - low) + 1e-6) throw new Error(`the base mesh is off its centre along axis ${axis}`);
+  }
+}
+
 async function inWasm(path) {
   const file = await readFile(path);
   const { decoder, info } = await openFile(core, file);
+  checkCentred(decoder.surface());
   const states = [state(decoder)];
   decoder.want({ level: info.levels.length });
   for (let chunk = decoder.nextChunk(); chunk !== undefined; chunk = decoder.nextChunk()) {
