@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "codec/export/write_drc.h"
+
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
 
+#include <array>
 #include <string>
-
-#include "codec/export/writers.h"
 
 namespace vitrine {
 namespace {
-
-constexpr int kPositionBits = 16;
 
 // Adds an attribute of three components with one value per vertex.
 template <class T, class Value>
@@ -48,13 +47,13 @@ void fill(draco::Mesh& target, const TriangleMesh& mesh) {
 
 }  // namespace
 
-Expected<FileBytes> write_drc(const TriangleMesh& mesh) {
+Expected<std::vector<std::uint8_t>> write_drc(const TriangleMesh& mesh, const DrcOptions& options) {
   draco::Mesh target;
   fill(target, mesh);
   draco::Encoder encoder;
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, kPositionBits);
-  encoder.SetSpeedOptions(3, 3);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, options.bits);
+  encoder.SetSpeedOptions(10 - options.effort, 10 - options.effort);
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(target, &buffer);
   if (!status.ok()) {
@@ -62,7 +61,7 @@ Expected<FileBytes> write_drc(const TriangleMesh& mesh) {
         ErrorCode::kUnsupported,
         "Draco cannot encode this mesh (" + status.error_msg_string() + "); choose another format");
   }
-  return FileBytes(buffer.data(), buffer.data() + buffer.size());
+  return std::vector<std::uint8_t>(buffer.data(), buffer.data() + buffer.size());
 }
 
 }  // namespace vitrine

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "codec/export/write_drc.h"
 #include "codec/export/writers.h"
 #include "codec/mesh/unit.h"
 

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "codec/core/expected.h"
 #include "codec/mesh/triangle_mesh.h"
 
 namespace vitrine {
@@ -19,6 +18,5 @@ FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit);
 FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit);
 FileBytes write_glb(const TriangleMesh& mesh);
 FileBytes write_vrml(const TriangleMesh& mesh);
-Expected<FileBytes> write_drc(const TriangleMesh& mesh);
 
 }  // namespace vitrine

@@ -83,4 +83,8 @@ Expected<SurfaceDistance> measure(const TriangleMesh& a, const TriangleMesh& b,
   return out;
 }
 
+double rms_distance(const TriangleBvh& a, const TriangleBvh& b, const MeasureOptions& options) {
+  return std::max(one_way(a, b, options).rms, one_way(b, a, options).rms);
+}
+
 }  // namespace vitrine

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "codec/core/expected.h"
+#include "codec/mesh/triangle_bvh.h"
 #include "codec/mesh/triangle_mesh.h"
 
 namespace vitrine {
@@ -31,5 +32,8 @@ struct SurfaceDistance {
 // (kBadInput) where a mesh has no face or a face index is out of range.
 Expected<SurfaceDistance> measure(const TriangleMesh& a, const TriangleMesh& b,
                                   const MeasureOptions& options = {});
+
+// The rms alone, for surfaces that are measured more than once; both have a face.
+double rms_distance(const TriangleBvh& a, const TriangleBvh& b, const MeasureOptions& options = {});
 
 }  // namespace vitrine

@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "server/cli/command.h"
@@ -13,6 +15,7 @@
 #include "server/cli/levels.h"
 #include "server/cli/reading.h"
 #include "server/jobs/build_model.h"
+#include "server/report/build_report.h"
 #include "server/store/atomic_file.h"
 
 namespace vitrine::cli {
@@ -86,30 +89,69 @@ std::string as_text(const json& report, const Manifest& manifest, const std::str
                             manifest.lattice.bits, levels_text(manifest));
 }
 
+// Whether all outputs can be written, asked before long work.
+Outcome check_outputs(const Arguments& arguments) {
+  const std::string path = arguments.operand(0), page = arguments.text("--report");
+  std::vector<std::string> outputs = {arguments.text("-o")};
+  if (arguments.has("--report")) outputs.push_back(page);
+  for (const std::string& out : outputs) {
+    if (const auto writable = check_writable(out); !writable) return failed(writable.error());
+    if (const auto distinct = check_distinct(path, out); !distinct) return failed(distinct.error());
+  }
+  using std::filesystem::weakly_canonical;
+  std::error_code unknown;  // then writing fails too
+  if (outputs.size() == 2 &&
+      weakly_canonical(outputs[0], unknown) == weakly_canonical(outputs[1], unknown)) {
+    return misused("-o and --report name the same file; choose another name for the report");
+  }
+  return {};
+}
+
+Expected<Product> make(std::span<const std::uint8_t> input, const BuildOptions& options,
+                       const std::optional<std::string>& report_of,
+                       const ProgressReport& progress) {
+  auto result = build_model(input, options, progress);
+  if (!result) return tl::unexpected(result.error());
+  const auto manifest = parse_header(result->file);
+  if (!manifest) return tl::unexpected(manifest.error());
+  std::string page;
+  if (report_of) {
+    auto written = build_report(*report_of, input, options.reading, *result, progress);
+    if (!written) return tl::unexpected(written.error());
+    page = std::move(*written);
+  }
+  return Product{describe(result->report, *manifest), std::move(result->file), std::move(page)};
+}
+
+Outcome write_outputs(const Arguments& arguments, const Product& product) {
+  const auto written = write_file_atomically(arguments.text("-o"), product.file);
+  if (!written) return failed(written.error());
+  if (!arguments.has("--report")) return {};
+  const auto reported = write_file_atomically(
+      arguments.text("--report"),
+      {reinterpret_cast<const std::uint8_t*>(product.page.data()), product.page.size()});
+  return reported ? Outcome{} : failed(reported.error());
+}
+
 Outcome build(const Arguments& arguments) {
   if (!arguments.has("-o")) return misused("-o is missing: name the output file");
   auto options = read_options(arguments);
   if (!options) return tl::unexpected(options.error());
   const std::string path = arguments.operand(0), out = arguments.text("-o");
-  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
-  if (const auto distinct = check_distinct(path, out); !distinct) return failed(distinct.error());
+  if (auto ok = check_outputs(arguments); !ok) return ok;
   const auto file = InputFile::open(path);
   if (!file) return failed(file.error());
   const CompanionFiles companions(path, file->bytes());
   options->reading.beside = companions.contents();
 
-  auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
-    auto result = build_model(file->bytes(), *options, progress);
-    if (!result) return tl::unexpected(result.error());
-    const auto manifest = parse_header(result->file);
-    if (!manifest) return tl::unexpected(manifest.error());
-    return Product{describe(result->report, *manifest), std::move(result->file)};
+  std::optional<std::string> report_of;
+  if (arguments.has("--report")) report_of = std::filesystem::path(path).filename().string();
+  auto product = isolate(path, [&](const ProgressReport& progress) {
+    return make(file->bytes(), *options, report_of, progress);
   });
   if (!product) return tl::unexpected(product.error());
   const auto start = Clock::now();
-  if (auto written = write_file_atomically(out, product->file); !written) {
-    return failed(written.error());
-  }
+  if (auto written = write_outputs(arguments, *product); !written) return written;
   json& seconds = product->report["seconds"]["write"];
   seconds = seconds.get<double>() + std::chrono::duration<double>(Clock::now() - start).count();
   if (arguments.has("--json")) return print_json(product->report);
@@ -127,6 +169,7 @@ constexpr Flag kFlags[] = {
     {"--placement", "midpoint|pyramid", "smallest file, or best coarse levels (default midpoint)"},
     {"--order", "batch|heap", "few large levels, or the cheapest pair first (default batch)"},
     {"--threads", "N", "default: one for each core"},
+    {"--report", "OUT.html", "also write a page: pictures, error against bytes, all levels"},
     {"--json", "", "print one JSON object"}};
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
+#include <span>
 
 #include "server/cli/console.h"
 
@@ -26,27 +28,48 @@ SandboxLimits limits() {
   return limits;
 }
 
-// The report's length, the report, the file.
+constexpr std::string_view kNoAnswer = "the isolated process gave no answer";
+
+// Length and bytes.
+void add_part(Bytes& bytes, std::span<const std::uint8_t> part) {
+  const std::uint64_t length = part.size();
+  const auto* digits = reinterpret_cast<const std::uint8_t*>(&length);
+  bytes.insert(bytes.end(), digits, digits + sizeof length);
+  bytes.insert(bytes.end(), part.begin(), part.end());
+}
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+// Takes the first part off `bytes`; nothing where it is not whole.
+std::optional<std::span<const std::uint8_t>> take_part(std::span<const std::uint8_t>& bytes) {
+  std::uint64_t length = 0;
+  if (bytes.size() < sizeof length) return std::nullopt;
+  std::memcpy(&length, bytes.data(), sizeof length);
+  bytes = bytes.subspan(sizeof length);
+  if (length > bytes.size()) return std::nullopt;
+  const auto part = bytes.first(length);
+  bytes = bytes.subspan(length);
+  return part;
+}
+
 Bytes pack(const Product& product) {
-  const std::string report =
-      product.report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  const std::uint64_t length = report.size();
-  Bytes bytes(sizeof length);
-  std::memcpy(bytes.data(), &length, sizeof length);
-  bytes.insert(bytes.end(), report.begin(), report.end());
-  bytes.insert(bytes.end(), product.file.begin(), product.file.end());
+  Bytes bytes;
+  add_part(bytes,
+           bytes_of(product.report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+  add_part(bytes, bytes_of(product.page));
+  add_part(bytes, product.file);
   return bytes;
 }
 
-tl::expected<Product, Fault> unpack(const Bytes& bytes) {
-  std::uint64_t length = 0;
-  if (bytes.size() < sizeof length) return failed("the isolated process gave no answer");
-  std::memcpy(&length, bytes.data(), sizeof length);
-  if (length > bytes.size() - sizeof length) return failed("the isolated process gave no answer");
-  const auto report = bytes.begin() + sizeof length;
-  const auto file = report + static_cast<std::ptrdiff_t>(length);
-  Product product{nlohmann::json::parse(report, file, nullptr, false), {file, bytes.end()}};
-  if (!product.report.is_object()) return failed("the isolated process gave no answer");
+tl::expected<Product, Fault> unpack(std::span<const std::uint8_t> bytes) {
+  const auto report = take_part(bytes), page = take_part(bytes), file = take_part(bytes);
+  if (!report || !page || !file) return failed(std::string(kNoAnswer));
+  Product product{nlohmann::json::parse(report->begin(), report->end(), nullptr, false),
+                  {file->begin(), file->end()},
+                  {page->begin(), page->end()}};
+  if (!product.report.is_object()) return failed(std::string(kNoAnswer));
   return product;
 }
 

@@ -14,6 +14,7 @@ namespace vitrine::cli {
 struct Product {
   nlohmann::json report;
   std::vector<std::uint8_t> file;  // the output file's bytes; may be empty
+  std::string page = {};           // a page about it; may be empty
 };
 
 // `subject` names the input at the start of the error message.

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/report/markup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace vitrine {
+namespace {
+
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD", kThinSpace = "\xE2\x80\xAF";
+
+std::string utf8(std::string_view bytes) {
+  using nlohmann::json;
+  const std::string text = json(bytes).dump(-1, ' ', false, json::error_handler_t::replace);
+  return json::parse(text).get<std::string>();
+}
+
+void add_escaped(std::string& out, char c) {
+  switch (c) {
+    case '<':
+      out += "&lt;";
+      break;
+    case '>':
+      out += "&gt;";
+      break;
+    case '&':
+      out += "&amp;";
+      break;
+    case '"':
+      out += "&quot;";
+      break;
+    case '\'':
+      out += "&#39;";
+      break;
+    default:
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte < 0x20 || byte == 0x7F) {
+        out += kReplacement;
+      } else {
+        out += c;
+      }
+  }
+}
+
+std::string data(const std::string& value, const std::string& text) {
+  return fmt::format("<data value=\"{}\">{}</data>", value, text);
+}
+
+}  // namespace
+
+std::string escaped(std::string_view bytes) {
+  std::string out;
+  for (const char c : utf8(bytes))
+    add_escaped(out, c);
+  return out;
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  static constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < here ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      out += k <= here ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+std::string count_text(std::uint64_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t at = digits.size(); at > 3;)
+    digits.insert(at -= 3, kThinSpace);
+  return digits;
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  static constexpr std::array<const char*, 4> kUnits = {"kB", "MB", "GB", "TB"};
+  if (bytes < 1'000)
+    return fmt::format(
+        "{}\xC2\xA0"
+        "bytes",
+        bytes);
+  double size = static_cast<double>(bytes) / 1'000;
+  std::size_t unit = 0;
+  for (; size >= 999.5 && unit + 1 < kUnits.size(); ++unit)
+    size /= 1'000;
+  return fmt::format("{}\xC2\xA0{}", significant(size), kUnits[unit]);
+}
+
+std::string significant(double x) {
+  if (!(x > 0)) return "0";
+  if (x >= 999.5) return count_text(static_cast<std::uint64_t>(std::llround(std::min(x, 9e18))));
+  const int decimals = 2 - static_cast<int>(std::floor(std::log10(x * 1.0005)));
+  return fmt::format("{:.{}f}", x, std::clamp(decimals, 0, 15));
+}
+
+std::string count_data(std::uint64_t count) {
+  return data(std::to_string(count), count_text(count));
+}
+
+std::string number_data(double x) {
+  return data(fmt::format("{}", x), significant(x));
+}
+
+}  // namespace vitrine
