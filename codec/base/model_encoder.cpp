@@ -11,10 +11,10 @@ namespace {
 
 std::vector<std::vector<std::uint32_t>> region_adjacency(const LatticeMesh& fine,
                                                          const Hierarchy& hierarchy) {
-  std::vector<std::set<std::uint32_t>> sets(hierarchy.regions);
+  std::vector<std::set<std::uint32_t>> sets(hierarchy.tree.leaves());
   for (const Triangle& t : fine.faces) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint16_t a = hierarchy.region[t[k]], b = hierarchy.region[t[(k + 1) % 3]];
+      const std::uint16_t a = hierarchy.leaf[t[k]], b = hierarchy.leaf[t[(k + 1) % 3]];
       if (a != b) sets[a].insert(b), sets[b].insert(a);
     }
   }
@@ -29,9 +29,7 @@ Manifest frame_of(const Hierarchy& hierarchy, const LatticeMesh& fine) {
   Manifest m{.lattice = fine.lattice, .placement = hierarchy.placement};
   m.coloured = !fine.colours.empty();
   m.loops = hierarchy.loops;
-  m.regions = hierarchy.regions;
-  m.fork_level = hierarchy.fork_level;
-  m.planes = hierarchy.planes;
+  m.tree = hierarchy.tree;
   m.adjacency = region_adjacency(fine, hierarchy);
   return m;
 }
@@ -41,9 +39,28 @@ void add_level(const MeshState& level, Manifest& manifest) {
       {.vertices = level.vertex_count(), .faces = level.real_face_count(), .shift = level.shift});
 }
 
+// Enlarges the boxes of the regions of `level` by where their vertices are in the state at hand.
+void add_to_boxes(const MeshState& mesh, std::uint32_t level, RegionTree& tree) {
+  std::vector<LatticeBox*> box(tree.leaves(), nullptr);
+  for (const std::uint32_t node : tree.regions_at(level))
+    box[tree.nodes[node].first] = &tree.nodes[node].box;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+    box[mesh.region[v]]->add({mesh.positions[v], mesh.positions[v]});
+}
+
+void close_boxes(RegionTree& tree) {
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    RegionNode& node = tree.nodes[i];
+    if (node.fork == 0) continue;
+    node.box.add(tree.nodes[i + 1].box);
+    node.box.add(tree.nodes[node.second].box);
+  }
+}
+
 void add_chunk(const EncodedChunk& chunk, std::uint32_t level, EncodedModel& model) {
   model.manifest.chunks.push_back({.level = level,
-                                   .region = chunk.region,
+                                   .region = model.manifest.tree.nodes[chunk.node].first,
+                                   .node = chunk.node,
                                    .length = chunk.bytes.size(),
                                    .splits = chunk.splits,
                                    .sha256 = sha256(chunk.bytes)});
@@ -72,6 +89,10 @@ Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LatticeMesh& fine
   EncodedModel model{.manifest = frame_of(hierarchy, fine), .body = {}};
   auto encoder = start_with_base(hierarchy, model);
   if (!encoder) return tl::unexpected(encoder.error());
+  RegionTree& tree = model.manifest.tree;
+  for (RegionNode& node : tree.nodes)
+    node.box = LatticeBox::none();
+  add_to_boxes(encoder->mesh(), 1, tree);
   add_level(encoder->mesh(), model.manifest);
   on_level(encoder->mesh());
   for (std::uint32_t level = 1; level <= hierarchy.levels.size(); ++level) {
@@ -80,9 +101,11 @@ Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LatticeMesh& fine
     for (const EncodedChunk& chunk : *chunks)
       add_chunk(chunk, level, model);
     hierarchy.levels[level - 1] = {};
+    add_to_boxes(encoder->mesh(), level + 1, tree);
     add_level(encoder->mesh(), model.manifest);
     on_level(encoder->mesh());
   }
+  close_boxes(tree);
   return model;
 }
 

@@ -48,9 +48,10 @@ void filter_for_display(const MeshState& mesh,
   out.resize(mesh.vertex_count());
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
     const LevelInfo& at = level(v);
+    const double a = mesh.border[v] == 0 ? at.display_filter : 0;
     const double offset = display_offset(at.shift);
     out[v] = to_vec3(mesh.positions[v]) + Vec3{offset, offset, offset};
-    if (at.display_filter != 0) out[v] += display_shift(mesh, v) * at.display_filter;
+    if (a != 0) out[v] += display_shift(mesh, v) * a;
   }
 }
 

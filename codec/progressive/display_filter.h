@@ -15,6 +15,8 @@ namespace vitrine {
 Vec3 display_shift(const MeshState& mesh, VertexId v);
 
 // One filtered position per vertex, lattice units. `level(v)` is the level that v has reached.
+// Vertices next to another region stay, so that what a region shows does not depend on how far its
+// neighbours are.
 void filter_for_display(const MeshState& mesh,
                         const std::function<const LevelInfo&(VertexId)>& level,
                         std::vector<Vec3>& out);

@@ -41,10 +41,8 @@ struct Hierarchy {
   std::vector<std::uint32_t> shift;        // of each level's lattice (cell.h); the base first
   // [l]: all vertices of level l; empty where level l + 1 has the same lattice.
   std::vector<std::vector<Refined>> refined;
-  std::vector<std::uint16_t> region;  // per fine vertex
-  std::uint32_t regions = 1;
-  std::uint32_t fork_level = 0;     // first level with chunks per region; levels.size()+1 if none
-  std::vector<RegionPlane> planes;  // regions - 1, in pre-order
+  RegionTree tree;
+  std::vector<std::uint16_t> leaf;  // of the tree, per fine vertex
 };
 
 }  // namespace vitrine

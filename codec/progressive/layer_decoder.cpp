@@ -8,16 +8,16 @@
 namespace vitrine {
 
 Expected<std::vector<Split>> decode_layer(MeshState& mesh, const ChunkFrame& frame,
-                                          std::span<const RegionPlane> planes,
+                                          const RegionTree& tree, std::uint32_t node,
                                           std::span<const std::uint8_t> bytes) noexcept {
   RangeDecoder coder(bytes);
   NoTruth truth;
   // On the heap: the models are larger than a WebAssembly stack likes.
   const auto pass = std::make_unique<LayerPass<RangeDecoder, NoTruth>>(mesh, frame, coder, truth);
   auto splits = pass->run();
-  if (!splits || planes.empty()) return splits;
+  if (!splits || !tree.nodes[node].forks_by(frame.level + 1)) return splits;
   const auto none = [](VertexId) { return std::uint16_t{0}; };
-  if (auto ok = code_fork(mesh, coder, planes, none); !ok) return tl::unexpected(ok.error());
+  code_fork(mesh, coder, tree, node, frame.level + 1, none);
   return splits;
 }
 

@@ -7,14 +7,16 @@
 
 #include "codec/core/expected.h"
 #include "codec/progressive/layer_pass.h"
+#include "codec/progressive/region_tree.h"
 
 namespace vitrine {
 
-// Decodes one chunk into `mesh` and returns the splits it applied, in coded order. `planes` is not
-// empty for the chunk that ends the common prefix: the region labels follow the splits there.
+// Decodes one chunk into `mesh` and returns the splits it applied, in coded order. `node` is the
+// chunk's region in `tree`; where that forks in the next level, the chunk says which child each
+// vertex goes to.
 // Safe on hostile bytes; after an error `mesh` is a manifold in memory, but of no use.
 Expected<std::vector<Split>> decode_layer(MeshState& mesh, const ChunkFrame& frame,
-                                          std::span<const RegionPlane> planes,
+                                          const RegionTree& tree, std::uint32_t node,
                                           std::span<const std::uint8_t> bytes) noexcept;
 
 }  // namespace vitrine

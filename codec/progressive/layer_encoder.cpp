@@ -17,14 +17,14 @@ VertexId virtual_neighbour(const Connectivity& mesh, VertexId v) {
 
 Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const BaseMesh& base,
                                            std::vector<VertexId> fine_ids) {
-  auto mesh = MeshState::from_base(base, hierarchy.shift[0]);
+  auto mesh = MeshState::from_base(base, hierarchy.shift[0], hierarchy.tree.leaves());
   if (!mesh) return tl::unexpected(mesh.error());
   LayerEncoder encoder(hierarchy, std::move(*mesh));
-  encoder.mesh_.reserve(hierarchy.region.size());
+  encoder.mesh_.reserve(hierarchy.leaf.size());
   encoder.fine_ = std::move(fine_ids);
-  encoder.fine_.reserve(hierarchy.region.size());
-  encoder.state_.assign(hierarchy.region.size(), kNone);
-  encoder.collapse_of_.assign(hierarchy.region.size(), kNone);
+  encoder.fine_.reserve(hierarchy.leaf.size());
+  encoder.state_.assign(hierarchy.leaf.size(), kNone);
+  encoder.collapse_of_.assign(hierarchy.leaf.size(), kNone);
   for (VertexId v = 0; v < encoder.fine_.size(); ++v)
     encoder.state_[encoder.fine_[v]] = v;
   for (const std::uint32_t member : hierarchy.loop_member) {
@@ -36,15 +36,19 @@ Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const Bas
 
 std::vector<EncodedChunk> LayerEncoder::begin_level() {
   const CollapseLevel& collapses = hierarchy_->levels[level_++];
-  const bool forked = level_ >= hierarchy_->fork_level;
-  std::vector<EncodedChunk> chunks(forked ? hierarchy_->regions : 1);
-  for (std::size_t k = 0; k < chunks.size(); ++k)
-    chunks[k].region = static_cast<std::uint16_t>(k);
+  std::vector<EncodedChunk> chunks;
+  std::vector<std::size_t> chunk_of(hierarchy_->tree.leaves());
+  for (const std::uint32_t node : hierarchy_->tree.regions_at(level_)) {
+    const RegionNode& region = hierarchy_->tree.nodes[node];
+    for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf)
+      chunk_of[leaf] = chunks.size();
+    chunks.push_back({.node = node, .splits = 0, .bytes = {}});
+  }
   for (std::uint32_t k = 0; k < collapses.size(); ++k) {
     collapse_of_[collapses[k].v1] = k;
-    ++chunks[forked ? hierarchy_->region[collapses[k].v1] : 0].splits;
+    ++chunks[chunk_of[hierarchy_->leaf[collapses[k].v1]]].splits;
   }
-  cell_.resize(hierarchy_->refined[level_ - 1].empty() ? 0 : hierarchy_->region.size());
+  cell_.resize(hierarchy_->refined[level_ - 1].empty() ? 0 : hierarchy_->leaf.size());
   for (const Refined& r : hierarchy_->refined[level_ - 1])
     cell_[r.vertex] = r.cell;
   return chunks;

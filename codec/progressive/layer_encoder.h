@@ -14,7 +14,7 @@
 namespace vitrine {
 
 struct EncodedChunk {
-  std::uint16_t region = 0;
+  std::uint32_t node = 0;  // of the tree: the region
   std::uint32_t splits = 0;
   std::vector<std::uint8_t> bytes;
 };
@@ -60,7 +60,7 @@ Expected<void> LayerEncoder::code_chunk(Coder& coder, const EncodedChunk& chunk,
                                         const Observer& observe) {
   const ChunkFrame frame{
       .level = level_,
-      .region = chunk.region,
+      .region = static_cast<std::uint16_t>(hierarchy_->tree.nodes[chunk.node].first),
       .splits = chunk.splits,
       .shift = hierarchy_->shift[level_],
       .shift_before = hierarchy_->shift[level_ - 1],
@@ -70,9 +70,10 @@ Expected<void> LayerEncoder::code_chunk(Coder& coder, const EncodedChunk& chunk,
   const auto pass = std::make_unique<LayerPass<Coder, Replay>>(mesh_, frame, coder, replay);
   if (auto ok = pass->run(); !ok) return tl::unexpected(ok.error());
   observe(*pass);
-  if (hierarchy_->regions == 1 || level_ + 1 != hierarchy_->fork_level) return {};
-  const auto label = [&](VertexId v) { return hierarchy_->region[fine_[v]]; };
-  return code_fork(mesh_, coder, hierarchy_->planes, label);
+  if (!hierarchy_->tree.nodes[chunk.node].forks_by(level_ + 1)) return {};
+  const auto leaf = [&](VertexId v) { return hierarchy_->leaf[fine_[v]]; };
+  code_fork(mesh_, coder, hierarchy_->tree, chunk.node, level_ + 1, leaf);
+  return {};
 }
 
 }  // namespace vitrine

@@ -19,8 +19,8 @@ constexpr std::uint64_t kKnownFeatures = kFeaturePyramid | kFeatureColours;
 
 constexpr std::size_t kMaxUnitBytes = 16;
 constexpr std::size_t kHashBytes = 32;
-constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;   // fewest bytes of a level record
-constexpr std::size_t kChunkBytes = 2 + kHashBytes;  // fewest bytes of a chunk record
+constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;       // fewest bytes of a level record
+constexpr std::size_t kChunkBytes = 2 + 4 + kHashBytes;  // fewest bytes of a chunk record
 
 Unexpected bad(const std::string& what) {
   return fail(ErrorCode::kBadInput, "damaged .pmesh header: " + what);
@@ -94,13 +94,17 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
 }
 
 void write_regions(ByteWriter& out, const Manifest& m) {
-  out.varint(m.regions);
-  if (m.regions == 1) return;
-  out.varint(m.fork_level);
-  for (const RegionPlane& plane : m.planes) {
-    out.u8(plane.axis);
-    out.signed_varint(plane.at);
+  for (const RegionNode& node : m.tree.nodes) {
+    out.varint(node.fork);
+    for (const Vec3i& corner : {node.box.low, node.box.high}) {
+      for (const std::int32_t c : {corner.x, corner.y, corner.z})
+        out.signed_varint(c);
+    }
+    if (node.fork == 0) continue;
+    out.u8(node.plane.axis);
+    out.signed_varint(node.plane.at);
   }
+  if (m.tree.leaves() == 1) return;
   for (const auto& neighbours : m.adjacency) {
     out.varint(neighbours.size());
     std::uint32_t last = 0;
@@ -109,22 +113,31 @@ void write_regions(ByteWriter& out, const Manifest& m) {
   }
 }
 
+bool read_plane(ByteReader& in, RegionPlane& plane) {
+  plane.axis = in.u8();
+  const std::int64_t at = in.signed_varint();
+  plane.at = static_cast<std::int32_t>(at);
+  return plane.axis <= 2 && at >= -(1 << 20) && at <= (1 << 20);
+}
+
 Expected<void> read_adjacency(ByteReader& in, Manifest& m) {
-  m.adjacency.resize(m.regions);
-  for (std::uint32_t k = 0; k < m.regions; ++k) {
+  const std::uint32_t leaves = m.tree.leaves();
+  m.adjacency.assign(leaves, {});
+  if (leaves == 1) return {};
+  for (std::uint32_t k = 0; k < leaves; ++k) {
     const std::uint64_t count = in.varint();
-    if (count >= m.regions || count > in.left()) return bad("impossible region adjacency");
+    if (count >= leaves || count > in.left()) return bad("impossible region adjacency");
     std::uint64_t id = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::uint64_t step = in.varint();
       id += step;
-      if ((i > 0 && step == 0) || step >= m.regions || id >= m.regions || id == k) {
+      if ((i > 0 && step == 0) || step >= leaves || id >= leaves || id == k) {
         return bad("impossible region adjacency");
       }
       m.adjacency[k].push_back(static_cast<std::uint32_t>(id));
     }
   }
-  for (std::uint32_t k = 0; k < m.regions; ++k) {
+  for (std::uint32_t k = 0; k < leaves; ++k) {
     for (std::uint32_t n : m.adjacency[k]) {
       if (!std::binary_search(m.adjacency[n].begin(), m.adjacency[n].end(), k)) {
         return bad("region adjacency is not symmetric");
@@ -134,27 +147,39 @@ Expected<void> read_adjacency(ByteReader& in, Manifest& m) {
   return {};
 }
 
+bool read_box(ByteReader& in, LatticeBox& box) {
+  bool sane = true;
+  for (Vec3i* corner : {&box.low, &box.high}) {
+    for (std::int32_t* c : {&corner->x, &corner->y, &corner->z}) {
+      const std::int64_t value = in.signed_varint();
+      sane = sane && value >= -(1 << 18) && value <= (1 << 18);
+      *c = static_cast<std::int32_t>(value);
+    }
+  }
+  return sane && box.holds(box.low);
+}
+
 Expected<void> read_regions(ByteReader& in, const Limits& limits, Manifest& m) {
-  const std::uint64_t regions = in.varint();
-  // A region takes at least two bytes of plane and one of adjacency.
-  if (!in.ok() || regions == 0 || regions > limits.regions || (regions - 1) > in.left() / 3) {
-    return bad("impossible number of regions");
+  m.tree.nodes.clear();
+  std::uint64_t leaves = 1, missing = 1;  // of the tree so far: leaves at least, nodes at least
+  while (missing > 0) {
+    RegionNode node;
+    const std::uint64_t fork = in.varint();
+    if (!in.ok()) return bad("it ends inside the region tree");
+    // Where a vertex goes is coded behind the splits of the level before.
+    if (fork == 1 || fork >= m.levels.size()) return bad("a region forks at an impossible level");
+    node.fork = static_cast<std::uint32_t>(fork);
+    if (!read_box(in, node.box)) return bad("impossible box of a region");
+    if (fork == 0) {
+      --missing;
+    } else {
+      if (++leaves > limits.regions) return bad("impossible number of regions");
+      if (!read_plane(in, node.plane)) return bad("impossible region plane");
+      ++missing;
+    }
+    m.tree.nodes.push_back(node);
   }
-  m.regions = static_cast<std::uint32_t>(regions);
-  m.fork_level = static_cast<std::uint32_t>(m.levels.size());
-  m.adjacency.assign(1, {});
-  if (m.regions == 1) return {};
-  const std::uint64_t fork = in.varint();
-  // The regions are coded behind the splits of the level before.
-  if (fork < 2 || fork >= m.levels.size()) return bad("the region level does not exist");
-  m.fork_level = static_cast<std::uint32_t>(fork);
-  m.planes.resize(m.regions - 1);
-  for (RegionPlane& plane : m.planes) {
-    plane.axis = in.u8();
-    const std::int64_t at = in.signed_varint();
-    if (plane.axis > 2 || at < -(1 << 20) || at > (1 << 20)) return bad("impossible region plane");
-    plane.at = static_cast<std::int32_t>(at);
-  }
+  if (!m.tree.link()) return bad("a region forks before the one that it is part of");
   return read_adjacency(in, m);
 }
 
@@ -162,42 +187,42 @@ void write_chunks(ByteWriter& out, const Manifest& m) {
   for (const ChunkInfo& chunk : m.chunks) {
     out.varint(chunk.length);
     out.varint(chunk.splits);
+    write_float(out, round_up(chunk.max_error));
     out.bytes(chunk.sha256);
   }
 }
 
-std::uint64_t chunk_count(const Manifest& m) {
-  const std::uint64_t levels = m.levels.size();
-  return (std::min<std::uint64_t>(m.fork_level, levels) - 1) + (levels - m.fork_level) * m.regions;
+Expected<void> read_level_chunks(ByteReader& in, std::uint32_t level, Manifest& m) {
+  const std::vector<std::uint32_t> regions = m.tree.regions_at(level);
+  if (regions.size() > in.left() / kChunkBytes) return bad("it ends inside the chunk index");
+  const std::uint64_t born = m.levels[level].vertices - m.levels[level - 1].vertices;
+  std::uint64_t splits = 0;
+  for (const std::uint32_t node : regions) {
+    ChunkInfo chunk{.level = level, .region = m.tree.nodes[node].first, .node = node};
+    chunk.offset = m.file_bytes;
+    chunk.length = in.varint();
+    const std::uint64_t own = in.varint();
+    chunk.max_error = read_float(in);
+    const auto digest = in.bytes(kHashBytes);
+    if (!in.ok() || !is_sane_error(chunk.max_error) || chunk.length > (1ull << 40) ||
+        own > born - splits || own > most_splits(chunk.length)) {
+      return bad("impossible chunk of level " + std::to_string(level));
+    }
+    splits += own;
+    chunk.splits = static_cast<std::uint32_t>(own);
+    std::copy(digest.begin(), digest.end(), chunk.sha256.begin());
+    m.file_bytes += chunk.length;
+    m.chunks.push_back(chunk);
+  }
+  if (splits == born) return {};
+  return bad("the splits of level " + std::to_string(level) + " do not make up its vertices");
 }
 
 Expected<void> read_chunks(ByteReader& in, Manifest& m) {
-  if (chunk_count(m) > in.left() / kChunkBytes) return bad("it ends inside the chunk index");
-  m.chunks.reserve(chunk_count(m));
-  std::uint64_t offset = m.base_offset + m.base_length;
+  m.file_bytes = m.head_bytes();
   for (std::uint32_t level = 1; level < m.levels.size(); ++level) {
-    std::uint64_t splits = 0;
-    for (std::uint32_t region = 0; region < m.regions_at(level); ++region) {
-      ChunkInfo chunk{.level = level, .region = region, .offset = offset};
-      chunk.length = in.varint();
-      const std::uint64_t own = in.varint();
-      splits += own;
-      const auto digest = in.bytes(kHashBytes);
-      const std::uint64_t born = m.levels[level].vertices - m.levels[level - 1].vertices;
-      if (!in.ok() || chunk.length > (1ull << 40) || own > born || splits > born ||
-          own > most_splits(chunk.length)) {
-        return bad("impossible chunk of level " + std::to_string(level));
-      }
-      chunk.splits = static_cast<std::uint32_t>(own);
-      std::copy(digest.begin(), digest.end(), chunk.sha256.begin());
-      offset += chunk.length;
-      m.chunks.push_back(chunk);
-    }
-    if (splits != m.levels[level].vertices - m.levels[level - 1].vertices) {
-      return bad("the splits of level " + std::to_string(level) + " do not make up its vertices");
-    }
+    if (auto ok = read_level_chunks(in, level, m); !ok) return ok;
   }
-  m.file_bytes = offset;
   return {};
 }
 
@@ -258,10 +283,15 @@ std::uint64_t Manifest::cumulative_bytes(std::uint32_t level) const {
   return bytes;
 }
 
-std::size_t Manifest::find_chunk(std::uint32_t level, std::uint32_t region) const {
-  if (level == 0 || level >= levels.size() || region >= regions_at(level)) return chunks.size();
-  if (level < fork_level) return level - 1;
-  return (fork_level - 1) + std::size_t{level - fork_level} * regions + region;
+std::size_t Manifest::find_chunk(std::uint32_t level, std::uint32_t leaf) const {
+  const auto is_behind = [&](std::uint32_t wanted, const ChunkInfo& chunk) {
+    return chunk.level != level ? chunk.level > level : chunk.region > wanted;
+  };
+  const auto behind = std::upper_bound(chunks.begin(), chunks.end(), leaf, is_behind);
+  if (behind == chunks.begin() || std::prev(behind)->level != level || leaf >= tree.leaves()) {
+    return chunks.size();
+  }
+  return static_cast<std::size_t>(std::prev(behind) - chunks.begin());
 }
 
 // Prefix: magic (8), major (2), minor (2), header length (4). Then the feature flags and the body.

@@ -11,6 +11,7 @@
 #include "codec/core/lattice.h"
 #include "codec/core/limits.h"
 #include "codec/core/sha256.h"
+#include "codec/progressive/region_tree.h"
 
 namespace vitrine {
 
@@ -30,10 +31,12 @@ struct LevelInfo {
 
 struct ChunkInfo {
   std::uint32_t level = 0;   // 1..levels-1: turns level-1 into level
-  std::uint32_t region = 0;  // 0 while the level has one region
+  std::uint32_t region = 0;  // of the level: named by its first leaf
+  std::uint32_t node = 0;    // the same, as a node of the region tree
   std::uint64_t offset = 0;  // from the start of the file
   std::uint64_t length = 0;
   std::uint32_t splits = 0;
+  double max_error = 0;  // as of the level, of what the region then displays
   Sha256 sha256{};
 };
 
@@ -42,12 +45,6 @@ struct ChunkInfo {
 constexpr std::uint64_t most_splits(std::uint64_t length) {
   return 16 * (length + 16);
 }
-
-// A plane of the region tree: vertices with coordinate[axis] < at go to the first child.
-struct RegionPlane {
-  std::uint8_t axis = 0;  // 0 x, 1 y, 2 z
-  std::int32_t at = 0;    // lattice units
-};
 
 struct Manifest {
   Lattice lattice;
@@ -58,23 +55,23 @@ struct Manifest {
 
   std::vector<LevelInfo> levels;  // [0] is the base mesh
 
-  std::uint32_t regions = 1;  // leaves of the region tree
-  std::uint32_t fork_level =
-      0;  // the first level whose chunks are per region (levels.size() if none)
-  std::vector<RegionPlane> planes;                    // regions - 1, in pre-order
-  std::vector<std::vector<std::uint32_t>> adjacency;  // per region, ascending, without itself
+  RegionTree tree;
+  // Per leaf: the leaves that an edge of the finest mesh joins to it; ascending. Regions are
+  // neighbours where leaves of theirs are, in every level.
+  std::vector<std::vector<std::uint32_t>> adjacency = {{}};
 
   std::uint64_t base_offset = 0, base_length = 0;  // the base mesh: a Draco buffer
   Sha256 base_sha256{};
   std::vector<ChunkInfo> chunks;  // in file order: by level, then region
   std::uint64_t file_bytes = 0;
 
-  std::uint32_t regions_at(std::uint32_t level) const { return level < fork_level ? 1 : regions; }
+  const RegionNode& region(const ChunkInfo& chunk) const { return tree.nodes[chunk.node]; }
   std::uint64_t head_bytes() const { return base_offset + base_length; }  // header and base
   // Bytes of the file up to and including `level`.
   std::uint64_t cumulative_bytes(std::uint32_t level) const;
-  // Index into `chunks`, or chunks.size() where there is none.
-  std::size_t find_chunk(std::uint32_t level, std::uint32_t region) const;
+  // The chunk of a level whose region holds a leaf: index into `chunks`, or chunks.size() where
+  // there is none.
+  std::size_t find_chunk(std::uint32_t level, std::uint32_t leaf) const;
 };
 
 // The number of bytes the header occupies, read from its first kHeaderPrefix bytes.

@@ -7,7 +7,8 @@
 
 namespace vitrine {
 
-Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shift) {
+Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shift,
+                                         std::uint32_t leaves) {
   const auto n = static_cast<std::uint32_t>(base.positions.size());
   auto closed = Connectivity::close(n, base.faces);
   if (!closed) return tl::unexpected(closed.error());
@@ -28,9 +29,11 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shi
   mesh.border.assign(n, 0);
   mesh.valence.assign(n, 0);
   mesh.split_of.assign(n, 0xFFFF'FFFFu);
-  mesh.members.resize(1);
+  mesh.members.resize(leaves);
+  mesh.born.assign(leaves, 0);
+  mesh.born[0] = n;
   for (VertexId v = 0; v < n; ++v) {
-    mesh.index.push_back(v);
+    mesh.birth.push_back(v);
     mesh.members[0].push_back(v);
     mesh.count_valence(v);
   }
@@ -42,7 +45,7 @@ void MeshState::reserve(std::size_t vertices) {
   positions.reserve(vertices);
   if (!colours.empty()) colours.reserve(vertices);
   region.reserve(vertices);
-  index.reserve(vertices);
+  birth.reserve(vertices);
   split_level.reserve(vertices);
   visited_level.reserve(vertices);
   border.reserve(vertices);
@@ -66,7 +69,7 @@ void MeshState::inherit(VertexId v) {
   positions.push_back(positions[v]);
   if (!colours.empty()) colours.push_back(colours[v]);
   region.push_back(k);
-  index.push_back(static_cast<std::uint32_t>(members[k].size()));
+  birth.push_back(std::uint64_t{k} << 32 | born[k]++);
   members[k].push_back(w);
   split_level.push_back(split_level[v]);
   visited_level.push_back(visited_level[v]);
@@ -77,10 +80,11 @@ void MeshState::inherit(VertexId v) {
 
 void MeshState::disinherit() {
   members[region.back()].pop_back();
+  --born[birth.back() >> 32];
   positions.pop_back();
   if (!colours.empty()) colours.pop_back();
   region.pop_back();
-  index.pop_back();
+  birth.pop_back();
   split_level.pop_back();
   visited_level.pop_back();
   border.pop_back();

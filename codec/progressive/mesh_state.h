@@ -21,19 +21,21 @@ constexpr bool in_coordinate_bound(const Vec3i& p) {
 }
 
 struct MeshState {
-  // One region, level 0. `base` holds the cells (cell.h) of a level with `shift`. Fails where the
-  // base is not a manifold or leaves the bound.
-  static Expected<MeshState> from_base(const BaseMesh& base, std::uint32_t shift);
+  // One region of `leaves` leaves, level 0. `base` holds the cells (cell.h) of a level with
+  // `shift`. Fails where the base is not a manifold or leaves the bound.
+  static Expected<MeshState> from_base(const BaseMesh& base, std::uint32_t shift,
+                                       std::uint32_t leaves);
 
   Connectivity connectivity;
   std::vector<Vec3i> positions;
   std::vector<Vec3i> colours;  // YCoCg-R, or empty
 
-  // (region, index) is a vertex' canonical id: it does not depend on the order in which regions
-  // were refined. members[region][index] is the vertex.
-  std::vector<std::uint16_t> region;
-  std::vector<std::uint32_t> index;
-  std::vector<std::vector<VertexId>> members;
+  std::vector<std::uint16_t> region;           // of the vertex: its first leaf (region_tree.h)
+  std::vector<std::vector<VertexId>> members;  // per region: its vertices, in order of birth
+  // A vertex is for ever known as the n-th one born in a region: 2^32 region + n. So it does not
+  // depend on the order in which regions are refined, nor on which of them have forked.
+  std::vector<std::uint64_t> birth;
+  std::vector<std::uint32_t> born;  // per region: vertices so far
 
   // Of the chunk decoded last: positions of its region are middles of cells of 2^shift, those of
   // other regions count as far as they are known at the level before, 2^foreign_shift.
@@ -54,7 +56,7 @@ struct MeshState {
   }
   std::uint16_t region_of(VertexId v) const { return is_virtual(v) ? kNoRegion : region[v]; }
   std::uint64_t canonical(VertexId v) const {
-    return is_virtual(v) ? std::uint64_t{v} << 32 | v : std::uint64_t{region[v]} << 32 | index[v];
+    return is_virtual(v) ? std::uint64_t{v} << 32 | v : birth[v];
   }
 
   void count_valence(VertexId v);

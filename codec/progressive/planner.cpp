@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/planner.h"
 
+#include "codec/progressive/view_plan.h"
+
 namespace vitrine {
 
 Planner::Planner(const Manifest& manifest)
@@ -39,8 +41,11 @@ double Planner::faces_per_split(std::uint32_t level) const {
                     : 0.0;
 }
 
-// File order is level order, so the first chunk not held is always ready.
 std::optional<std::size_t> Planner::next() const {
+  if (const auto* view = std::get_if<View>(&want_)) {
+    return ViewPlan(*manifest_, have_, *view).best(view->bytes - static_cast<double>(bytes_held()));
+  }
+  // File order is level order, so the first chunk not held is always ready.
   for (std::size_t i = 0; i < have_.size(); ++i) {
     if (!have_[i]) return is_wanted(i) ? std::optional(i) : std::nullopt;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "codec/progressive/manifest.h"
+#include "codec/progressive/view.h"
 
 namespace vitrine {
 
@@ -26,7 +27,8 @@ struct WantError {
 struct WantLevel {
   std::uint32_t level;
 };  // this level everywhere
-using Want = std::variant<WantTriangles, WantBytes, WantError, WantLevel>;
+// What a camera sees, no more error than it allows: first what takes away most error per byte.
+using Want = std::variant<WantTriangles, WantBytes, WantError, WantLevel, View>;
 
 class Planner {
  public:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/refiner.h"
 
+#include <algorithm>
+
 #include "codec/progressive/colour.h"
 #include "codec/progressive/display_filter.h"
 #include "codec/progressive/layer_decoder.h"
@@ -12,19 +14,12 @@ struct Refiner::State {
   Manifest manifest;
   MeshState mesh;
   std::vector<bool> applied;
-  std::vector<std::uint32_t> region_level;  // per region of mesh.members
-  std::vector<Split> newest;                // splits of the chunk applied last
-  std::uint32_t faces = 0;                  // real ones
+  std::vector<std::uint8_t> leaf_level;  // per leaf of the region tree: the level it has reached
+  std::vector<Split> newest;             // splits of the chunk applied last
+  std::uint32_t faces = 0;               // real ones
   bool usable = true;
 
-  std::uint32_t level_in(std::uint32_t region) const {
-    return region_level[region_level.size() == 1 ? 0 : region];
-  }
-  bool has_level(std::uint32_t region, std::uint32_t level) const {
-    return level_in(region) >= level;
-  }
   ChunkFrame frame(const ChunkInfo& chunk) const;
-  void fork();
 };
 
 ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
@@ -36,13 +31,6 @@ ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
           .shift_before = manifest.levels[chunk.level - 1].shift,
           .placement = manifest.placement,
           .parity = level_parity(chunk.level, last)};
-}
-
-void Refiner::State::fork() {
-  if (mesh.members.size() > region_level.size()) {
-    const std::uint32_t level = region_level[0];  // assign() must not be given its own element
-    region_level.assign(mesh.members.size(), level);
-  }
 }
 
 Refiner::Refiner(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -57,14 +45,14 @@ Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) noexce
       base.colours.size() != colours) {
     return fail(ErrorCode::kBadInput, "the base mesh does not have the counts of the header");
   }
-  auto mesh = MeshState::from_base(base, level.shift);
+  auto mesh = MeshState::from_base(base, level.shift, manifest.tree.leaves());
   if (!mesh) return tl::unexpected(mesh.error());
   if (mesh->connectivity.loop_count() != manifest.loops) {
     return fail(ErrorCode::kBadInput, "the base mesh does not have the loops of the header");
   }
   auto state = std::make_unique<State>();
   state->applied.assign(manifest.chunks.size(), false);
-  state->region_level.assign(1, 0);
+  state->leaf_level.assign(manifest.tree.leaves(), 0);
   state->faces = level.faces;
   state->manifest = std::move(manifest);
   state->mesh = std::move(*mesh);
@@ -81,10 +69,14 @@ bool Refiner::applied(std::size_t chunk) const {
 bool Refiner::ready(std::size_t chunk) const {
   const ChunkInfo& info = state_->manifest.chunks[chunk];
   if (!state_->usable || state_->applied[chunk]) return false;
-  if (!state_->has_level(info.region, info.level - 1)) return false;
-  if (info.level < state_->manifest.fork_level) return true;
-  for (const std::uint32_t k : state_->manifest.adjacency[info.region]) {
-    if (!state_->has_level(k, info.level - 1)) return false;
+  const auto has_level = [&](std::uint32_t leaf) {
+    return state_->leaf_level[leaf] + 1u >= info.level;
+  };
+  const RegionNode& region = state_->manifest.region(info);
+  for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
+    if (!has_level(leaf)) return false;
+    const std::vector<std::uint32_t>& next = state_->manifest.adjacency[leaf];
+    if (!std::all_of(next.begin(), next.end(), has_level)) return false;
   }
   return true;
 }
@@ -101,19 +93,16 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
                                           std::to_string(info.length) + "; fetch it again");
   }
   s.usable = false;
-  const bool forks = s.manifest.regions > 1 && info.level + 1 == s.manifest.fork_level;
-  auto splits = decode_layer(
-      s.mesh, s.frame(info),
-      forks ? std::span<const RegionPlane>(s.manifest.planes) : std::span<const RegionPlane>(),
-      bytes);
+  auto splits = decode_layer(s.mesh, s.frame(info), s.manifest.tree, info.node, bytes);
   if (!splits) return tl::unexpected(splits.error());
   s.newest = std::move(*splits);
   for (const Split& split : s.newest) {
     s.faces += s.mesh.connectivity.is_real(split.new_face) ? 1 : 0;
     s.faces += s.mesh.connectivity.is_real(split.new_face + 1) ? 1 : 0;
   }
-  s.region_level[info.level < s.manifest.fork_level ? 0 : info.region] = info.level;
-  s.fork();
+  const RegionNode& region = s.manifest.region(info);
+  std::fill_n(s.leaf_level.begin() + region.first, region.leaves,
+              static_cast<std::uint8_t>(info.level));
   s.applied[chunk] = true;
   s.usable = true;
   return {};
@@ -141,7 +130,10 @@ std::uint32_t Refiner::face_count() const {
   return state_->faces;
 }
 std::uint32_t Refiner::level_of(VertexId v) const {
-  return state_->level_in(state_->mesh.region[v]);
+  return state_->leaf_level[state_->mesh.region[v]];
+}
+std::uint32_t Refiner::region_of(VertexId v) const {
+  return state_->mesh.region[v];
 }
 const Connectivity& Refiner::connectivity() const {
   return state_->mesh.connectivity;

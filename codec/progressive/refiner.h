@@ -44,9 +44,10 @@ class Refiner {
   // afterwards.
   void undo_to_faces(std::uint32_t faces) noexcept;
 
-  std::uint32_t vertex_count() const;        // real vertices
-  std::uint32_t face_count() const;          // real faces
-  std::uint32_t level_of(VertexId v) const;  // level that the vertex' region has reached
+  std::uint32_t vertex_count() const;         // real vertices
+  std::uint32_t face_count() const;           // real faces
+  std::uint32_t level_of(VertexId v) const;   // level that the vertex' region has reached
+  std::uint32_t region_of(VertexId v) const;  // the first leaf of its region (region_tree.h)
 
   // The surface as coded: lattice units. All slots of `connectivity()` are live; faces with a
   // virtual corner (is_virtual) close boundary loops and are not part of the surface.

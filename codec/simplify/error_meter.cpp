@@ -52,14 +52,36 @@ Sampled sample(std::span<const SurfaceSample> samples, const WitnessSurface& sur
 
 // The worst samples tell where to look first: a large distance known early spares work later.
 void add_worst(HausdorffBound& bound, const Sampled& sampled, const TriangleBvh& source,
-               const WitnessSurface& target) {
+               std::span<const CornerRegions> regions, const WitnessSurface& target) {
   for (const Worst& w : sampled.worst) {
+    bound.choose(regions[w.triangle][0]);
     bound.know(std::sqrt(w.squared));
     bound.add(source.triangle(w.triangle), target, w.nearest);
   }
 }
 
+// Of faces, in the order of the triangles of `bvh`.
+std::vector<CornerRegions> in_order(const TriangleBvh& bvh, std::span<const CornerRegions> faces) {
+  std::vector<CornerRegions> out;
+  out.reserve(faces.size());
+  for (std::uint32_t t = 0; t < faces.size(); ++t)
+    out.push_back(faces[bvh.face(t)]);
+  return out;
+}
+
+LevelError result(const HausdorffBound& bound, std::uint32_t regions, double rms) {
+  LevelError error{.max_error = bound.bound(), .rms_error = rms, .region_errors = {}};
+  for (std::uint32_t k = 0; k < regions; ++k)
+    error.region_errors.push_back(bound.bound(k));
+  return error;
+}
+
 }  // namespace
+
+struct ErrorMeter::Sides {
+  const TriangleBvh& level;
+  std::vector<CornerRegions> of_level, of_original;
+};
 
 ErrorMeter::ErrorMeter(const TriangleMesh& original)
     : bvh_(original),
@@ -67,31 +89,41 @@ ErrorMeter::ErrorMeter(const TriangleMesh& original)
       samples_(sample_surface(bvh_, kSamples, kSeed)),
       negligible_(kNegligible * diagonal(bvh_)) {}
 
-LevelError ErrorMeter::measure(const TriangleMesh& level) const {
+LevelRegions ErrorMeter::whole(const TriangleMesh& level) const {
+  LevelRegions one;
+  one.of_level.resize(level.faces.size());
+  one.of_original.resize(bvh_.size());
+  return one;
+}
+
+LevelError ErrorMeter::measure(const TriangleMesh& level, const LevelRegions& regions) const {
   const TriangleBvh bvh(level);
   const WitnessSurface surface(bvh);
-  HausdorffBound bound(kTolerance, negligible_);
-  const double rms = sample_both(bvh, surface, bound);
-  const std::vector<std::uint8_t> settled = bound.add(bvh, surface_);
-  bound.add(bvh_, surface, settled);
-  return {.max_error = bound.bound(), .rms_error = rms};
+  const Sides sides{bvh, in_order(bvh, regions.of_level), in_order(bvh_, regions.of_original)};
+  HausdorffBound bound(kTolerance, negligible_, regions.count);
+  const double rms = sample_both(sides, surface, bound);
+  const std::vector<std::uint16_t> settled = bound.add(bvh, sides.of_level, surface_);
+  bound.add(bvh_, sides.of_original, surface, settled);
+  return result(bound, regions.count, rms);
 }
 
-LevelError ErrorMeter::measure_moved(const TriangleMesh& moved) const {
+LevelError ErrorMeter::measure_moved(const TriangleMesh& moved, const LevelRegions& regions) const {
   const TriangleBvh bvh(bvh_, moved);
   const WitnessSurface surface(bvh, surface_);
-  HausdorffBound bound(kTolerance, negligible_);
-  const double rms = sample_both(bvh, surface, bound);
-  bound.add_twins(surface_, surface);
-  return {.max_error = bound.bound(), .rms_error = rms};
+  const auto of_original = in_order(bvh_, regions.of_original);
+  const Sides sides{bvh, of_original, of_original};
+  HausdorffBound bound(kTolerance, negligible_, regions.count);
+  const double rms = sample_both(sides, surface, bound);
+  bound.add_twins(surface_, surface, sides.of_original);
+  return result(bound, regions.count, rms);
 }
 
-double ErrorMeter::sample_both(const TriangleBvh& bvh, const WitnessSurface& surface,
+double ErrorMeter::sample_both(const Sides& sides, const WitnessSurface& surface,
                                HausdorffBound& bound) const {
-  const Sampled there = sample(sample_surface(bvh, kSamples, kSeed), surface_);
+  const Sampled there = sample(sample_surface(sides.level, kSamples, kSeed), surface_);
   const Sampled back = sample(samples_, surface);
-  add_worst(bound, there, bvh, surface_);
-  add_worst(bound, back, bvh_, surface);
+  add_worst(bound, there, sides.level, sides.of_level, surface_);
+  add_worst(bound, back, bvh_, sides.of_original, surface);
   return std::max(there.rms, back.rms);
 }
 

@@ -15,6 +15,14 @@ namespace vitrine {
 struct LevelError {
   double max_error = 0;  // model units; no point of either surface is farther from the other
   double rms_error = 0;  // model units; the larger of the two directions, from samples
+  std::vector<double> region_errors;  // max_error of each region; the largest is max_error
+};
+
+// The regions of a level, numbered from 0 on: per face of its own and of the original those of the
+// corners.
+struct LevelRegions {
+  std::vector<CornerRegions> of_level, of_original;
+  std::uint32_t count = 1;
 };
 
 // Levels may be measured from several threads at once.
@@ -25,16 +33,23 @@ class ErrorMeter {
 
   // `level` is what is displayed: at least one face, model units. max_error is at most a sixth
   // above the true maximum (or 1e-6 of the diagonal), but for tangles (HausdorffBound).
-  LevelError measure(const TriangleMesh& level) const;
+  LevelError measure(const TriangleMesh& level, const LevelRegions& regions) const;
+  LevelError measure(const TriangleMesh& level) const { return measure(level, whole(level)); }
   // The same for the original with its vertices moved, by rounding say; fast for small moves.
-  LevelError measure_moved(const TriangleMesh& moved) const;
+  LevelError measure_moved(const TriangleMesh& moved, const LevelRegions& regions) const;
+  LevelError measure_moved(const TriangleMesh& moved) const {
+    return measure_moved(moved, whole(moved));
+  }
 
   const TriangleBvh& original() const { return bvh_; }
 
  private:
   // Tells `bound` of the worst samples and what is around them; returns the rms distance.
-  double sample_both(const TriangleBvh& bvh, const WitnessSurface& surface,
+  struct Sides;
+  double sample_both(const Sides& sides, const WitnessSurface& surface,
                      HausdorffBound& bound) const;
+  // One region.
+  LevelRegions whole(const TriangleMesh& level) const;
 
   TriangleBvh bvh_;
   WitnessSurface surface_;

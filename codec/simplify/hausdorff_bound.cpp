@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simplify/hausdorff_bound.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,6 +19,32 @@ Vec3 centre_of(const Corners& t) {
 double squared_area(const Corners& t) {  // of the parallelogram
   const Vec3 normal = cross(t.b - t.a, t.c - t.a);
   return dot(normal, normal);
+}
+
+constexpr std::uint32_t kSeveral = 0xFFFF'FFFFu;
+
+// How many of them are different; these come first.
+std::size_t kinds(const CornerRegions& r) {
+  return r[0] == r[1] ? 1 : r[1] == r[2] ? 2 : 3;
+}
+
+// Children come behind their parents.
+std::vector<std::uint32_t> node_regions(const TriangleBvh& bvh,
+                                        std::span<const CornerRegions> regions) {
+  std::vector<std::uint32_t> out(bvh.nodes().size(), kSeveral);
+  for (std::size_t i = out.size(); i-- > 0;) {
+    const TriangleBvh::Node& node = bvh.nodes()[i];
+    if (node.count == 0) {
+      if (out[node.first] == out[node.first + 1]) out[i] = out[node.first];
+      continue;
+    }
+    const std::uint32_t first = regions[node.first][0];
+    const auto leaf = regions.subspan(node.first, node.count);
+    const bool same = std::ranges::all_of(
+        leaf, [&](const CornerRegions& r) { return kinds(r) == 1 && r[0] == first; });
+    if (same) out[i] = first;
+  }
+  return out;
 }
 
 struct Edge {
@@ -46,51 +73,77 @@ void HausdorffBound::add(const Corners& triangle, const WitnessSurface& target,
   cover(ConvexPiece(triangle), last_);
 }
 
+void HausdorffBound::know(double distance) {
+  regions_[region_].known = std::max(regions_[region_].known, distance);
+  known_ = std::max(known_, distance);
+}
+
+double HausdorffBound::bound() const {
+  double most = 0;
+  for (std::size_t k = 0; k < regions_.size(); ++k)
+    most = std::max(most, bound(k));
+  return most;
+}
+
 // Points at the same place of twin triangles are no farther apart than the farthest corners are.
-void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& other) {
+void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& other,
+                               std::span<const CornerRegions> regions) {
   for (std::uint32_t t = 0; t < one.size(); ++t) {
     const Corners a = one.triangle(t), b = other.triangle(t);
     const double apart = std::max({length(a.a - b.a), length(a.b - b.b), length(a.c - b.c)});
-    if (apart <= limit()) {
-      bound_ = std::max(bound_, apart);
-    } else {
-      add(a, other, t);
-      add(b, one, t);
+    for (std::size_t k = 0; k < kinds(regions[t]); ++k) {
+      region_ = regions[t][k];
+      if (apart <= limit()) {
+        raise(apart);
+      } else {
+        add(a, other, t);
+        add(b, one, t);
+      }
     }
   }
 }
 
 struct HausdorffBound::Visit {
   const TriangleBvh& source;
-  std::span<const std::uint8_t> settled;
+  std::span<const CornerRegions> regions;
+  std::span<const std::uint16_t> settled;
+  std::vector<std::uint32_t> node_regions;  // per node: the region of all below it, or kSeveral
   PatchCover patches;
 };
 
-std::vector<std::uint8_t> HausdorffBound::add(const TriangleBvh& source,
-                                              const WitnessSurface& target,
-                                              std::span<const std::uint8_t> settled) {
+std::vector<std::uint16_t> HausdorffBound::add(const TriangleBvh& source,
+                                               std::span<const CornerRegions> regions,
+                                               const WitnessSurface& target,
+                                               std::span<const std::uint16_t> settled) {
   target_ = &target;
   last_ = 0;
-  Visit all{source, settled, PatchCover(target)};
+  Visit all{source, regions, settled, node_regions(source, regions), PatchCover(target)};
   visit(all, 0);
   return std::move(all.patches).marks();
 }
 
 void HausdorffBound::visit(Visit& all, std::uint32_t index) {
   const TriangleBvh::Node& node = all.source.nodes()[index];
-  if (settle_box(node)) return;
-  if (node.count == 0) {
-    visit(all, node.first);
-    visit(all, node.first + 1);
-    return;
+  if (all.node_regions[index] != kSeveral) {
+    region_ = static_cast<std::uint16_t>(all.node_regions[index]);
+    if (settle_box(node)) return;
   }
+  if (node.count != 0) return visit_leaf(all, node);
+  visit(all, node.first);
+  visit(all, node.first + 1);
+}
+
+void HausdorffBound::visit_leaf(Visit& all, const TriangleBvh::Node& node) {
   bool near = false;
   for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-    if (!all.settled.empty() && all.settled[t] != 0) continue;
     const Corners triangle = all.source.triangle(t);
-    if (!near) approach(centre_of(triangle));
-    near = true;
-    visit_triangle(triangle, all.patches);
+    for (std::size_t k = 0; k < kinds(all.regions[t]); ++k) {
+      region_ = all.regions[t][k];
+      if (!all.settled.empty() && all.settled[t] == region_ + 1) continue;
+      if (!near) approach(centre_of(triangle));
+      near = true;
+      visit_triangle(triangle, all.patches);
+    }
   }
 }
 
@@ -99,8 +152,9 @@ void HausdorffBound::visit_triangle(const Corners& triangle, PatchCover& patches
   if (settle(corners, last_)) return;
   last_ = target_->stroll(centre_of(triangle), last_);
   if (settle(corners, last_)) return;
-  const PatchCover::Result patch = patches.cover(triangle, last_, limit());
-  bound_ = std::max(bound_, patch.height);
+  const PatchCover::Result patch =
+      patches.cover(triangle, last_, limit(), static_cast<std::uint16_t>(region_ + 1));
+  raise(patch.height);
   if (!patch.covered) cover(ConvexPiece(triangle), last_);
 }
 
@@ -130,7 +184,7 @@ bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness
     farthest = std::max(farthest, target_->distance_within(p, witness, most));
     if (farthest > most) return false;
   }
-  bound_ = std::max(bound_, farthest);
+  raise(farthest);
   return true;
 }
 
@@ -166,11 +220,12 @@ void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   // The distance grows no faster than one moves.
   const double reach = std::sqrt(middle.squared) + piece.radius(centre);
   if (reach <= limit()) {
-    bound_ = std::max(bound_, reach);
+    raise(reach);
     return;
   }
   for (const Vec3& p : piece.corners()) {
-    if (target_->distance_within(p, witness, known_) <= known_) continue;
+    const double known = regions_[region_].known;
+    if (target_->distance_within(p, witness, known) <= known) continue;
     know(std::sqrt(target_->closest(p, middle.triangle).squared));
   }
   halve(piece, middle.triangle);

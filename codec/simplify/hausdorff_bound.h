@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,41 +24,70 @@
 
 namespace vitrine {
 
+// The regions of a triangle's corners: first those that differ, then repetitions of the last.
+using CornerRegions = std::array<std::uint16_t, 3>;
+
+constexpr CornerRegions corner_regions(std::uint16_t a, std::uint16_t b, std::uint16_t c) {
+  return a == b ? CornerRegions{a, c, c} : a == c ? CornerRegions{a, b, b} : CornerRegions{a, b, c};
+}
+
 class HausdorffBound {
  public:
   // Pieces are settled once their bound is at most `tolerance` (> 1) times the largest distance
   // known to occur, or below `negligible` (> 0, model units).
-  HausdorffBound(double tolerance, double negligible)
-      : tolerance_(tolerance), negligible_(negligible) {}
+  // `regions` (>= 1) have bounds of their own; those of regions with small distances are less
+  // tight.
+  HausdorffBound(double tolerance, double negligible, std::size_t regions = 1)
+      : tolerance_(tolerance), negligible_(negligible), regions_(regions) {}
 
-  // A distance that occurs between the two surfaces. Many and large ones save time.
-  void know(double distance) { known_ = std::max(known_, distance); }
+  // A distance that occurs between the two surfaces in the region chosen. Many and large ones save
+  // time.
+  void know(double distance);
+
+  // The region that know() and add() of a triangle count for.
+  void choose(std::uint16_t region) { region_ = region; }
 
   // Adds the distances from every point of a triangle to `target`.
   // `near`: a triangle of it near by.
   void add(const Corners& triangle, const WitnessSurface& target, std::uint32_t near);
 
-  // Adds the distances between two surfaces of the same faces in the same order, both ways.
-  void add_twins(const WitnessSurface& one, const WitnessSurface& other);
+  // Adds the distances between two surfaces of the same faces in the same order, both ways. A
+  // triangle counts for the regions of its corners, here and below.
+  void add_twins(const WitnessSurface& one, const WitnessSurface& other,
+                 std::span<const CornerRegions> regions);
 
   // Adds the distances from every point of `source` to `target`, save for the triangles marked in
-  // `settled` (empty: none). Returns marks for the triangles of `target`: those whose distance to
-  // `source` is found to be within bound() on the way, for the call in the other direction.
-  std::vector<std::uint8_t> add(const TriangleBvh& source, const WitnessSurface& target,
-                                std::span<const std::uint8_t> settled = {});
+  // `settled` (empty: none). Returns marks for the triangles of `target`: 1 more than a region
+  // within whose bound their distance to `source` is found to be on the way, or 0; for the call in
+  // the other direction.
+  std::vector<std::uint16_t> add(const TriangleBvh& source, std::span<const CornerRegions> regions,
+                                 const WitnessSurface& target,
+                                 std::span<const std::uint16_t> settled = {});
 
   // No distance added so far is larger. At most tolerance * the largest one, or `negligible`, or,
   // where the surfaces are tangled, as near to these as a bounded number of pieces allows.
-  double bound() const { return std::max(known_, bound_); }
+  double bound() const;
+  double bound(std::size_t region) const {
+    return std::max(regions_[region].known, regions_[region].bound);
+  }
 
  private:
   static constexpr int kCuts = 16;  // in a row; rounding must not let them go on for ever
   static constexpr std::size_t kHalvings = 16'384;  // and one a face, before the precision halves
 
-  double limit() const { return std::max(tolerance_ * known_, negligible_); }
+  // Of the largest distance known anywhere: how small a region's bound is worth work.
+  static constexpr double kSmallShare = 0.2;
+
+  double limit() const {
+    return std::max({tolerance_ * regions_[region_].known, kSmallShare * known_, negligible_});
+  }
+  void raise(double distance) {
+    regions_[region_].bound = std::max(regions_[region_].bound, distance);
+  }
   struct Visit;
   void visit(Visit& visit, std::uint32_t node);
   void visit_triangle(const Corners& triangle, PatchCover& patches);
+  void visit_leaf(Visit& visit, const TriangleBvh::Node& node);
   bool settle_box(const TriangleBvh::Node& node);
   void approach(const Vec3& p);
   bool settle(std::span<const Vec3> corners, std::uint32_t witness);
@@ -67,7 +97,12 @@ class HausdorffBound {
   void halve(const ConvexPiece& piece, std::uint32_t start);
 
   double tolerance_, negligible_;
-  double known_ = 0, bound_ = 0;
+  struct Region {
+    double known = 0, bound = 0;
+  };
+  std::vector<Region> regions_;
+  std::uint16_t region_ = 0;
+  double known_ = 0;          // in any region
   std::size_t halvings_ = 0;  // since the precision was last changed
   const WitnessSurface* target_ = nullptr;
   std::uint32_t last_ = 0;  // the newest witness: the next one is near it

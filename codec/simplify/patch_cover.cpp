@@ -65,7 +65,9 @@ bool over(const Corners& t, const Vec3& p, const Vec3& normal) {
 PatchCover::PatchCover(const WitnessSurface& surface)
     : surface_(surface), marks_(surface.size(), 0), seen_(surface.size(), 0) {}
 
-PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t start, double limit) {
+PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t start, double limit,
+                                     std::uint16_t mark) {
+  mark_ = mark;
   Result result;
   const Prism prism(triangle);
   if (prism.flat()) return result;
@@ -95,7 +97,7 @@ bool PatchCover::step(const Prism& prism, const Open& open, double limit, Result
   const double height = std::max({places[0].height, places[1].height, places[2].height});
   if (height > limit || dot(cross(s.b - s.a, s.c - s.a), prism.normal) <= 0) return false;
   result.height = std::max(result.height, height);
-  if (inside(places[0]) && inside(places[1]) && inside(places[2])) marks_[t] = 1;
+  if (inside(places[0]) && inside(places[1]) && inside(places[2])) marks_[t] = mark_;
   over_centre = over_centre || over(s, prism.centre, prism.normal);
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t other = surface_.across(t, k);

@@ -25,11 +25,11 @@ class PatchCover {
     double height = 0;     // at most `limit`; bounds what was marked, too
   };
   // `start` is a triangle of the surface near the centre of `triangle`.
-  Result cover(const Corners& triangle, std::uint32_t start, double limit);
+  Result cover(const Corners& triangle, std::uint32_t start, double limit, std::uint16_t mark);
 
-  // Per triangle of the surface, 1 where it was seen to lie wholly over a triangle given, within
-  // the limit.
-  std::vector<std::uint8_t> marks() && { return std::move(marks_); }
+  // Per triangle of the surface, the newest mark (not 0) of a triangle given that it was seen to
+  // lie wholly over, within the limit.
+  std::vector<std::uint16_t> marks() && { return std::move(marks_); }
 
  private:
   struct Prism;
@@ -49,7 +49,8 @@ class PatchCover {
   bool step(const Prism& prism, const Open& open, double limit, Result& result, bool& over_centre);
 
   const WitnessSurface& surface_;
-  std::vector<std::uint8_t> marks_;
+  std::vector<std::uint16_t> marks_;
+  std::uint16_t mark_ = 0;
   std::vector<std::uint32_t> seen_;  // per triangle: the newest call that met it
   std::uint32_t call_ = 0;
   std::vector<Open> open_;

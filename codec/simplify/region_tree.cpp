@@ -7,70 +7,111 @@
 namespace vitrine {
 namespace {
 
+constexpr std::uint32_t kMostLeaves = 32'768;
+constexpr std::uint32_t kSomeFork = 1;  // until the levels are known
+
 std::int32_t coordinate(const Vec3i& p, std::uint8_t axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
 class Builder {
  public:
-  Builder(std::span<const Vec3i> positions, RegionTree& tree)
-      : positions_(positions), tree_(tree) {}
+  Builder(std::span<const Vec3i> positions, std::uint32_t capacity, RegionLabels& labels)
+      : positions_(positions), capacity_(capacity), labels_(labels) {}
 
-  void build(std::span<std::uint32_t> vertices, std::uint32_t regions) {
-    if (regions == 1) {
-      for (std::uint32_t v : vertices)
-        tree_.region[v] = next_region_;
-      ++next_region_;
+  void build(std::span<std::uint32_t> vertices) {
+    RegionNode node;
+    if (vertices.size() > capacity_ && choose(vertices, node.plane)) node.fork = kSomeFork;
+    labels_.tree.nodes.push_back(node);
+    if (node.fork == 0) {
+      for (const std::uint32_t v : vertices)
+        labels_.leaf[v] = next_leaf_;
+      ++next_leaf_;
       return;
     }
-    const RegionPlane plane = choose(vertices, regions);
-    tree_.planes.push_back(plane);
     const auto middle = std::partition(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
-      return coordinate(positions_[v], plane.axis) < plane.at;
+      return !node.plane.is_beyond(positions_[v]);
     });
     const auto first = static_cast<std::size_t>(middle - vertices.begin());
-    build(vertices.first(first), regions / 2);
-    build(vertices.subspan(first), regions - regions / 2);
+    build(vertices.first(first));
+    build(vertices.subspan(first));
   }
 
  private:
-  std::uint8_t longest_axis(std::span<const std::uint32_t> vertices) const {
+  // A plane with vertices on both sides; false where all are at one place.
+  bool choose(std::span<std::uint32_t> vertices, RegionPlane& plane) const {
     Vec3i low = positions_[vertices[0]], high = low;
-    for (std::uint32_t v : vertices) {
+    for (const std::uint32_t v : vertices) {
       const Vec3i& p = positions_[v];
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
+    if (low == high) return false;
     const Vec3i side = high - low;
-    if (side.x >= side.y && side.x >= side.z) return 0;
-    return side.y >= side.z ? 1 : 2;
-  }
-
-  RegionPlane choose(std::span<std::uint32_t> vertices, std::uint32_t regions) const {
-    if (vertices.empty()) return {};
-    const std::uint8_t axis = longest_axis(vertices);
-    const std::size_t rank = vertices.size() * (regions / 2) / regions;
-    const auto nth = vertices.begin() + static_cast<std::ptrdiff_t>(rank);
+    plane.axis = side.y >= side.z ? 1 : 2;
+    if (side.x >= side.y && side.x >= side.z) plane.axis = 0;
+    const auto nth = vertices.begin() + static_cast<std::ptrdiff_t>(vertices.size() / 2);
     std::nth_element(vertices.begin(), nth, vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return coordinate(positions_[a], axis) < coordinate(positions_[b], axis);
+      return coordinate(positions_[a], plane.axis) < coordinate(positions_[b], plane.axis);
     });
-    return {axis, coordinate(positions_[*nth], axis)};
+    plane.at = std::max(coordinate(positions_[*nth], plane.axis), coordinate(low, plane.axis) + 1);
+    return true;
   }
 
   std::span<const Vec3i> positions_;
-  RegionTree& tree_;
-  std::uint16_t next_region_ = 0;
+  std::uint32_t capacity_;
+  RegionLabels& labels_;
+  std::uint16_t next_leaf_ = 0;
 };
 
 }  // namespace
 
-RegionTree build_region_tree(std::span<const Vec3i> positions, std::uint32_t regions) {
-  RegionTree tree;
-  tree.region.resize(positions.size());
-  std::vector<std::uint32_t> vertices(positions.size());
+RegionLabels label_regions(std::span<const Vec3i> positions, std::uint32_t capacity) {
+  const auto count = static_cast<std::uint32_t>(positions.size());
+  RegionLabels labels;
+  labels.tree.nodes.clear();
+  labels.leaf.resize(count);
+  std::vector<std::uint32_t> vertices(count);
   std::iota(vertices.begin(), vertices.end(), 0u);
-  Builder(positions, tree).build(vertices, regions);
-  return tree;
+  // Medians halve, so no leaf has less than about half of the capacity, unless many coincide.
+  Builder(positions, std::max(capacity, count / (kMostLeaves / 2)), labels).build(vertices);
+  labels.tree.link();
+  return labels;
+}
+
+void RegionJoiner::join(std::span<const VertexId> live, std::uint32_t most,
+                        std::vector<std::uint16_t>& region) {
+  ++calls_;
+  std::vector<std::uint32_t> in_region(tree_.leaves()), in_node(tree_.nodes.size());
+  for (const VertexId v : live)
+    ++in_region[region[v]];
+  std::vector<std::uint16_t> name(tree_.leaves());
+  for (auto i = static_cast<std::uint32_t>(tree_.nodes.size()); i-- > 0;) {
+    const RegionNode& node = tree_.nodes[i];
+    if (is_region(i)) {
+      in_node[i] = in_region[node.first];
+    } else {
+      in_node[i] = in_node[i + 1] + in_node[node.second];
+      const bool joins = is_region(i + 1) && is_region(node.second) && in_node[i] <= most;
+      if (joins) joined_[i] = calls_;
+    }
+    if (!is_region(i)) continue;
+    // Children come first, so the largest region that holds a leaf names it.
+    std::fill_n(name.begin() + node.first, node.leaves, static_cast<std::uint16_t>(node.first));
+  }
+  for (const VertexId v : live)
+    region[v] = name[region[v]];
+}
+
+bool RegionJoiner::finish(std::uint32_t levels) {
+  for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
+    RegionNode& node = tree_.nodes[i];
+    if (node.fork == 0) continue;
+    // The n-th call came before the level `levels` + 1 - n was collapsed.
+    if (joined_[i] == 0 || joined_[i] > levels) return false;
+    node.fork = levels + 2 - joined_[i];
+  }
+  return tree_.link();
 }
 
 }  // namespace vitrine

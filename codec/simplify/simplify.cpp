@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "codec/progressive/colour.h"
 #include "codec/progressive/placement.h"
@@ -19,9 +20,8 @@ namespace {
 constexpr std::uint32_t kRegularLevels = 3;  // finest levels that also prefer short edges
 constexpr double kLengthWeight = 1e-2;
 constexpr double kCellPerError = 1;  // side of a cell against the rms distance from the planes
-constexpr std::uint32_t kMaxRegions = 65'535;
-// A level that removes less than this share of the vertices is the last one:
-// what is left is locked by topology, and each level has its price.
+// A level that removes less than this share of the vertices is the last one: what is left is
+// locked by topology, and each level has its price.
 constexpr std::uint32_t kLeastShare = 50;
 
 Surface make_surface(const LatticeMesh& fine, Connectivity mesh) {
@@ -37,52 +37,60 @@ Surface make_surface(const LatticeMesh& fine, Connectivity mesh) {
 
 class Simplifier {
  public:
-  Simplifier(Surface& surface, const Lattice& lattice, const SimplifyOptions& options)
-      : surface_(surface), options_(options), matcher_(surface) {
+  Simplifier(Surface& surface, const Lattice& lattice, const SimplifyOptions& options,
+             RegionTree& tree)
+      : surface_(surface), options_(options), matcher_(surface), regions_(tree) {
     const std::int32_t side = 1 << lattice.bits, margin = side / 4;
     low_ = {-margin, -margin, -margin};
     high_ = {side - 1 + margin, side - 1 + margin, side - 1 + margin};
   }
 
-  // Simplifies, and records the levels, coarse to fine.
-  void run(Hierarchy& out) {
+  // Simplifies, and records the levels, coarse to fine. False where the coarsest level is more than
+  // one region.
+  bool run(Hierarchy& out) {
     out.levels = options_.order == CollapseOrder::kHeap ? run_heap() : run_batches();
     out.shift = std::move(shifts_);
     out.refined = std::move(refined_);
     std::ranges::reverse(out.levels);
     std::ranges::reverse(out.shift);
     std::ranges::reverse(out.refined);
-    out.fork_level = static_cast<std::uint32_t>(out.levels.size()) + 1 - levels_by_region_;
+    return regions_.finish(static_cast<std::uint32_t>(out.levels.size()));
   }
 
  private:
+  bool is_small() const {
+    return surface_.live.size() <= options_.target_vertices + options_.target_vertices / 4;
+  }
+
   // Levels from fine to coarse, here and below.
   std::vector<CollapseLevel> run_batches() {
     std::vector<CollapseLevel> levels;
-    while (levels.size() + 1 < Limits{}.levels &&
-           surface_.live.size() > options_.target_vertices + options_.target_vertices / 4) {
+    // The format wants the model whole in the coarsest level, which may so be empty.
+    bool enough = is_small();
+    while (levels.size() + 1 < Limits{}.levels && !(enough && regions_.is_whole())) {
       const std::size_t before = surface_.live.size();
-      CollapseLevel level = collapse_level(rules(static_cast<std::uint32_t>(levels.size())));
-      if (level.empty()) break;
+      const bool was_whole = regions_.is_whole();
+      CollapseLevel level =
+          collapse_level(rules(static_cast<std::uint32_t>(levels.size()), enough));
+      if (level.empty() && was_whole) break;
       levels.push_back(std::move(level));
       coarsen_lattice();
       report();
-      if ((before - surface_.live.size()) * kLeastShare < before) break;
+      enough = is_small() || (before - surface_.live.size()) * kLeastShare < before;
     }
     return levels;
   }
 
   std::vector<CollapseLevel> run_heap() {
-    auto levels = collapse_by_heap(surface_, rules(kRegularLevels), options_.target_vertices,
+    auto levels = collapse_by_heap(surface_, rules(kRegularLevels, true), options_.target_vertices,
                                    Limits{}.levels - 1);
     shifts_.resize(levels.size() + 1);
     refined_.resize(levels.size());
     return levels;
   }
 
-  // The lattice may be as coarse as the level is inexact: finer bits would be
-  // paid for before they can be seen. What is cut off here comes back with the
-  // splits of the level.
+  // The lattice may be as coarse as the level is inexact: finer bits would be paid for before they
+  // can be seen. What is cut off here comes back with the splits of the level.
   void coarsen_lattice() {
     const std::uint32_t before = surface_.shift;
     const std::uint32_t wanted = splits_see_other_regions_ ? before : coarsest_shift();
@@ -112,19 +120,25 @@ class Simplifier {
     return shift;
   }
 
-  LevelRules rules(std::uint32_t from_finest) {
-    const std::uint64_t few = std::uint64_t{options_.regions} * options_.vertices_per_region;
-    const bool by_region = options_.regions > 1 && surface_.live.size() > few;
-    if (by_region) ++levels_by_region_;
-    splits_see_other_regions_ = by_region && options_.placement == Placement::kPyramid;
+  LevelRules rules(std::uint32_t from_finest, bool in_one_region) {
+    // The leaves are the regions of the finest level.
+    const bool join_all = in_one_region && from_finest > 0;
+    regions_.join(surface_.live, join_all ? UINT32_MAX : region_capacity(from_finest),
+                  surface_.region);
+    splits_see_other_regions_ = !regions_.is_whole() && options_.placement == Placement::kPyramid;
     const auto live = static_cast<std::uint32_t>(surface_.live.size());
     return {.placement = options_.placement,
             .parity = static_cast<std::int32_t>(from_finest & 1),
-            .by_region = by_region,
+            .by_region = !regions_.is_whole(),
             .length_weight = from_finest < kRegularLevels ? kLengthWeight : 0,
-            .most = live - options_.target_vertices,
+            .most = live - std::min(live, options_.target_vertices),
             .low = cell_of(low_, surface_.shift),
             .high = cell_of(high_, surface_.shift)};
+  }
+
+  // A split of a coarser level has longer vectors, so fewer of them make a chunk.
+  std::uint32_t region_capacity(std::uint32_t from_finest) const {
+    return options_.region_vertices * 16 / (16 + from_finest);
   }
 
   CollapseLevel collapse_level(const LevelRules& rules) {
@@ -153,7 +167,7 @@ class Simplifier {
   const SimplifyOptions& options_;
   Matcher matcher_;
   Vec3i low_, high_;
-  std::uint32_t levels_by_region_ = 0;
+  RegionJoiner regions_;
   bool splits_see_other_regions_ = false;  // v~ of the level depends on their exact places
   std::vector<std::uint32_t> shifts_{0};
   std::vector<std::vector<Refined>> refined_;
@@ -191,43 +205,37 @@ void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out
   }
 }
 
-Expected<Hierarchy> simplify_in_regions(const LatticeMesh& fine, const SimplifyOptions& options) {
+// Nothing where the coarsest level is more than one region.
+Expected<std::optional<Hierarchy>> try_simplify(const LatticeMesh& fine,
+                                                const SimplifyOptions& options) {
   auto mesh = Connectivity::close(static_cast<std::uint32_t>(fine.positions.size()), fine.faces);
   if (!mesh) return tl::unexpected(mesh.error());
 
   Hierarchy out{.placement = options.placement};
   out.loops = mesh->loop_count();
-  out.regions = options.regions;
-  RegionTree tree = build_region_tree(fine.positions, options.regions);
-  out.planes = std::move(tree.planes);
-  out.region = tree.region;
+  const std::uint32_t capacity = options.region_vertices;
+  RegionLabels labels = label_regions(fine.positions, capacity == 0 ? UINT32_MAX : capacity);
+  out.leaf = labels.leaf;
 
   Surface surface = make_surface(fine, std::move(*mesh));
-  surface.region = std::move(tree.region);
-  Simplifier(surface, fine.lattice, options).run(out);
+  surface.region = std::move(labels.leaf);
+  Simplifier simplifier(surface, fine.lattice, options, labels.tree);
+  if (!simplifier.run(out)) return std::optional<Hierarchy>();
+  out.tree = std::move(labels.tree);
   compact_base(surface, fine.lattice, out);
-  return out;
+  return std::optional(std::move(out));
 }
 
 }  // namespace
 
 Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options) {
-  if (options.regions == 0 || options.regions > kMaxRegions) {
-    return fail(ErrorCode::kLimit, "regions is " + std::to_string(options.regions) +
-                                       ", choose 1 to " + std::to_string(kMaxRegions));
-  }
+  const bool parted = options.order == CollapseOrder::kBatch;
   SimplifyOptions whole = options;
-  whole.regions = 1;
-  const bool parted = options.regions > 1 && options.order == CollapseOrder::kBatch;
-  if (!parted) return simplify_in_regions(fine, whole);
-  auto hierarchy = simplify_in_regions(fine, options);
-  if (!hierarchy) return hierarchy;
-  // The fork is coded behind the splits of a common level, and parts a level
-  // behind it.
-  const bool forks =
-      hierarchy->fork_level >= 2 && hierarchy->fork_level <= hierarchy->levels.size();
-  if (forks) return hierarchy;
-  return simplify_in_regions(fine, whole);
+  whole.region_vertices = 0;
+  auto hierarchy = try_simplify(fine, parted ? options : whole);
+  if (!hierarchy) return tl::unexpected(hierarchy.error());
+  if (*hierarchy) return std::move(**hierarchy);
+  return std::move(**try_simplify(fine, whole));
 }
 
 }  // namespace vitrine

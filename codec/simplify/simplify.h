@@ -20,17 +20,18 @@ enum class CollapseOrder : std::uint8_t {
 struct SimplifyOptions {
   Placement placement = Placement::kMidpoint;
   CollapseOrder order = CollapseOrder::kBatch;
-  std::uint32_t target_vertices = 300;        // of the base mesh, about
-  std::uint32_t regions = 1;                  // leaves of the region tree, 1..65535
-  std::uint32_t vertices_per_region = 600;    // collapses stay inside regions down to this mean
+  std::uint32_t target_vertices = 300;  // of the base mesh, about
+  // Regions of more vertices than this fork; 0: the model is one region. A region of the coarsest
+  // levels may have fewer: its vertices cost more bytes there.
+  std::uint32_t region_vertices = 0;
   std::function<void(double)> progress = {};  // fraction done, 0..1; called once a level
 };
 
-// Fails (kBadInput) where Connectivity::close refuses the faces, (kLimit) where `regions` is out
-// of range. The base stays larger than asked where no legal collapse is left (high genus, many
-// components) or the format's number of levels is reached. Where no level parts into regions, the
-// result has one. v~ lies within a quarter of the lattice's side of the lattice; with the midpoint
-// placement within it. The same input gives the same hierarchy on every machine.
+// Fails (kBadInput) where Connectivity::close refuses the faces. The base stays larger than asked
+// where no legal collapse is left (high genus, many components) or the format's number of levels is
+// reached. Where the coarsest level is more than one region, the model is simplified as one. v~
+// lies within a quarter of the lattice's side of the lattice; with the midpoint placement within
+// it. The same input gives the same hierarchy on every machine.
 Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options);
 
 }  // namespace vitrine

@@ -3,6 +3,7 @@
 // (web/src/core/decoder.ts) copies bytes in with `allocate` and reads arrays out through pointers,
 // which are valid until the next call on the same model. Sizes that may pass 2^32 are doubles.
 // Every function is safe on hostile bytes; 0 (or -1) means failure and `error_text` says why.
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -94,6 +95,23 @@ int start(Model* model, const vitrine::Vec3i* positions, std::uint32_t vertices,
 // back to the base mesh first, 0 where refinement goes on from the present state, -1 on failure.
 VITRINE_EXPORT(want) int want(Model* model, std::uint32_t kind, double value) {
   const auto restarted = model->want(kind, value);
+  return succeeded(restarted) ? (*restarted ? 1 : 0) : -1;
+}
+
+// The goal of a camera: 20 numbers, those of View up to pixel_error in its order. Returns what
+// want() does.
+VITRINE_EXPORT(want_view) int want_view(Model* model, const double* numbers) {
+  vitrine::View view;
+  std::copy_n(numbers, view.camera.size(), view.camera.begin());
+  view.field_of_view = numbers[16];
+  view.width = numbers[17];
+  view.height = numbers[18];
+  view.pixel_error = numbers[19];
+  if (!is_sane(view)) {
+    last_error() = "the camera is impossible: its numbers must be finite, its sizes above 0";
+    return -1;
+  }
+  const auto restarted = model->want(view);
   return succeeded(restarted) ? (*restarted ? 1 : 0) : -1;
 }
 

@@ -92,22 +92,16 @@ Expected<void> Model::restart() {
 }
 
 Expected<bool> Model::want(std::uint32_t kind, double value) {
+  return want(to_want(kind, value));
+}
+
+Expected<bool> Model::want(const Want& goal) {
   if (!refiner_) return fail(ErrorCode::kState, "the base mesh must come first");
-  Planner plan(*manifest_);
-  plan.want(to_want(kind, value));
-  std::vector<bool> wanted(applied_.size());
-  while (const auto chunk = plan.next()) {
-    wanted[*chunk] = true;
-    plan.have(*chunk);
-  }
-  bool back = trimmed_;
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    back = back || (applied_[i] && !wanted[i]);
+  const bool back = trimmed_ || exceeds(goal);
   if (back) {
     if (auto done = restart(); !done) return Unexpected(done.error());
   }
   planner_.emplace(*manifest_);
-  const Want goal = to_want(kind, value);
   planner_->want(goal);
   triangles_.reset();
   if (const auto* w = std::get_if<WantTriangles>(&goal)) {
@@ -117,6 +111,22 @@ Expected<bool> Model::want(std::uint32_t kind, double value) {
     if (applied_[i]) planner_->have(i);
   }
   return back;
+}
+
+// A camera never asks for less: what it has left behind may come into sight again.
+bool Model::exceeds(const Want& goal) const {
+  if (std::holds_alternative<View>(goal)) return false;
+  Planner plan(*manifest_);
+  plan.want(goal);
+  std::vector<bool> wanted(applied_.size());
+  while (const auto chunk = plan.next()) {
+    wanted[*chunk] = true;
+    plan.have(*chunk);
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (applied_[i] && !wanted[i]) return true;
+  }
+  return false;
 }
 
 int Model::next_chunk() {

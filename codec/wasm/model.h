@@ -32,6 +32,7 @@ class Model {
   // After start(). Says whether the surface went back to the base mesh: it does where it holds
   // something that the want leaves out.
   Expected<bool> want(std::uint32_t kind, double value);
+  Expected<bool> want(const Want& goal);
   int next_chunk();  // -1: none
   Expected<void> apply(std::size_t chunk, std::span<const std::uint8_t> bytes);
   void trim();
@@ -52,6 +53,7 @@ class Model {
 
  private:
   Expected<void> restart();
+  bool exceeds(const Want& goal) const;  // the surface is finer than that somewhere
   void fill_positions(const std::vector<Vec3>& displayed);
   void fill_indices();
   void fill_colours();

@@ -19,7 +19,7 @@ json describe(const Manifest& m) {
           {"placement", m.placement == Placement::kPyramid ? "pyramid" : "midpoint"},
           {"coloured", m.coloured},
           {"boundary_loops", m.loops},
-          {"regions", m.regions},
+          {"regions", m.tree.leaves()},
           {"chunks", m.chunks.size()},
           {"bytes", bytes_json(m)},
           {"levels", levels_json(m)}};
@@ -31,8 +31,8 @@ std::string as_text(const json& info, const Manifest& m) {
       "{} bits, step {:.6g} {}, {} placement, {} region(s), {} boundary loop(s){}\n\n{}",
       m.file_bytes, m.base_offset, m.base_length, m.chunks.size(),
       info["bytes"]["layers"].get<std::uint64_t>(), m.lattice.bits, m.lattice.step,
-      m.unit.empty() ? "units" : m.unit, info["placement"].get<std::string>(), m.regions, m.loops,
-      m.coloured ? ", coloured" : "", levels_text(m));
+      m.unit.empty() ? "units" : m.unit, info["placement"].get<std::string>(), m.tree.leaves(),
+      m.loops, m.coloured ? ", coloured" : "", levels_text(m));
 }
 
 Outcome info(const Arguments& arguments) {

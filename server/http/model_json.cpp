@@ -78,9 +78,11 @@ Json chunks(const Manifest& manifest) {
   for (const ChunkInfo& chunk : manifest.chunks) {
     all.push_back({{"level", chunk.level},
                    {"region", chunk.region},
+                   {"leaves", manifest.region(chunk).leaves},
                    {"offset", chunk.offset},
                    {"length", chunk.length},
                    {"splits", chunk.splits},
+                   {"max_error", chunk.max_error},
                    {"sha256", to_hex(chunk.sha256)}});
   }
   return all;
@@ -113,8 +115,7 @@ std::string manifest_json(const PublishedModel& published) {
                {"lattice", lattice(manifest.lattice)},
                {"bounding_box", bounding_box(manifest.lattice)},
                {"levels", levels(manifest)},
-               {"regions", manifest.regions},
-               {"fork_level", manifest.fork_level},
+               {"regions", manifest.tree.leaves()},
                {"adjacency", manifest.adjacency},
                {"base",
                 {{"offset", manifest.base_offset},

@@ -55,19 +55,18 @@ int automatic_bits(const TriangleMesh& mesh) {
   return bits;
 }
 
-// So many that a chunk of the finest level, about half of all bytes, is some 28 KB.
-std::uint32_t region_count(std::size_t vertices) {
-  constexpr double kBytesPerVertex = 1.6, kFinestShare = 0.45, kChunkBytes = 28'000;
-  const double finest = static_cast<double>(vertices) * kBytesPerVertex * kFinestShare;
-  return static_cast<std::uint32_t>(std::clamp(finest / kChunkBytes + 0.5, 1.0, 4096.0));
-}
-
 // Measures levels, `threads` at a time, while the next ones are being coded.
 class LevelErrors {
  public:
   // `fine` is `original` rounded to the lattice.
-  LevelErrors(const TriangleMesh& original, const LatticeMesh& fine, unsigned threads)
-      : meter_(original), fine_(fine), lattice_(fine.lattice), threads_(threads) {}
+  LevelErrors(const TriangleMesh& original, const LatticeMesh& fine, const Hierarchy& hierarchy,
+              unsigned threads)
+      : meter_(original),
+        fine_(fine),
+        lattice_(fine.lattice),
+        tree_(hierarchy.tree),
+        leaf_(hierarchy.leaf),
+        threads_(threads) {}
 
   // `last`: full resolution is shown as it is, which is `fine`.
   void add(const MeshState& level, bool last) {
@@ -78,10 +77,15 @@ class LevelErrors {
     filters_.push_back(filter);
     const auto how = threads_ > 1 ? std::launch::async : std::launch::deferred;
     if (last) {
-      pending_.push_back(std::async(how, [this] { return meter_.measure_moved(to_model(fine_)); }));
+      pending_.push_back(std::async(how, [this, regions = regions_of_fine()] {
+        return meter_.measure_moved(to_model(fine_), regions);
+      }));
     } else {
-      pending_.push_back(std::async(
-          how, [this, mesh = displayed(level, filter)] { return meter_.measure(*mesh); }));
+      auto mesh = displayed(level, filter);
+      pending_.push_back(
+          std::async(how, [this, mesh, regions = regions_of(level.region, mesh->faces)] {
+            return meter_.measure(*mesh, regions);
+          }));
     }
   }
 
@@ -94,6 +98,9 @@ class LevelErrors {
       manifest.levels[i].max_error = errors_[i].max_error;
       manifest.levels[i].rms_error = errors_[i].rms_error;
     }
+    std::vector<std::size_t> entered(errors_.size());
+    for (ChunkInfo& chunk : manifest.chunks)
+      chunk.max_error = errors_[chunk.level].region_errors[entered[chunk.level]++];
   }
 
  private:
@@ -108,6 +115,43 @@ class LevelErrors {
     return mesh;
   }
 
+  // The number of the region of the level at hand that holds a leaf, per leaf.
+  std::vector<std::uint16_t> number_regions(std::uint32_t& count) const {
+    std::vector<std::uint16_t> of_leaf(tree_.leaves());
+    for (const std::uint32_t node :
+         tree_.regions_at(static_cast<std::uint32_t>(filters_.size() - 1))) {
+      const RegionNode& region = tree_.nodes[node];
+      std::fill_n(of_leaf.begin() + region.first, region.leaves,
+                  static_cast<std::uint16_t>(count++));
+    }
+    return of_leaf;
+  }
+
+  LevelRegions regions_of_fine() const {
+    LevelRegions out{.of_level = {}, .of_original = {}, .count = 0};
+    const auto of_leaf = number_regions(out.count);
+    out.of_original = corners_of(fine_.faces, leaf_, of_leaf);
+    return out;
+  }
+
+  LevelRegions regions_of(const std::vector<std::uint16_t>& leaf,
+                          const std::vector<Triangle>& faces) const {
+    LevelRegions out = regions_of_fine();
+    std::uint32_t count = 0;
+    out.of_level = corners_of(faces, leaf, number_regions(count));
+    return out;
+  }
+
+  static std::vector<CornerRegions> corners_of(const std::vector<Triangle>& faces,
+                                               const std::vector<std::uint16_t>& leaf,
+                                               const std::vector<std::uint16_t>& of_leaf) {
+    std::vector<CornerRegions> out;
+    out.reserve(faces.size());
+    for (const Triangle& f : faces)
+      out.push_back(corner_regions(of_leaf[leaf[f[0]]], of_leaf[leaf[f[1]]], of_leaf[leaf[f[2]]]));
+    return out;
+  }
+
   void settle() {
     errors_.push_back(pending_.front().get());
     pending_.pop_front();
@@ -116,6 +160,8 @@ class LevelErrors {
   ErrorMeter meter_;
   const LatticeMesh& fine_;
   Lattice lattice_;
+  RegionTree tree_;
+  std::vector<std::uint16_t> leaf_;  // per vertex of `fine`
   unsigned threads_;
   std::deque<std::future<LevelError>> pending_;
   std::vector<double> filters_;     // per level
@@ -124,9 +170,11 @@ class LevelErrors {
 
 SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& options,
                                  const BuildProgress& progress) {
+  // Two regions would spare a camera little, and have their price all the same.
+  const bool few = fine.positions.size() <= 2 * std::size_t{options.region_vertices};
   SimplifyOptions how{.placement = options.placement,
                       .order = options.order,
-                      .regions = region_count(fine.positions.size())};
+                      .region_vertices = few ? 0 : options.region_vertices};
   if (progress) how.progress = [&](double done) { progress("simplify", 0.1 + 0.4 * done); };
   return how;
 }
@@ -182,7 +230,7 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
   if (!hierarchy) return tl::unexpected(hierarchy.error());
   report.seconds.simplify = watch.lap();
 
-  LevelErrors errors(mesh, fine, options.threads);
+  LevelErrors errors(mesh, fine, *hierarchy, options.threads);
   mesh = {};  // the error bounds have their own copy
   auto model = encode(std::move(*hierarchy), fine, errors, progress);
   if (!model) return tl::unexpected(model.error());

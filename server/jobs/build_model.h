@@ -17,11 +17,17 @@
 
 namespace vitrine {
 
+// A level comes with somewhat less than half of its vertices, at one to two bytes each at the
+// finest: this makes chunks of some 10 to 30 KB.
+inline constexpr std::uint32_t kRegionVertices = 30'000;
+
 struct BuildOptions {
   ReadOptions reading = {};
   int bits = 0;  // kMinBits..kMaxBits; 0: the fewest whose step is at most 1/32 of the median edge
   Placement placement = Placement::kMidpoint;
   CollapseOrder order = CollapseOrder::kBatch;
+  // See SimplifyOptions; a model of at most twice as many vertices is one region.
+  std::uint32_t region_vertices = kRegionVertices;
   unsigned threads = 1;  // >= 1; the output does not depend on it
 };
 

@@ -38,6 +38,35 @@ Expected<void> check_manifold(const Refiner& refiner, const std::string& where) 
                          closed->loop_count(), loops));
 }
 
+// Where vertices are is what a planner goes by.
+Expected<void> check_boxes(const Refiner& refiner, std::uint32_t level) {
+  const Manifest& manifest = refiner.manifest();
+  const auto last = static_cast<std::uint32_t>(manifest.levels.size() - 1);
+  if (last == 0) return {};
+  std::vector<const LatticeBox*> box(manifest.tree.leaves());
+  for (const std::uint32_t node : manifest.tree.regions_at(level + 1))
+    box[manifest.tree.nodes[node].first] = &manifest.tree.nodes[node].box;
+  for (VertexId v = 0; v < refiner.vertex_count(); ++v) {
+    if (box[refiner.region_of(v)]->holds(refiner.positions()[v])) continue;
+    return bad(fmt::format("a vertex of level {} is outside of the box of its region", level));
+  }
+  return {};
+}
+
+// A level is as far from the original as the worst of its regions.
+Expected<void> check_errors(const Manifest& manifest) {
+  std::vector<double> worst(manifest.levels.size());
+  for (const ChunkInfo& chunk : manifest.chunks)
+    worst[chunk.level] = std::max(worst[chunk.level], chunk.max_error);
+  for (std::size_t level = 1; level < worst.size(); ++level) {
+    const double stated = manifest.levels[level].max_error;
+    if (worst[level] == stated) continue;
+    return bad(fmt::format("level {} states an error of {} and its chunks one of {}", level, stated,
+                           worst[level]));
+  }
+  return {};
+}
+
 Expected<void> check_level(const Refiner& refiner, std::uint32_t level) {
   const LevelInfo& stated = refiner.manifest().levels[level];
   if (refiner.vertex_count() != stated.vertices || refiner.face_count() != stated.faces) {
@@ -45,6 +74,7 @@ Expected<void> check_level(const Refiner& refiner, std::uint32_t level) {
                            level, refiner.vertex_count(), refiner.face_count(), stated.vertices,
                            stated.faces));
   }
+  if (auto ok = check_boxes(refiner, level); !ok) return ok;
   return check_manifold(refiner, fmt::format("level {}", level));
 }
 
@@ -98,7 +128,7 @@ Expected<Refiner> refine_at_random(Bytes pmesh, std::uint32_t seed) {
 Expected<std::uint32_t> check_orders(Bytes pmesh, const Manifest& manifest,
                                      const std::vector<FaceKey>& expected,
                                      const ProgressReport& progress) {
-  if (manifest.regions == 1) return 1;
+  if (manifest.tree.leaves() == 1) return 1;
   for (std::uint32_t seed = 1; seed <= kOrders; ++seed) {
     const auto refiner = refine_at_random(pmesh, seed);
     if (!refiner) return tl::unexpected(refiner.error());
@@ -130,6 +160,7 @@ Expected<Verification> verify_model(Bytes pmesh, const std::optional<OriginalFil
   if (!refiner) return tl::unexpected(refiner.error());
   const Manifest& manifest = refiner->manifest();
   if (auto ok = check_size(manifest, pmesh.size()); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_errors(manifest); !ok) return tl::unexpected(ok.error());
 
   const auto faces = face_set(refiner->lattice_mesh());
   const auto orders = check_orders(pmesh, manifest, faces, progress);

@@ -25,11 +25,12 @@ struct Verification {
 };
 
 // Checks the size and every SHA-256; decodes all levels in order and compares each one's counts and
-// boundary loops with the header; that each is a manifold with boundary; that random orders which
-// obey the region rule pass through manifolds to the same mesh; and, where `input` is given, that
-// the finest level equals it: repaired, rounded to the lattice, as a set of faces. Fails
-// (kBadInput) with the first fault; a difference from `input` is no fault, but not lossless. Draco
-// decodes the base: call it in the sandbox.
+// boundary loops with the header, its vertices with the boxes of their regions and its error with
+// those of its chunks; that each is a manifold with boundary; that random orders which obey the
+// region rule pass through manifolds to the same mesh; and, where `input` is given, that the finest
+// level equals it: repaired, rounded to the lattice, as a set of faces. Fails (kBadInput) with the
+// first fault; a difference from `input` is no fault, but not lossless. Draco decodes the base:
+// call it in the sandbox.
 Expected<Verification> verify_model(std::span<const std::uint8_t> pmesh,
                                     const std::optional<OriginalFile>& input,
                                     const ProgressReport& progress);

@@ -11,6 +11,7 @@ using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kMaxDepth = 4;
+constexpr const char* kOneOf = "want: give one of triangles, bytes, level, error, view";
 
 Unexpected malformed(const char* why) {
   return fail(ErrorCode::kBadInput, why);
@@ -21,12 +22,47 @@ std::optional<std::uint64_t> whole(const Json& value) {
   return value.get<std::uint64_t>();
 }
 
+bool read_number(const Json& json, const char* name, double& out) {
+  const auto member = json.find(name);
+  if (member == json.end() || !member->is_number()) return false;
+  out = member->get<double>();
+  return true;
+}
+
+std::optional<View> to_view(const Json& json) {
+  View view;
+  if (!json.is_object()) return std::nullopt;
+  const auto camera = json.find("camera");
+  if (camera == json.end() || !camera->is_array() || camera->size() != view.camera.size()) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < view.camera.size(); ++i) {
+    if (!(*camera)[i].is_number()) return std::nullopt;
+    view.camera[i] = (*camera)[i].get<double>();
+  }
+  const bool complete =
+      read_number(json, "fov", view.field_of_view) && read_number(json, "width", view.width) &&
+      read_number(json, "height", view.height) && read_number(json, "pixels", view.pixel_error);
+  if (!complete || (json.contains("bytes") && !read_number(json, "bytes", view.bytes))) {
+    return std::nullopt;
+  }
+  return is_sane(view) ? std::optional(view) : std::nullopt;
+}
+
 Expected<ClientMessage> parse_want(const Json& json) {
+  if (const auto seen = json.find("view"); seen != json.end()) {
+    const auto view = to_view(*seen);
+    if (!view) return malformed("want: view has camera (16 numbers), fov, width, height, pixels");
+    for (const char* const name : {"triangles", "bytes", "level", "error"}) {
+      if (json.contains(name)) return malformed(kOneOf);
+    }
+    return Want(*view);
+  }
   std::optional<Want> want;
   for (const char* const name : {"triangles", "bytes", "level", "error"}) {
     const auto member = json.find(name);
     if (member == json.end()) continue;
-    if (want) return malformed("want: give one of triangles, bytes, level, error");
+    if (want) return malformed(kOneOf);
     const std::string_view key = name;
     const auto count = whole(*member);
     if (key == "error") {
@@ -44,7 +80,7 @@ Expected<ClientMessage> parse_want(const Json& json) {
       want = WantLevel{static_cast<std::uint32_t>(std::min<std::uint64_t>(*count, UINT32_MAX))};
     }
   }
-  if (!want) return malformed("want: give one of triangles, bytes, level, error");
+  if (!want) return malformed(kOneOf);
   return *want;
 }
 

@@ -207,6 +207,22 @@ async function refined(url) {
   await viewer.events("load");
   return viewer;
 }
+test("with a pixel error the camera decides what is fetched", async () => {
+  const viewer = await ViewerPage.open(browser, pages.plain);
+  await viewer.page.locator("progressive-mesh").evaluate((element) => element.setAttribute("pixel-error", "8"));
+  await viewer.events("first-paint");
+  await viewer.releaseLayers();
+  await viewer.events("load");
+  const far = await viewer.triangles(), fetched = viewer.finishedChunks;
+  assert.ok(far < mesh.faces.length, "the whole is not needed from afar");
+  const box = await viewer.page.locator("progressive-mesh").boundingBox();
+  await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 3);
+  await viewer.settled(() => viewer.page.mouse.wheel(0, -4000));
+  assert.ok((await viewer.triangles()) > far, "near by there is more to see");
+  assert.ok(viewer.finishedChunks > fetched);
+  assert.deepEqual(viewer.errors, []);
+  await viewer.page.context().close();
+});
 
 /** The middle of the viewer, free of controls. */
 async function canvas(viewer, name) {

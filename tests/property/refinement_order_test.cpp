@@ -2,6 +2,7 @@
 // Any order of chunks that obeys the region rule gives the same meshes, and splits can be undone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "codec/progressive/cell.h"
@@ -21,8 +22,7 @@ StoredModel random_model(std::uint64_t seed) {
   return store_model(random_mesh(seed, 400),
                      {.placement = seed % 2 == 0 ? Placement::kMidpoint : Placement::kPyramid,
                       .target_vertices = 6,
-                      .regions = 2 + dice.below(6),
-                      .vertices_per_region = 12 + dice.below(30)});
+                      .region_vertices = 16 + dice.below(60)});
 }
 
 void expect_manifold(const Refiner& refiner) {
@@ -62,10 +62,15 @@ void expect_same_in_every_order(std::uint64_t seed) {
 }
 
 TEST(RefinementOrder, ManyRandomModelsFork) {
-  std::uint32_t forked = 0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed)
-    forked += random_model(seed).manifest.regions > 1 ? 1 : 0;
+  std::uint32_t forked = 0, forked_again = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const RegionTree tree = random_model(seed).manifest.tree;
+    forked += tree.leaves() > 1 ? 1 : 0;
+    forked_again += std::ranges::any_of(
+        tree.nodes, [&](const RegionNode& node) { return node.fork > tree.nodes[0].fork; });
+  }
   EXPECT_GE(forked, 20u);
+  EXPECT_GE(forked_again, 10u) << "regions fork at several levels";
 }
 
 TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {

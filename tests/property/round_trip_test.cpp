@@ -13,8 +13,7 @@ namespace {
 SimplifyOptions random_options(Dice& dice) {
   return {.placement = dice.one_in(2) ? Placement::kPyramid : Placement::kMidpoint,
           .target_vertices = 4 + dice.below(20),
-          .regions = dice.one_in(2) ? 1 : 2 + dice.below(5),
-          .vertices_per_region = 4 + dice.below(12)};
+          .region_vertices = dice.one_in(2) ? 0 : 8 + dice.below(40)};
 }
 
 void expect_counts(const Refiner& refiner, std::uint32_t level) {

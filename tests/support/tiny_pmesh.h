@@ -26,8 +26,6 @@ inline TinyPmesh tiny_pmesh(std::string_view base_text, std::string_view chunk_t
   m.unit = "mm";
   m.levels = {{.vertices = 4, .faces = 4, .max_error = 0.5, .rms_error = 0.25},
               {.vertices = 6, .faces = 8}};
-  m.fork_level = 2;
-  m.adjacency = {{}};
   m.base_length = base.size();
   m.base_sha256 = sha256(base);
   m.chunks = {

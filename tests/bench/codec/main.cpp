@@ -35,6 +35,8 @@ int run(int argc, char** argv) {
   const auto models = read_models(quick ? kQuickFaces : std::numeric_limits<std::size_t>::max());
   sizes(report, models);
   rate_distortion(report, models);
+  for (const Model& model : models)
+    regions(report, model);
   const auto large = std::ranges::find_if(models.rbegin(), models.rend(), [](const Model& model) {
     return model.clean.faces.size() <= kSpeedFaces;
   });

@@ -22,6 +22,9 @@ void rate_distortion(Report& report, const std::vector<Model>& models);
 // default: error at equal faces, at equal bytes, and total bytes.
 void variants(Report& report, const Model& model);
 
+// What regions cost, and what a close-up needs of the whole; of models with several of them.
+void regions(Report& report, const Model& model);
+
 // Build time against meshoptimizer's, decode time against Draco's, WebAssembly against native.
 void speeds(Report& report, const Model& model);
 

@@ -38,6 +38,13 @@ Bytes build(std::span<const std::uint8_t> file, int bits, Placement placement,
   return value_of(build_model(file, options, {})).file;
 }
 
+Bytes build_in_one_region(std::span<const std::uint8_t> file, int bits) {
+  BuildOptions options;
+  options.bits = bits;
+  options.region_vertices = 0;
+  return value_of(build_model(file, options, {})).file;
+}
+
 std::uint32_t decode(std::span<const std::uint8_t> pmesh) {
   Refiner refiner = value_of(open_model(pmesh));
   const ChunkReader read = chunks_of(refiner.manifest(), pmesh);

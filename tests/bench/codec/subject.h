@@ -16,6 +16,8 @@ TriangleMesh read_clean(std::span<const std::uint8_t> file);
 Bytes build(std::span<const std::uint8_t> file, int bits,
             Placement placement = Placement::kMidpoint,
             CollapseOrder order = CollapseOrder::kBatch);
+// The same without regions.
+Bytes build_in_one_region(std::span<const std::uint8_t> file, int bits);
 
 // Checks and decodes every chunk; the number of faces at full resolution.
 std::uint32_t decode(std::span<const std::uint8_t> pmesh);

@@ -27,11 +27,10 @@ LatticeMesh small_mesh(bool coloured) {
   return mesh;
 }
 
-StoredModel small_model(Placement placement, std::uint32_t regions, bool coloured) {
-  return test::store_model(small_mesh(coloured), {.placement = placement,
-                                                  .target_vertices = 12,
-                                                  .regions = regions,
-                                                  .vertices_per_region = 20});
+StoredModel small_model(Placement placement, std::uint32_t region_vertices, bool coloured) {
+  return test::store_model(
+      small_mesh(coloured),
+      {.placement = placement, .target_vertices = 12, .region_vertices = region_vertices});
 }
 
 Bytes part(Bytes bytes, std::uint64_t offset, std::uint64_t length) {
@@ -73,12 +72,12 @@ class HostileBytes : public ::testing::TestWithParam<Placement> {
   }
 
   const StoredModel model_ = GetParam() == Placement::kMidpoint
-                                 ? small_model(Placement::kMidpoint, 1, true)
-                                 : small_model(Placement::kPyramid, 3, false);
+                                 ? small_model(Placement::kMidpoint, 0, true)
+                                 : small_model(Placement::kPyramid, 30, false);
 };
 
 TEST_P(HostileBytes, TheFileItselfIsWhole) {
-  EXPECT_EQ(model_.manifest.regions, GetParam() == Placement::kMidpoint ? 1u : 3u);
+  EXPECT_EQ(model_.manifest.tree.leaves() > 1, GetParam() == Placement::kPyramid);
   EXPECT_GT(model_.manifest.chunks.size(), 3u);
   EXPECT_TRUE(survives(model_.file, model_.base));
 }
@@ -124,7 +123,7 @@ TEST(RefinerMemory, StaysWithinItsBytesPerVertex) {
     const TriangleMesh torus = test::torus(150, 100);
     LatticeMesh mesh = quantise(torus, fit_lattice(torus.positions, 12));
     mesh.colours.assign(coloured ? mesh.positions.size() : 0, Colour{9, 8, 7});
-    const StoredModel model = test::store_model(mesh, {.regions = coloured ? 4u : 1u});
+    const StoredModel model = test::store_model(mesh, {.region_vertices = coloured ? 4000u : 0u});
     Manifest manifest = model.manifest;
     test::start_peak();
     const std::size_t before = test::heap_bytes();
@@ -138,13 +137,12 @@ TEST(RefinerMemory, StaysWithinItsBytesPerVertex) {
 
 // A header of a few hundred bytes that states the most vertices a reader allows.
 TEST(HostileHeader, StatesAHundredMillionVerticesAndGetsNoMemory) {
-  const StoredModel model = small_model(Placement::kMidpoint, 1, false);
+  const StoredModel model = small_model(Placement::kMidpoint, 0, false);
   Manifest m = model.manifest;
   m.levels.resize(2);
   m.levels[1].vertices = 100'000'000;
   m.levels[1].faces = 150'000'000;
   m.chunks.resize(1);
-  m.fork_level = 2;
   m.chunks[0].splits = m.levels[1].vertices - m.levels[0].vertices;
   m.chunks[0].length = 1ull << 30;
   const auto bytes = write_header(m);

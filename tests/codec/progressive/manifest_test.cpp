@@ -32,19 +32,30 @@ void add_levels(Dice& dice, Manifest& m) {
   if (m.levels.size() > 1) m.levels[0].shift = dice.below(kMaxShift + 1);
 }
 
-void add_regions(Dice& dice, Manifest& m) {
+// A node that forks at `level` or later, and all below it.
+void add_node(Dice& dice, std::uint32_t level, Manifest& m) {
   const auto levels = static_cast<std::uint32_t>(m.levels.size());
-  m.fork_level = levels;
-  m.adjacency = {{}};
-  if (levels < 3 || dice.one_in(3)) return;
-  m.regions = 2 + dice.below(40);
-  m.fork_level = 2 + dice.below(levels - 2);
-  for (std::uint32_t k = 1; k < m.regions; ++k) {
-    m.planes.push_back({static_cast<std::uint8_t>(dice.below(3)), dice.between(-70'000, 70'000)});
+  RegionNode node;
+  if (level < levels && !dice.one_in(4)) node.fork = level + dice.below(levels - level);
+  if (node.fork != 0) {
+    node.plane = {static_cast<std::uint8_t>(dice.below(3)), dice.between(-70'000, 70'000)};
   }
-  m.adjacency.assign(m.regions, {});
-  for (std::uint32_t a = 0; a < m.regions; ++a) {
-    for (std::uint32_t b = 0; b < m.regions; ++b) {
+  const Vec3i low = {dice.between(-70'000, 0), dice.between(-70'000, 0), dice.between(-9, 0)};
+  node.box = {low, low + Vec3i{dice.between(0, 9), dice.between(0, 70'000), 0}};
+  m.tree.nodes.push_back(node);
+  if (node.fork == 0) return;
+  add_node(dice, node.fork + dice.below(2), m);
+  add_node(dice, node.fork + dice.below(2), m);
+}
+
+void add_regions(Dice& dice, Manifest& m) {
+  m.tree.nodes.clear();
+  add_node(dice, 2, m);
+  ASSERT_TRUE(m.tree.link());
+  const std::uint32_t leaves = m.tree.leaves();
+  m.adjacency.assign(leaves, {});
+  for (std::uint32_t a = 0; a < leaves; ++a) {
+    for (std::uint32_t b = 0; b < leaves; ++b) {
       if (a != b && (a + b) % 3 == 0) m.adjacency[a].push_back(b);
     }
   }
@@ -53,14 +64,16 @@ void add_regions(Dice& dice, Manifest& m) {
 void add_chunks(Dice& dice, Manifest& m) {
   for (std::uint32_t level = 1; level < m.levels.size(); ++level) {
     std::uint32_t left = m.levels[level].vertices - m.levels[level - 1].vertices;
-    const std::uint32_t regions = m.regions_at(level);
-    for (std::uint32_t k = 0; k < regions; ++k) {
-      const std::uint32_t own = k + 1 == regions ? left : dice.below(left + 1);
+    const std::vector<std::uint32_t> regions = m.tree.regions_at(level);
+    for (const std::uint32_t node : regions) {
+      const std::uint32_t own = node == regions.back() ? left : dice.below(left + 1);
       left -= own;
       m.chunks.push_back({.level = level,
-                          .region = k,
+                          .region = m.tree.nodes[node].first,
+                          .node = node,
                           .length = own / 16 + dice.below(50'000),
                           .splits = own,
+                          .max_error = static_cast<float>(dice.below(1000)) / 7.0f,
                           .sha256 = random_hash(dice)});
     }
   }
@@ -90,8 +103,6 @@ void expect_equal(const Manifest& a, const Manifest& b) {
   EXPECT_EQ(a.placement, b.placement);
   EXPECT_EQ(a.coloured, b.coloured);
   EXPECT_EQ(a.loops, b.loops);
-  EXPECT_EQ(a.regions, b.regions);
-  EXPECT_EQ(a.fork_level, b.fork_level);
   EXPECT_EQ(a.adjacency, b.adjacency);
   EXPECT_EQ(a.base_offset, b.base_offset);
   EXPECT_EQ(a.base_sha256, b.base_sha256);
@@ -105,16 +116,23 @@ void expect_equal(const Manifest& a, const Manifest& b) {
     EXPECT_EQ(a.levels[i].display_filter, b.levels[i].display_filter);
     EXPECT_EQ(a.levels[i].shift, b.levels[i].shift);
   }
-  ASSERT_EQ(a.planes.size(), b.planes.size());
-  for (std::size_t i = 0; i < a.planes.size(); ++i) {
-    EXPECT_EQ(a.planes[i].axis, b.planes[i].axis);
-    EXPECT_EQ(a.planes[i].at, b.planes[i].at);
+  ASSERT_EQ(a.tree.nodes.size(), b.tree.nodes.size());
+  for (std::size_t i = 0; i < a.tree.nodes.size(); ++i) {
+    EXPECT_EQ(a.tree.nodes[i].fork, b.tree.nodes[i].fork);
+    EXPECT_EQ(a.tree.nodes[i].box, b.tree.nodes[i].box);
+    EXPECT_EQ(a.tree.nodes[i].plane.axis, b.tree.nodes[i].plane.axis);
+    EXPECT_EQ(a.tree.nodes[i].plane.at, b.tree.nodes[i].plane.at);
   }
   ASSERT_EQ(a.chunks.size(), b.chunks.size());
   for (std::size_t i = 0; i < a.chunks.size(); ++i) {
+    EXPECT_EQ(a.chunks[i].level, b.chunks[i].level);
+    EXPECT_EQ(a.chunks[i].region, b.chunks[i].region);
+    EXPECT_EQ(a.chunks[i].node, b.chunks[i].node);
+    EXPECT_EQ(b.find_chunk(a.chunks[i].level, a.chunks[i].region), i);
     EXPECT_EQ(a.chunks[i].offset, b.chunks[i].offset);
     EXPECT_EQ(a.chunks[i].length, b.chunks[i].length);
     EXPECT_EQ(a.chunks[i].splits, b.chunks[i].splits);
+    EXPECT_EQ(a.chunks[i].max_error, b.chunks[i].max_error);
     EXPECT_EQ(a.chunks[i].sha256, b.chunks[i].sha256);
   }
 }
@@ -135,10 +153,13 @@ TEST(Manifest, RandomHeadersComeBack) {
 TEST(Manifest, ABoundStaysABoundInSinglePrecision) {
   Manifest manifest = random_manifest(1);
   manifest.levels[0].max_error = 0.1000000001;
+  ASSERT_FALSE(manifest.chunks.empty());
+  manifest.chunks[0].max_error = 0.1000000001;
   const auto parsed = parse_header(write_header(manifest));
   ASSERT_TRUE(parsed);
   EXPECT_GE(parsed->levels[0].max_error, 0.1000000001);
   EXPECT_LT(parsed->levels[0].max_error, 0.10000001);
+  EXPECT_GE(parsed->chunks[0].max_error, 0.1000000001);
 }
 
 // Changes a good manifest and expects the reader to refuse it.
@@ -147,13 +168,12 @@ std::string refusal(const Change& change) {
   Manifest m;
   m.levels = {
       {.vertices = 4, .faces = 4}, {.vertices = 6, .faces = 8}, {.vertices = 8, .faces = 12}};
-  m.regions = 2;
-  m.fork_level = 2;
-  m.planes = {{0, 5}};
+  m.tree.nodes = {{.fork = 2, .plane = {0, 5}}, {}, {}};
+  EXPECT_TRUE(m.tree.link());
   m.adjacency = {{1}, {0}};
   m.chunks = {{.level = 1, .splits = 2},
-              {.level = 2, .region = 0, .splits = 1},
-              {.level = 2, .region = 1, .splits = 1}};
+              {.level = 2, .region = 0, .node = 1, .splits = 1},
+              {.level = 2, .region = 1, .node = 2, .splits = 1}};
   auto bytes = write_header(m);
   EXPECT_TRUE(parse_header(bytes)) << parse_header(bytes).error().message;
   change(m);
@@ -167,8 +187,8 @@ TEST(Manifest, RefusesWhatCannotBe) {
   const auto contains = [](const string& text, const char* part) {
     EXPECT_NE(text.find(part), string::npos) << text;
   };
-  contains(refusal([](Manifest& m) { m.fork_level = 1; }), "region level");
-  contains(refusal([](Manifest& m) { m.fork_level = 3; }), "region level");
+  contains(refusal([](Manifest& m) { m.tree.nodes[0].fork = 1; }), "impossible level");
+  contains(refusal([](Manifest& m) { m.tree.nodes[0].fork = 3; }), "impossible level");
   contains(refusal([](Manifest& m) { m.levels[1].faces = 3; }), "faces of level 1");
   contains(refusal([](Manifest& m) { m.levels[1].faces = 9; }), "faces of level 1");
   contains(refusal([](Manifest& m) { m.levels[1].vertices = 3; }), "lose vertices");
@@ -184,11 +204,24 @@ TEST(Manifest, RefusesWhatCannotBe) {
   contains(refusal([](Manifest& m) { m.chunks[1].splits = 0; }), "do not make up");
   contains(refusal([](Manifest& m) { m.adjacency = {{1}, {}}; }), "symmetric");
   contains(refusal([](Manifest& m) { m.adjacency = {{0}, {0}}; }), "adjacency");
-  contains(refusal([](Manifest& m) { m.planes[0].axis = 3; }), "plane");
+  contains(refusal([](Manifest& m) { m.tree.nodes[0].plane.axis = 3; }), "plane");
+  contains(refusal([](Manifest& m) { m.tree.nodes[1].box.low.y = 1; }), "box");
+  contains(refusal([](Manifest& m) { m.chunks[1].max_error = -1; }), "level 2");
   contains(refusal([](Manifest& m) { m.unit = "m\n"; }), "ASCII");
   contains(refusal([](Manifest& m) { m.unit = "a unit with a long name"; }), "unit");
   contains(refusal([](Manifest& m) { m.lattice.bits = 17; }), "bits");
   contains(refusal([](Manifest& m) { m.lattice.step = 0; }), "transform");
+}
+
+TEST(Manifest, RefusesATreeWhoseChildForksBeforeItsParent) {
+  Manifest m = random_manifest(1);
+  m.levels.assign(5, {.vertices = 4, .faces = 4});
+  m.chunks.clear();
+  m.tree.nodes = {{.fork = 3}, {.fork = 2}, {}, {}, {}};
+  EXPECT_FALSE(m.tree.link());
+  const auto parsed = parse_header(write_header(m));
+  ASSERT_FALSE(parsed);
+  EXPECT_NE(parsed.error().message.find("part of"), std::string::npos) << parsed.error().message;
 }
 
 // An empty chunk may not stand for a million splits: what a reader allocates follows the bytes.

@@ -15,14 +15,16 @@ Manifest four_levels() {
     m.levels.push_back(
         {.vertices = 50u << level, .faces = 100u << level, .max_error = 8.0 / (1 << level)});
   }
-  m.regions = 2;
-  m.fork_level = 2;
+  m.tree.nodes = {{.fork = 2}, {}, {}};
+  m.tree.link();
   for (std::uint32_t level = 1; level < 4; ++level) {
-    for (std::uint32_t k = 0; k < m.regions_at(level); ++k) {
+    const auto regions = m.tree.regions_at(level);
+    for (const std::uint32_t node : regions) {
       m.chunks.push_back({.level = level,
-                          .region = k,
+                          .region = m.tree.nodes[node].first,
+                          .node = node,
                           .length = 1000,
-                          .splits = (25u << level) / m.regions_at(level)});
+                          .splits = (25u << level) / static_cast<std::uint32_t>(regions.size())});
     }
   }
   return m;

@@ -12,10 +12,10 @@ namespace {
 
 using test::StoredModel;
 
-StoredModel torus_model(std::uint32_t regions = 1) {
+StoredModel torus_model(std::uint32_t region_vertices = 0) {
   const TriangleMesh torus = test::torus(40, 24);
   return test::store_model(quantise(torus, fit_lattice(torus.positions, 12)),
-                           {.target_vertices = 40, .regions = regions, .vertices_per_region = 60});
+                           {.target_vertices = 40, .region_vertices = region_vertices});
 }
 
 ChunkReader reader(const StoredModel& model) {
@@ -77,20 +77,36 @@ TEST(Refiner, NothingCanBeAppliedAfterSplitsWereTakenBack) {
 }
 
 TEST(Refiner, ARegionWaitsForItsNeighbours) {
-  const StoredModel model = torus_model(4);
+  const StoredModel model = torus_model(300);
   const Manifest& m = model.manifest;
-  ASSERT_EQ(m.regions, 4u);
-  ASSERT_GT(m.levels.size(), m.fork_level + 1) << "the regions need two levels";
+  const std::uint32_t fork = m.tree.nodes[0].fork;
+  ASSERT_GT(fork, 0u);
+  ASSERT_GT(m.levels.size(), fork + 1) << "the regions need two levels";
   Refiner refiner = test::start_refiner(model);
-  for (std::uint32_t level = 1; level < m.fork_level; ++level)
+  for (std::uint32_t level = 1; level < fork; ++level)
     test::apply_chunk(refiner, model, m.find_chunk(level, 0));
-  const std::uint32_t region = 0, neighbour = m.adjacency[region].at(0);
-  test::apply_chunk(refiner, model, m.find_chunk(m.fork_level, region));
-  EXPECT_FALSE(refiner.ready(m.find_chunk(m.fork_level + 1, region)));
-  for (const std::uint32_t k : m.adjacency[region])
-    test::apply_chunk(refiner, model, m.find_chunk(m.fork_level, k));
-  EXPECT_TRUE(refiner.ready(m.find_chunk(m.fork_level + 1, region)));
-  EXPECT_TRUE(refiner.applied(m.find_chunk(m.fork_level, neighbour)));
+  const std::size_t first = m.find_chunk(fork, 0), next = m.find_chunk(fork + 1, 0);
+  test::apply_chunk(refiner, model, first);
+  EXPECT_FALSE(refiner.ready(next)) << "the other half is a level behind";
+  for (std::size_t i = first + 1; m.chunks[i].level == fork; ++i)
+    test::apply_chunk(refiner, model, i);
+  EXPECT_TRUE(refiner.ready(next));
+}
+
+TEST(Refiner, RegionsForkAtSeveralLevels) {
+  const StoredModel model = torus_model(100);
+  const RegionTree& tree = model.manifest.tree;
+  ASSERT_GE(tree.leaves(), 8u);
+  EXPECT_EQ(tree.regions_at(1).size(), 1u);
+  const auto last = static_cast<std::uint32_t>(model.manifest.levels.size() - 1);
+  EXPECT_EQ(tree.regions_at(last).size(), tree.leaves());
+  std::size_t before = 1;
+  for (std::uint32_t level = 2; level <= last; ++level) {
+    EXPECT_GE(tree.regions_at(level).size(), before);
+    before = tree.regions_at(level).size();
+  }
+  EXPECT_GT(tree.regions_at(last - 1).size(), 1u);
+  EXPECT_LT(tree.regions_at(last - 1).size(), tree.leaves());
 }
 
 TEST(Refiner, RefusesABaseThatIsNotTheOneOfTheHeader) {

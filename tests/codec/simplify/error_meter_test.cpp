@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -79,6 +80,41 @@ TEST(ErrorMeter, BoundIsTrueAndTightWithBoundariesAndHandles) {
   expect_tight(base_of(sheet(60, 50), 100), sheet(60, 50));
   expect_tight(base_of(tube(60, 40), 60), tube(60, 40));
   expect_tight(base_of(torus(80, 40), 100), torus(80, 40));
+}
+
+// The faces with a corner in a region.
+TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<CornerRegions>& regions,
+                     std::uint16_t which) {
+  TriangleMesh part{.positions = mesh.positions, .faces = {}, .colours = {}};
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (std::ranges::count(regions[f], which) > 0) part.faces.push_back(mesh.faces[f]);
+  }
+  return part;
+}
+
+std::vector<CornerRegions> in_quadrants(const TriangleMesh& mesh) {
+  const auto quadrant = [&](VertexId v) {
+    const Vec3& p = mesh.positions[v];
+    return static_cast<std::uint16_t>((p.x > 0 ? 1 : 0) + (p.y > 0 ? 2 : 0));
+  };
+  std::vector<CornerRegions> regions;
+  for (const Triangle& f : mesh.faces)
+    regions.push_back(corner_regions(quadrant(f[0]), quadrant(f[1]), quadrant(f[2])));
+  return regions;
+}
+
+TEST(ErrorMeter, EveryRegionHasABoundOfItsOwn) {
+  const TriangleMesh scan = shipped_model("demosthenes.obj"), level = base_of(scan, 1200);
+  const LevelRegions regions{in_quadrants(level), in_quadrants(scan), 4};
+  const LevelError error = ErrorMeter(scan).measure(level, regions);
+  ASSERT_EQ(error.region_errors.size(), 4u);
+  EXPECT_EQ(error.max_error, *std::ranges::max_element(error.region_errors));
+  for (std::uint16_t k = 0; k < 4; ++k) {
+    const double there = dense_maximum(part_of(level, regions.of_level, k), TriangleBvh(scan));
+    const double back = dense_maximum(part_of(scan, regions.of_original, k), TriangleBvh(level));
+    EXPECT_GE(error.region_errors[k], std::max(there, back) * (1 - 1e-9)) << "region " << k;
+    EXPECT_LE(error.region_errors[k], std::max({there, back, 0.25 * error.max_error}) * 1.25);
+  }
 }
 
 TEST(ErrorMeter, FindsASpikeThatSamplesMiss) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 
 namespace vitrine::test {
@@ -20,54 +21,68 @@ std::vector<Vec3i> random_points(std::size_t count) {
 }
 
 // Goes down the tree as a reader of the planes does.
-std::uint32_t region_of(const Vec3i& p, const std::vector<RegionPlane>& planes,
-                        std::uint32_t regions) {
-  std::uint32_t first = 0, plane = 0;
-  while (regions > 1) {
-    const RegionPlane& cut = planes[plane];
-    const std::int32_t at = cut.axis == 0 ? p.x : cut.axis == 1 ? p.y : p.z;
-    const std::uint32_t left = regions / 2;
-    if (at < cut.at) {
-      ++plane, regions = left;
-    } else {
-      first += left, plane += left, regions -= left;
-    }
-  }
-  return first;
+std::uint32_t leaf_of(const Vec3i& p, const RegionTree& tree) {
+  std::uint32_t node = 0;
+  while (tree.nodes[node].fork != 0)
+    node = tree.nodes[node].plane.is_beyond(p) ? tree.nodes[node].second : node + 1;
+  return tree.nodes[node].first;
 }
 
 TEST(RegionTree, LabelsAreWhatThePlanesSay) {
   const std::vector<Vec3i> points = random_points(5000);
-  for (std::uint32_t regions : {1u, 2u, 3u, 7u, 16u, 100u}) {
-    const RegionTree tree = build_region_tree(points, regions);
-    ASSERT_EQ(tree.planes.size(), regions - 1);
+  for (const std::uint32_t capacity : {1u, 7u, 300u, 2499u, 5000u}) {
+    const RegionLabels labels = label_regions(points, capacity);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      ASSERT_EQ(tree.region[i], region_of(points[i], tree.planes, regions));
+      ASSERT_EQ(labels.leaf[i], leaf_of(points[i], labels.tree));
     }
   }
 }
 
 TEST(RegionTree, RegionsAreAboutEquallyLarge) {
-  for (std::uint32_t regions : {2u, 3u, 7u, 16u, 100u}) {
-    const RegionTree tree = build_region_tree(random_points(5000), regions);
-    std::vector<std::uint32_t> size(regions, 0);
-    for (std::uint16_t r : tree.region)
-      ++size[r];
+  for (const std::uint32_t capacity : {50u, 300u, 2600u, 5000u}) {
+    const RegionLabels labels = label_regions(random_points(5000), capacity);
+    std::vector<std::uint32_t> size(labels.tree.leaves(), 0);
+    for (const std::uint16_t leaf : labels.leaf)
+      ++size[leaf];
     const auto [least, most] = std::minmax_element(size.begin(), size.end());
-    EXPECT_GT(*least, 5000 / regions * 9 / 10 - 5) << regions << " regions";
-    EXPECT_LT(*most, 5000 / regions * 11 / 10 + 5) << regions << " regions";
+    EXPECT_GE(*least, capacity * 2 / 5) << capacity;
+    EXPECT_LE(*most, capacity);
   }
 }
 
 TEST(RegionTree, TheLongestSideIsCutFirst) {
-  const RegionTree tree = build_region_tree(random_points(5000), 2);
-  EXPECT_EQ(tree.planes[0].axis, 0);
-  EXPECT_NEAR(tree.planes[0].at, 2048, 100);
+  const RegionTree tree = label_regions(random_points(5000), 2600).tree;
+  ASSERT_EQ(tree.nodes.size(), 3u);
+  EXPECT_EQ(tree.nodes[0].plane.axis, 0);
+  EXPECT_NEAR(tree.nodes[0].plane.at, 2048, 100);
 }
 
 TEST(RegionTree, CopesWithPointsThatCoincideAndWithNone) {
-  EXPECT_EQ(build_region_tree(std::vector<Vec3i>(10), 4).planes.size(), 3u);
-  EXPECT_EQ(build_region_tree({}, 4).planes.size(), 3u);
+  EXPECT_EQ(label_regions(std::vector<Vec3i>(10), 4).tree.leaves(), 1u);
+  EXPECT_EQ(label_regions({}, 4).tree.leaves(), 1u);
+  std::vector<Vec3i> two_places(10);
+  std::fill_n(two_places.begin(), 8, Vec3i{-1, 0, 0});
+  EXPECT_EQ(label_regions(two_places, 4).tree.leaves(), 2u);
+}
+
+TEST(RegionJoiner, SiblingsJoinOnceTheyAreSmallEnough) {
+  RegionLabels labels = label_regions(random_points(4000), 1000);
+  ASSERT_EQ(labels.tree.leaves(), 4u);
+  RegionJoiner joiner(labels.tree);
+  std::vector<VertexId> live(4000);
+  std::iota(live.begin(), live.end(), 0u);
+  joiner.join(live, 1000, labels.leaf);
+  EXPECT_FALSE(joiner.is_whole());
+  joiner.join(live, 2100, labels.leaf);
+  EXPECT_FALSE(joiner.is_whole());
+  EXPECT_EQ(*std::ranges::max_element(labels.leaf), 2);
+  EXPECT_FALSE(RegionJoiner(joiner).finish(3)) << "the coarsest level has two regions";
+  joiner.join(live, 4000, labels.leaf);
+  EXPECT_TRUE(joiner.is_whole());
+  ASSERT_TRUE(joiner.finish(4));
+  EXPECT_EQ(labels.tree.regions_at(2).size(), 1u);
+  EXPECT_EQ(labels.tree.regions_at(3).size(), 2u);
+  EXPECT_EQ(labels.tree.regions_at(4).size(), 4u);
 }
 
 }  // namespace

@@ -90,16 +90,28 @@ class Replay {
     }
   }
 
+  // Per vertex.
+  std::vector<std::uint32_t> regions_at(std::uint32_t level) const {
+    std::vector<std::uint32_t> of_leaf(hierarchy_.tree.leaves());
+    for (const std::uint32_t node : hierarchy_.tree.regions_at(level)) {
+      const RegionNode& region = hierarchy_.tree.nodes[node];
+      std::fill_n(of_leaf.begin() + region.first, region.leaves, node);
+    }
+    std::vector<std::uint32_t> regions;
+    for (const std::uint16_t leaf : hierarchy_.leaf)
+      regions.push_back(of_leaf[leaf]);
+    return regions;
+  }
+
   void check_independence(std::uint32_t level, const std::set<VertexId>& ends) const {
-    const bool by_region = level >= hierarchy_.fork_level;
-    const auto& region = hierarchy_.region;
+    const std::vector<std::uint32_t> region = regions_at(level);
     for (const Collapse& c : hierarchy_.levels[level - 1]) {
-      ASSERT_TRUE(!by_region || region[c.v1] == region[c.v2]) << "across regions";
+      ASSERT_EQ(region[c.v1], region[c.v2]) << "across regions";
       for (VertexId end : {c.v1, c.v2}) {
         for (VertexId n : neighbours_[end]) {
           if (n == c.v1 || n == c.v2 || !ends.contains(n)) continue;
           ASSERT_NE(hierarchy_.placement, Placement::kPyramid) << "adjacent collapses";
-          ASSERT_TRUE(!by_region || region[n] == region[end]) << "adjacent across regions";
+          ASSERT_EQ(region[n], region[end]) << "adjacent across regions";
         }
       }
     }
@@ -162,11 +174,9 @@ struct Case {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
-    for (const std::uint32_t regions : {1u, 3u}) {
-      const SimplifyOptions options{.placement = placement,
-                                    .target_vertices = 40,
-                                    .regions = regions,
-                                    .vertices_per_region = 60};
+    for (const std::uint32_t region_vertices : {0u, 130u}) {
+      const SimplifyOptions options{
+          .placement = placement, .target_vertices = 40, .region_vertices = region_vertices};
       all.push_back({"sheet", sheet(24, 20), options});
       all.push_back({"tube", tube(24, 18), options});
       all.push_back({"torus", torus(30, 16), options});
@@ -182,7 +192,7 @@ TEST(Simplify, EveryLevelIsAManifoldThatObeysTheRulesDownToTheBase) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(std::string(c.name) + " pyramid " +
                  std::to_string(c.options.placement == Placement::kPyramid) + " regions " +
-                 std::to_string(c.options.regions));
+                 std::to_string(c.options.region_vertices));
     const LatticeMesh fine = on_lattice(c.mesh);
     const auto hierarchy = simplify(fine, c.options);
     ASSERT_TRUE(hierarchy.has_value());
@@ -216,21 +226,22 @@ TEST(Simplify, ReachesItsTargetInFewLevels) {
   for (const CollapseLevel& level : hierarchy->levels)
     vertices += level.size();
   EXPECT_EQ(vertices, scan.positions.size());
-  EXPECT_EQ(hierarchy->fork_level, hierarchy->levels.size() + 1);
+  EXPECT_EQ(hierarchy->tree.leaves(), 1u);
 }
 
-TEST(Simplify, RegionsHoldWhileTheMeshIsFineOnly) {
+TEST(Simplify, RegionsAreAsManyAsTheLevelHasVerticesFor) {
   const LatticeMesh scan = on_lattice(shipped_model("demosthenes.obj"));
-  const auto hierarchy = simplify(scan, {.regions = 4, .vertices_per_region = 400});
+  const auto hierarchy = simplify(scan, {.region_vertices = 1500});
   ASSERT_TRUE(hierarchy.has_value());
-  EXPECT_EQ(hierarchy->planes.size(), 3u);
   const auto last = static_cast<std::uint32_t>(hierarchy->levels.size());
-  ASSERT_GT(hierarchy->fork_level, 1u);
-  ASSERT_LE(hierarchy->fork_level, last);
+  EXPECT_EQ(hierarchy->tree.regions_at(last).size(), hierarchy->tree.leaves());
+  EXPECT_EQ(hierarchy->tree.regions_at(1).size(), 1u);
   std::size_t vertices = hierarchy->base.positions.size();
   for (std::uint32_t level = 1; level <= last; ++level) {
     vertices += hierarchy->levels[level - 1].size();
-    EXPECT_EQ(level >= hierarchy->fork_level, vertices > 1600) << "level " << level;
+    const std::size_t regions = hierarchy->tree.regions_at(level).size();
+    EXPECT_LE(vertices, regions * 1500) << "level " << level;
+    EXPECT_TRUE(regions == 1 || vertices >= regions * 300) << "level " << level;
   }
 }
 
@@ -305,10 +316,10 @@ TEST(Simplify, TheHeapTakesTheCheapestPairFirst) {
   const VertexId bump = 15 * 30 + 15;
   bumped.positions[bump].z = 3;
   const LatticeMesh fine = on_lattice(bumped);
-  const auto hierarchy =
-      simplify(fine, {.order = CollapseOrder::kHeap, .target_vertices = 60, .regions = 4});
+  const auto hierarchy = simplify(
+      fine, {.order = CollapseOrder::kHeap, .target_vertices = 60, .region_vertices = 200});
   ASSERT_TRUE(hierarchy.has_value());
-  EXPECT_EQ(hierarchy->regions, 1u);
+  EXPECT_EQ(hierarchy->tree.leaves(), 1u);
   const auto& base = hierarchy->base.positions;
   EXPECT_LT(base.size(), 300u);
   EXPECT_NE(std::find(base.begin(), base.end(), fine.positions[bump]), base.end());
@@ -332,7 +343,7 @@ TEST(Simplify, LeavesWhatCannotCollapseAsItIs) {
   ASSERT_TRUE(hierarchy.has_value());
   EXPECT_TRUE(hierarchy->levels.empty());
   EXPECT_EQ(hierarchy->base.faces.size(), 4u);
-  EXPECT_EQ(hierarchy->fork_level, 1u);
+  EXPECT_EQ(hierarchy->tree.leaves(), 1u);
 }
 
 TEST(Simplify, ReportsProgressUpwards) {
@@ -344,10 +355,8 @@ TEST(Simplify, ReportsProgressUpwards) {
   EXPECT_LE(seen.back(), 1);
 }
 
-TEST(Simplify, RefusesBadRegionsAndBadFaces) {
+TEST(Simplify, RefusesBadFaces) {
   const LatticeMesh fine = on_lattice(torus(8, 6));
-  EXPECT_EQ(simplify(fine, {.regions = 0}).error().code, ErrorCode::kLimit);
-  EXPECT_EQ(simplify(fine, {.regions = 65'536}).error().code, ErrorCode::kLimit);
   LatticeMesh broken = fine;
   broken.faces.push_back(broken.faces.front());
   EXPECT_EQ(simplify(broken, {}).error().code, ErrorCode::kBadInput);

@@ -24,6 +24,19 @@ TEST(Message, ReadsEachKindOfWant) {
   EXPECT_EQ(want_of<WantLevel>(R"({"level":99999999999,"type":"want"})")->level, UINT32_MAX);
 }
 
+TEST(Message, ReadsACamera) {
+  const auto view = want_of<View>(
+      R"({"type":"want","view":{"camera":[1,0,0,0,0,1,0,0,0,0,1,0,5,6,7.5,1],"fov":35,)"
+      R"("width":800,"height":600,"pixels":1.5,"bytes":90000}})");
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->camera[14], 7.5);
+  EXPECT_EQ(view->field_of_view, 35);
+  EXPECT_EQ(view->width, 800);
+  EXPECT_EQ(view->height, 600);
+  EXPECT_EQ(view->pixel_error, 1.5);
+  EXPECT_EQ(view->bytes, 90'000);
+}
+
 TEST(Message, ReadsHaveAndAck) {
   const auto have = parse_message(R"({"type":"have","chunks":[[0,4],[7,7]]})");
   ASSERT_TRUE(have) << have.error().message;
@@ -60,6 +73,12 @@ TEST(Message, RefusesEverythingElseWithAReasonThatFitsACloseFrame) {
       R"({"type":"want","triangles":"1"})",
       R"({"type":"want","level":1e3})",
       R"({"type":"want","error":-1})",
+      R"({"type":"want","view":1})",
+      R"({"type":"want","view":{"camera":[1],"fov":35,"width":8,"height":6,"pixels":1}})",
+      R"({"type":"want","view":{"camera":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],"fov":35,"width":8,"height":6}})",
+      R"({"type":"want","view":{"camera":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],"fov":180,"width":8,"height":6,"pixels":1}})",
+      R"({"type":"want","view":{"camera":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,"0"],"fov":35,"width":8,"height":6,"pixels":1}})",
+      R"({"type":"want","level":1,"view":{"camera":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],"fov":35,"width":8,"height":6,"pixels":1}})",
       R"({"type":"want","error":"0"})",
       R"({"type":"want","error":null})",
       R"({"type":"ack"})",

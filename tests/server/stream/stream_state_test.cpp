@@ -18,11 +18,13 @@ Manifest small_manifest() {
     manifest.levels.push_back(
         {.vertices = 50 * (level + 1), .faces = 100 * (level + 1), .max_error = 1.0 / (level + 1)});
     if (level > 0) {
-      manifest.chunks.push_back(
-          {.level = level, .offset = kHead + (level - 1) * kChunk, .length = kChunk, .splits = 50});
+      manifest.chunks.push_back({.level = level,
+                                 .offset = kHead + (level - 1) * kChunk,
+                                 .length = kChunk,
+                                 .splits = 50,
+                                 .max_error = 1.0 / (level + 1)});
     }
   }
-  manifest.fork_level = 4;
   manifest.file_bytes = kHead + 3 * kChunk;
   return manifest;
 }
@@ -114,6 +116,23 @@ TEST_F(StreamStateTest, ANewWishTakesEffectAtTheNextChunk) {
   EXPECT_EQ(pull(), Chunks{}) << "only the chunk under way is finished";
   EXPECT_EQ(bytes, kChunk - kMaxSlice);
   EXPECT_EQ(done, (DoneMessage{.bytes = kHead + kChunk, .triangles = 200}));
+}
+
+// The box of the test's model is the origin.
+TEST_F(StreamStateTest, ACameraIsSentWhatItSees) {
+  View view{.camera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 100, 1},
+            .field_of_view = 30,
+            .width = 800,
+            .height = 600};
+  receive(AckMessage{1'000'000});
+  view.camera[10] = -1;  // looks away
+  receive(Want(view));
+  EXPECT_EQ(pull(), Chunks{});
+  EXPECT_TRUE(done);
+  view.camera[10] = 1;
+  receive(Want(view));
+  EXPECT_EQ(pull(), (Chunks{0, 1, 2}));
+  EXPECT_TRUE(done);
 }
 
 TEST_F(StreamStateTest, EachWishIsAnsweredByDone) {

@@ -2,7 +2,7 @@
 // The C++ decoder and planner (codec/wasm) behind a typed interface. Each model has an instance of
 // its own: closing it gives all its memory back, and a fault in one cannot reach another.
 import { linearColours } from "./colours.ts";
-import { ModelError, type ModelInfo, type Surface, type Want } from "./types.ts";
+import { ModelError, type ModelInfo, type Surface, type View, type Want } from "./types.ts";
 
 type Pointer = number;
 
@@ -21,6 +21,7 @@ interface Exports {
   check_base(model: Pointer, data: Pointer, size: number): number;
   start(model: Pointer, positions: Pointer, vertices: number, faces: Pointer, count: number, colours: Pointer): number;
   want(model: Pointer, kind: number, value: number): number;
+  want_view(model: Pointer, numbers: Pointer): number;
   next_chunk(model: Pointer): number;
   check_chunk(model: Pointer, chunk: number, data: Pointer, size: number): number;
   apply(model: Pointer, chunk: number, data: Pointer, size: number): number;
@@ -101,14 +102,24 @@ export class Decoder {
 
   /** Sets the goal. True where the surface went back to the base mesh to reach it. */
   want(want: Want): boolean {
+    const answer = "view" in want ? this.#wantView(want.view) : this.#wantAmount(want);
+    if (answer < 0) throw this.#error();
+    return answer === 1;
+  }
+
+  #wantView({ camera, fov, width, height, pixels }: View): number {
+    const numbers = Float64Array.of(...camera.slice(0, 16), fov, width, height, pixels);
+    if (numbers.length !== 20) throw new ModelError("the camera must have 16 numbers");
+    return this.#lend(numbers, (data) => this.#wasm.want_view(this.#model, data));
+  }
+
+  #wantAmount(want: Exclude<Want, { view: View }>): number {
     const [kind, value] =
       "triangles" in want ? [0, want.triangles]
       : "bytes" in want ? [1, want.bytes]
       : "error" in want ? [2, want.error]
       : [3, want.level];
-    const answer = this.#wasm.want(this.#model, kind, value);
-    if (answer < 0) throw this.#error();
-    return answer === 1;
+    return this.#wasm.want(this.#model, kind, value);
   }
 
   /** The next chunk on the way to the goal; it then counts as requested. */
@@ -174,7 +185,7 @@ export class Decoder {
     };
   }
 
-  #lend<T>(array: Uint8Array | Int32Array | Uint32Array, use: (data: Pointer, size: number) => T): T {
+  #lend<T>(array: Uint8Array | Int32Array | Uint32Array | Float64Array, use: (data: Pointer, size: number) => T): T {
     const data = this.#wasm.allocate(Math.max(array.byteLength, 1));
     if (data === 0) throw new ModelError("the model is too large for this browser's memory");
     try {

@@ -1,8 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages of the viewer hand to each other. Nothing here knows of three.js or the DOM.
 
+/** What a perspective camera sees of a model. */
+export interface View {
+  /** From the camera's coordinates to the model's, 16 numbers column by column; the camera looks along its -z. */
+  camera: number[];
+  /** From bottom to top, degrees. */
+  fov: number;
+  /** Of the viewport, device pixels. */
+  width: number;
+  height: number;
+  /** The error that may be seen, device pixels. */
+  pixels: number;
+}
+
 /** How much of a model is asked for. `error` is in model units; level 0 is the base mesh. */
-export type Want = { triangles: number } | { bytes: number } | { error: number } | { level: number };
+export type Want = { triangles: number } | { bytes: number } | { error: number } | { level: number } | { view: View };
 
 export interface Level {
   vertices: number;

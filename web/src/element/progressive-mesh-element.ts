@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <progressive-mesh src poster alt max-triangles max-bytes target-error transport>
+// <progressive-mesh src poster alt max-triangles max-bytes target-error pixel-error transport>
 import { assetsBeside } from "../core/client.ts";
 import type { Transport } from "../core/source.ts";
 import type { Level, Want } from "../core/types.ts";
@@ -7,20 +7,25 @@ import { texts } from "../texts.ts";
 import { Panel } from "./panel.ts";
 import type { Stage } from "./stage.ts";
 
+/** Milliseconds without a move after which a camera rests. */
+const kRest = 100;
+
 /**
  * Shows one model and sharpens it. `src`, `poster` and `alt` are properties too. Events: `first-paint` (the base mesh is on the screen, no
  * enhancement layer has been asked for yet), `progress` {bytes, total}, `refine` {triangles,
  * vertices, bytes} for each state shown, `load` (the level asked for is reached), `error`
- * {message}, `camera-change`.
+ * {message}, `camera-change`. With `pixel-error` it fetches what its camera sees, to an error of
+ * so many pixels, and goes on when that has moved.
  */
 export class ProgressiveMeshElement extends HTMLElement {
-  static readonly observedAttributes = ["src", "poster", "alt", "max-triangles", "max-bytes", "target-error"];
+  static readonly observedAttributes = ["src", "poster", "alt", "max-triangles", "max-bytes", "target-error", "pixel-error"];
 
   readonly #panel = new Panel(this.attachShadow({ mode: "open" }));
   readonly #size = new ResizeObserver(() => this.#fit());
   #stage: Stage | undefined;
   #painted = false; // the stage shows its base mesh: it can be refined and dressed
   #loads = 0;
+  #resting: ReturnType<typeof setTimeout> | undefined;
 
   get src(): string {
     return this.getAttribute("src") ?? "";
@@ -60,7 +65,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     else if (name === "poster") this.#panel.poster = value;
     else if (!this.isConnected || before === value) return;
     else if (name === "src") void this.#load();
-    else if (this.#painted) void this.#refine(this.#goal());
+    else if (this.#painted) void this.#sharpen();
   }
 
   /** Properties that were set before this class was known hide the accessors. */
@@ -89,7 +94,7 @@ export class ProgressiveMeshElement extends HTMLElement {
       this.#painted = true;
       this.#panel.hidePoster();
       this.#emit("first-paint");
-      await this.#refine(this.#goal());
+      await this.#sharpen();
     } catch (error) {
       if (load === this.#loads) this.#fail(error as Error);
     }
@@ -97,7 +102,10 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   #open(stage: Stage): Stage {
     this.#stage = stage;
-    stage.onCamera = () => this.#emit("camera-change");
+    stage.onCamera = () => {
+      this.#emit("camera-change");
+      this.#follow();
+    };
     stage.mesh.addEventListener("progress", ({ bytes, total }) => this.#progress(bytes, total));
     stage.mesh.addEventListener("refine", ({ surface }) => this.#show(surface));
     return stage;
@@ -111,11 +119,27 @@ export class ProgressiveMeshElement extends HTMLElement {
     await stage.draw();
   }
 
-  async #refine(want: Want): Promise<void> {
+  /** Towards what the attributes ask for. */
+  #sharpen(): Promise<void> {
+    const pixels = this.#number("pixel-error");
+    return this.#reach((stage) => (pixels > 0 ? stage.refine(pixels) : stage.mesh.refine(this.#goal())));
+  }
+
+  /** Where the camera decides what is fetched, it does so anew once it rests. */
+  #follow(): void {
+    clearTimeout(this.#resting);
+    if (this.#painted && this.#number("pixel-error") > 0) this.#resting = setTimeout(() => void this.#sharpen(), kRest);
+  }
+
+  #refine(want: Want): Promise<void> {
+    return this.#reach((stage) => stage.mesh.refine(want));
+  }
+
+  async #reach(refine: (stage: Stage) => Promise<boolean>): Promise<void> {
     const stage = this.#stage;
     if (!stage) return;
     try {
-      if (!(await stage.mesh.refine(want)) || stage !== this.#stage) return;
+      if (!(await refine(stage)) || stage !== this.#stage) return;
       await stage.draw();
       this.#panel.progress = 1;
       this.#emit("load");
@@ -151,6 +175,7 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   #clear(): void {
     ++this.#loads;
+    clearTimeout(this.#resting);
     this.#stage?.dispose();
     this.#stage = undefined;
     this.#painted = false;
@@ -162,10 +187,13 @@ export class ProgressiveMeshElement extends HTMLElement {
     return value === "http" || value === "ws" ? value : "auto";
   }
 
+  #number(name: string): number {
+    return Number.parseFloat(this.getAttribute(name) ?? "");
+  }
+
   /** What the attributes ask for; without them full resolution. */
   #goal(): Want {
-    const number = (name: string) => Number.parseFloat(this.getAttribute(name) ?? "");
-    const triangles = number("max-triangles"), bytes = number("max-bytes"), error = number("target-error");
+    const triangles = this.#number("max-triangles"), bytes = this.#number("max-bytes"), error = this.#number("target-error");
     if (triangles >= 0) return { triangles };
     if (bytes >= 0) return { bytes };
     if (error >= 0) return { error };

@@ -54,6 +54,12 @@ export class Stage {
     return drawn;
   }
 
+  /** Refines what the camera sees to an error of so many pixels. */
+  refine(pixels: number): Promise<boolean> {
+    const { width, height } = this.#renderer.domElement;
+    return this.mesh.refineFor(this.#camera, width, height, pixels);
+  }
+
   resize(width: number, height: number): void {
     if (width === 0 || height === 0) return;
     this.#camera.aspect = width / height;

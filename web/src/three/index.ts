@@ -2,4 +2,4 @@
 export { ProgressiveMesh, type ProgressiveMeshEventMap } from "./progressive-mesh.ts";
 export { ProgressiveMeshLoader } from "./progressive-mesh-loader.ts";
 export type { Assets } from "../core/messages.ts";
-export { ModelError, type Chunk, type Level, type ModelInfo, type Progress, type Surface, type Want } from "../core/types.ts";
+export { ModelError, type Chunk, type Level, type ModelInfo, type Progress, type Surface, type View, type Want } from "../core/types.ts";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, BufferGeometry, Mesh, MeshStandardMaterial, Sphere, Vector3, type Object3DEventMap } from "three";
+import {
+  Box3, BufferGeometry, Matrix4, Mesh, MeshStandardMaterial, Sphere, Vector3, type Object3DEventMap, type PerspectiveCamera,
+} from "three";
 import { RemoteModel } from "../core/client.ts";
 import type { Assets } from "../core/messages.ts";
 import type { Transport } from "../core/source.ts";
@@ -52,6 +54,18 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   /** True when `want` is reached and in the geometry, false when superseded. */
   refine(want: Want): Promise<boolean> {
     return this.#model.refine(want);
+  }
+
+  /**
+   * Refines what `camera` sees in a viewport of `width` x `height` device pixels until no error there is above
+   * `pixels`. What it does not see is left as it is: call this again when the camera has moved.
+   */
+  refineFor(camera: PerspectiveCamera, width: number, height: number, pixels = 1): Promise<boolean> {
+    this.updateWorldMatrix(true, false);
+    camera.updateWorldMatrix(true, false);
+    const toModel = new Matrix4().makeTranslation(...this.info.centre).multiply(this.matrixWorld.clone().invert());
+    const placed = toModel.multiply(camera.matrixWorld);
+    return this.refine({ view: { camera: placed.toArray(), fov: camera.getEffectiveFOV(), width, height, pixels } });
   }
 
   dispose(): void {

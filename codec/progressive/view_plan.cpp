@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/progressive/view_plan.h"
+
+#include <algorithm>
+
+namespace vitrine {
+namespace {
+
+// An error bound need not fall with every level; the way to finer ones goes on all the same.
+constexpr double kLeastGain = 0.01;  // of the error
+
+}  // namespace
+
+ViewPlan::ViewPlan(const Manifest& manifest, const std::vector<bool>& have, const View& view)
+    : manifest_(manifest),
+      have_(have),
+      view_(view),
+      leaf_level_(manifest.tree.leaves(), 0),
+      required_(have.size(), 0) {
+  for (std::size_t i = 0; i < have.size(); ++i) {
+    const ChunkInfo& chunk = manifest.chunks[i];
+    if (!have[i] || leaf_level_[chunk.region] + 1 != chunk.level) continue;
+    std::fill_n(leaf_level_.begin() + chunk.region, manifest.region(chunk).leaves, chunk.level);
+  }
+}
+
+// How many pixels of error the chunk takes away where too many are seen.
+double ViewPlan::gain(std::size_t index) const {
+  const ChunkInfo& chunk = manifest_.chunks[index];
+  const std::size_t coarser = manifest_.find_chunk(chunk.level - 1, chunk.region);
+  const double before = coarser < manifest_.chunks.size() ? manifest_.chunks[coarser].max_error
+                                                          : manifest_.levels[0].max_error;
+  const double pixels = pixels_of(before, manifest_.region(chunk).box, manifest_.lattice, view_);
+  if (pixels <= view_.pixel_error) return 0;
+  return pixels * std::max(1 - chunk.max_error / before, kLeastGain);
+}
+
+// The chunk and what has to come before it, in an order that can be applied.
+std::vector<std::size_t> ViewPlan::missing_for(std::size_t chunk) {
+  ++call_;
+  std::vector<std::size_t> missing;
+  require(chunk, missing);
+  return missing;
+}
+
+void ViewPlan::require(std::size_t index, std::vector<std::size_t>& missing) {
+  required_[index] = call_;
+  const ChunkInfo& chunk = manifest_.chunks[index];
+  const auto need = [&](std::uint32_t leaf) {
+    for (std::uint32_t level = leaf_level_[leaf] + 1; level < chunk.level; ++level) {
+      const std::size_t coarser = manifest_.find_chunk(level, leaf);
+      if (required_[coarser] != call_) require(coarser, missing);
+    }
+  };
+  const RegionNode& region = manifest_.region(chunk);
+  for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
+    for (const std::uint32_t next : manifest_.adjacency[leaf])
+      need(next);
+  }
+  missing.push_back(index);
+}
+
+std::optional<std::size_t> ViewPlan::best(double bytes) {
+  std::optional<std::size_t> found;
+  double most = 0;
+  for (std::size_t i = 0; i < have_.size(); ++i) {
+    const ChunkInfo& chunk = manifest_.chunks[i];
+    if (have_[i] || leaf_level_[chunk.region] + 1 != chunk.level) continue;
+    const double removed = gain(i);
+    if (removed == 0) continue;
+    const std::vector<std::size_t> missing = missing_for(i);
+    double length = 0;
+    for (const std::size_t m : missing)
+      length += static_cast<double>(manifest_.chunks[m].length);
+    if (length > bytes || removed <= most * (length + 1)) continue;
+    most = removed / (length + 1);
+    found = missing[0];
+  }
+  return found;
+}
+
+}  // namespace vitrine

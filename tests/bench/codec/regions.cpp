@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <numeric>
+
+#include "close_up.h"
+#include "sections.h"
+#include "subject.h"
+
+namespace vitrine::bench {
+namespace {
+
+constexpr double kMaxRegions = 1.03;     // bytes, to a file of one region
+constexpr double kMaxCloseUp = 1.0 / 3;  // bytes, to the whole file
+
+// Chunks of levels with several regions that are shorter than 8 KiB or longer than 64 KiB, and all.
+std::pair<double, double> chunks_out_of_band(const Manifest& manifest) {
+  double outside = 0, all = 0;
+  for (const ChunkInfo& chunk : manifest.chunks) {
+    if (chunk.node == 0) continue;
+    ++all;
+    outside += chunk.length < (8u << 10) || chunk.length > (64u << 10) ? 1 : 0;
+  }
+  return {outside, all};
+}
+
+}  // namespace
+
+void regions(Report& report, const Model& model) {
+  const Bytes file = build(model.file, kBits);
+  const Manifest manifest = *parse_header(file);
+  if (manifest.tree.leaves() < 4) return;
+  const auto whole = static_cast<double>(file.size());
+  const auto one = static_cast<double>(build_in_one_region(model.file, kBits).size());
+  report.add(
+      {"regions." + model.name, "ratio_to_one_region", whole, one, whole / one, kMaxRegions});
+  const auto [outside, all] = chunks_out_of_band(manifest);
+  report.add(
+      {"regions." + model.name, "chunks_out_of_8_to_64_KiB", outside, all, outside / all, 0});
+  double sum = 0;
+  const std::vector<View> views = close_ups(model.clean);
+  for (const View& view : views)
+    sum += static_cast<double>(bytes_for(manifest, view));
+  const double mean = sum / static_cast<double>(views.size());
+  report.add({"close_up." + model.name, "ratio_to_whole", mean, whole, mean / whole, kMaxCloseUp});
+}
+
+}  // namespace vitrine::bench

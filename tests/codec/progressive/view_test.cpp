@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a camera is given: less than the whole, other things than another camera, and all it needs.
+#include "codec/progressive/view.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "codec/progressive/refine.h"
+#include "support/meshes.h"
+#include "support/stored_model.h"
+
+namespace vitrine {
+namespace {
+
+using test::StoredModel;
+using Chunks = std::vector<std::size_t>;
+
+// A torus of many regions. Each level has half the error of the one before.
+const StoredModel& torus_model() {
+  static const StoredModel model = [] {
+    const TriangleMesh torus = test::torus(300, 150);
+    StoredModel made = test::store_model(quantise(torus, fit_lattice(torus.positions, 12)),
+                                         {.target_vertices = 60, .region_vertices = 900});
+    double error = 1;
+    for (LevelInfo& level : made.manifest.levels)
+      level.max_error = error, error /= 2;
+    made.manifest.levels.back().max_error = 0;
+    for (ChunkInfo& chunk : made.manifest.chunks)
+      chunk.max_error = made.manifest.levels[chunk.level].max_error;
+    return made;
+  }();
+  return model;
+}
+
+struct Frame {
+  Vec3 centre, size;
+};
+Frame frame_of(const Manifest& m) {
+  const LatticeBox& box = m.tree.nodes[0].box;
+  const Vec3 low = m.lattice.to_model(box.low), high = m.lattice.to_model(box.high);
+  return {(low + high) * 0.5, high - low};
+}
+
+// Looks along +x or -x at the middle of the model's side, from `distance` before that.
+View along_x(const Manifest& m, double sense, double distance) {
+  const Frame frame = frame_of(m);
+  const double x = frame.centre.x - sense * (frame.size.x / 2 + distance);
+  const double right = sense;  // y up: right is z or -z
+  return {
+      .camera = {0, 0, right, 0, 0, 1, 0, 0, -sense, 0, 0, 0, x, frame.centre.y, frame.centre.z, 1},
+      .field_of_view = 30,
+      .width = 800,
+      .height = 600};
+}
+
+Chunks plan(const Manifest& manifest, const View& view) {
+  Planner planner(manifest);
+  planner.want(view);
+  Chunks chunks;
+  while (const auto chunk = planner.next()) {
+    planner.have(*chunk);
+    chunks.push_back(*chunk);
+  }
+  return chunks;
+}
+
+std::uint64_t bytes_of(const Manifest& manifest, const Chunks& chunks) {
+  std::uint64_t bytes = manifest.head_bytes();
+  for (const std::size_t chunk : chunks)
+    bytes += manifest.chunks[chunk].length;
+  return bytes;
+}
+
+TEST(View, ACloseUpNeedsAThirdOfTheBytes) {
+  const Manifest& m = torus_model().manifest;
+  const Chunks chunks = plan(m, along_x(m, 1, frame_of(m).size.x / 16));
+  EXPECT_GT(chunks.size(), m.levels.size());
+  EXPECT_LT(bytes_of(m, chunks), m.file_bytes / 3);
+}
+
+TEST(View, OppositeCamerasGetDifferentBytesInAnotherOrder) {
+  const Manifest& m = torus_model().manifest;
+  Chunks here = plan(m, along_x(m, 1, frame_of(m).size.x / 16));
+  Chunks there = plan(m, along_x(m, -1, frame_of(m).size.x / 16));
+  EXPECT_NE(here, there);
+  std::ranges::sort(here);
+  std::ranges::sort(there);
+  Chunks only_here;
+  std::ranges::set_difference(here, there, std::back_inserter(only_here));
+  EXPECT_GT(only_here.size(), here.size() / 4);
+}
+
+TEST(View, EveryChunkCanBeAppliedWhenItsTurnComes) {
+  const StoredModel& model = torus_model();
+  for (const double sense : {1.0, -1.0}) {
+    Refiner refiner = test::start_refiner(model);
+    for (const std::size_t chunk :
+         plan(model.manifest,
+              along_x(model.manifest, sense, frame_of(model.manifest).size.x / 16))) {
+      ASSERT_TRUE(refiner.ready(chunk));
+      test::apply_chunk(refiner, model, chunk);
+    }
+    const LatticeMesh mesh = refiner.lattice_mesh();
+    EXPECT_TRUE(Connectivity::close(refiner.vertex_count(), mesh.faces)) << "a crack";
+  }
+}
+
+TEST(View, NoErrorInSightIsAboveOnePixel) {
+  const StoredModel& model = torus_model();
+  const Manifest& m = model.manifest;
+  for (const double distance : {0.1, 1.0, 10.0}) {
+    const View view = along_x(m, 1, distance * frame_of(m).size.x);
+    Planner planner(m);
+    planner.want(view);
+    std::vector<bool> have(m.chunks.size());
+    while (const auto chunk = planner.next())
+      planner.have(*chunk), have[*chunk] = true;
+    for (std::size_t i = 0; i < have.size(); ++i) {
+      const ChunkInfo& chunk = m.chunks[i];
+      const double before = m.levels[chunk.level - 1].max_error;
+      const double pixels = pixels_of(before, m.region(chunk).box, m.lattice, view);
+      EXPECT_TRUE(have[i] || pixels <= 1) << "chunk " << i << ": " << pixels;
+    }
+  }
+}
+
+TEST(View, FromAfarTheBaseIsEnough) {
+  const Manifest& m = torus_model().manifest;
+  EXPECT_EQ(plan(m, along_x(m, 1, 1e6 * frame_of(m).size.x)), Chunks{});
+}
+
+TEST(View, WhatIsBehindTheCameraIsNotSent) {
+  const Manifest& m = torus_model().manifest;
+  View view = along_x(m, 1, frame_of(m).size.x);
+  for (const std::size_t k : {0, 1, 2, 8, 9, 10})
+    view.camera[k] = -view.camera[k];
+  EXPECT_EQ(plan(m, view), Chunks{});
+}
+
+TEST(View, ABudgetIsNeverExceeded) {
+  const Manifest& m = torus_model().manifest;
+  View view = along_x(m, 1, frame_of(m).size.x / 16);
+  const std::uint64_t all = bytes_of(m, plan(m, view)), layers = all - m.head_bytes();
+  for (const std::uint64_t budget : {all - layers / 2, all - layers / 4, all - 1}) {
+    view.bytes = static_cast<double>(budget);
+    const Chunks chunks = plan(m, view);
+    EXPECT_LE(bytes_of(m, chunks), budget);
+    EXPECT_FALSE(chunks.empty());
+  }
+}
+
+TEST(View, ImpossibleCamerasAreTold) {
+  const View good = along_x(torus_model().manifest, 1, 1);
+  EXPECT_TRUE(is_sane(good));
+  const auto bad = [&](auto change) {
+    View view = good;
+    change(view);
+    return !is_sane(view);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(bad([&](View& v) { v.camera[5] = nan; }));
+  EXPECT_TRUE(bad([](View& v) { v.field_of_view = 180; }));
+  EXPECT_TRUE(bad([](View& v) { v.height = 0; }));
+  EXPECT_TRUE(bad([](View& v) { v.pixel_error = 0; }));
+  EXPECT_TRUE(bad([&](View& v) { v.bytes = nan; }));
+}
+
+}  // namespace
+}  // namespace vitrine
