@@ -19,8 +19,8 @@ constexpr std::uint64_t kKnownFeatures = kFeaturePyramid | kFeatureColours;
 
 constexpr std::size_t kMaxUnitBytes = 16;
 constexpr std::size_t kHashBytes = 32;
-constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;       // fewest bytes of a level record
-constexpr std::size_t kChunkBytes = 2 + 4 + kHashBytes;  // fewest bytes of a chunk record
+constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;   // fewest bytes of a level record
+constexpr std::size_t kChunkBytes = 2 + kHashBytes;  // fewest bytes of a chunk record
 
 Unexpected bad(const std::string& what) {
   return fail(ErrorCode::kBadInput, "damaged .pmesh header: " + what);
@@ -187,7 +187,7 @@ void write_chunks(ByteWriter& out, const Manifest& m) {
   for (const ChunkInfo& chunk : m.chunks) {
     out.varint(chunk.length);
     out.varint(chunk.splits);
-    write_float(out, round_up(chunk.max_error));
+    if (m.tree.leaves() > 1) write_float(out, round_up(chunk.max_error));
     out.bytes(chunk.sha256);
   }
 }
@@ -202,7 +202,7 @@ Expected<void> read_level_chunks(ByteReader& in, std::uint32_t level, Manifest& 
     chunk.offset = m.file_bytes;
     chunk.length = in.varint();
     const std::uint64_t own = in.varint();
-    chunk.max_error = read_float(in);
+    chunk.max_error = m.tree.leaves() > 1 ? read_float(in) : m.levels[level].max_error;
     const auto digest = in.bytes(kHashBytes);
     if (!in.ok() || !is_sane_error(chunk.max_error) || chunk.length > (1ull << 40) ||
         own > born - splits || own > most_splits(chunk.length)) {

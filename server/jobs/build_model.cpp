@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <future>
 #include <memory>
@@ -101,9 +102,27 @@ class LevelErrors {
     std::vector<std::size_t> entered(errors_.size());
     for (ChunkInfo& chunk : manifest.chunks)
       chunk.max_error = errors_[chunk.level].region_errors[entered[chunk.level]++];
+    for (ChunkInfo& chunk : manifest.chunks)
+      allow_for_finer_neighbours(chunk, manifest);
   }
 
  private:
+  // A face between a region and one that is a level finer is in the mesh of one of the levels, but
+  // for its own corners' low bits, which come with the region's next chunk.
+  static void allow_for_finer_neighbours(ChunkInfo& chunk, const Manifest& manifest) {
+    const std::uint32_t finer = chunk.level + 1;
+    if (finer >= manifest.levels.size() || manifest.tree.regions_at(finer).size() == 1) return;
+    const std::int32_t cells =
+        (1 << manifest.levels[chunk.level].shift) - (1 << manifest.levels[finer].shift);
+    if (cells == 0) return;
+    const RegionNode& region = manifest.region(chunk);
+    for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
+      const ChunkInfo& next = manifest.chunks[manifest.find_chunk(finer, leaf)];
+      chunk.max_error = std::max(chunk.max_error, next.max_error);
+    }
+    chunk.max_error += std::sqrt(0.75) * cells * manifest.lattice.step;
+  }
+
   std::shared_ptr<const TriangleMesh> displayed(const MeshState& level, double filter) const {
     auto mesh = std::make_shared<TriangleMesh>();
     const LevelInfo shown{.display_filter = filter, .shift = level.shift};

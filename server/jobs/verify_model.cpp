@@ -53,14 +53,14 @@ Expected<void> check_boxes(const Refiner& refiner, std::uint32_t level) {
   return {};
 }
 
-// A level is as far from the original as the worst of its regions.
+// A level is no farther from the original than the worst of its regions.
 Expected<void> check_errors(const Manifest& manifest) {
   std::vector<double> worst(manifest.levels.size());
   for (const ChunkInfo& chunk : manifest.chunks)
     worst[chunk.level] = std::max(worst[chunk.level], chunk.max_error);
   for (std::size_t level = 1; level < worst.size(); ++level) {
     const double stated = manifest.levels[level].max_error;
-    if (worst[level] == stated) continue;
+    if (worst[level] >= stated) continue;
     return bad(fmt::format("level {} states an error of {} and its chunks one of {}", level, stated,
                            worst[level]));
   }

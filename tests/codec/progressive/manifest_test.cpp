@@ -73,7 +73,9 @@ void add_chunks(Dice& dice, Manifest& m) {
                           .node = node,
                           .length = own / 16 + dice.below(50'000),
                           .splits = own,
-                          .max_error = static_cast<float>(dice.below(1000)) / 7.0f,
+                          .max_error = m.tree.leaves() == 1
+                                           ? m.levels[level].max_error
+                                           : static_cast<float>(dice.below(1000)) / 7.0f,
                           .sha256 = random_hash(dice)});
     }
   }
