@@ -29,9 +29,50 @@ void check(const Refiner& refiner) {
   require(mesh.positions.size() == refiner.vertex_count());
   require(mesh.faces.size() == refiner.face_count());
   require(Connectivity::close(refiner.vertex_count(), mesh.faces).has_value());
-  std::vector<Vec3> shown;
-  refiner.display_positions(shown);
-  require(shown.size() >= refiner.vertex_count());
+  const TriangleMesh shown = refiner.display_mesh();
+  require(shown.positions.size() >= refiner.vertex_count());
+  require(shown.faces.size() == refiner.face_count());
+  require(shown.colours.empty() || shown.colours.size() == shown.positions.size());
+}
+
+// The planner ends, whatever is wanted, and names no chunk twice.
+void plan(const Manifest& manifest) {
+  const std::uint32_t level = static_cast<std::uint32_t>(manifest.levels.size()) / 2;
+  for (const Want& want :
+       {Want(WantLevel{level}), Want(WantBytes{manifest.cumulative_bytes(level)}),
+        Want(WantError{manifest.levels[level].max_error})}) {
+    Planner planner(manifest);
+    planner.want(want);
+    std::vector<bool> planned(manifest.chunks.size(), false);
+    while (const auto chunk = planner.next()) {
+      require(!planned[*chunk]);
+      planned[*chunk] = true;
+      planner.have(*chunk);
+    }
+  }
+}
+
+// A camera so near to a corner of the model that not all of it is in sight.
+View close_up(const Lattice& lattice) {
+  const double side = lattice.step * (1 << lattice.bits);
+  const Vec3 eye = lattice.origin + Vec3{0.2, 0.2, 1.3} * side;
+  return {.camera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, eye.x, eye.y, eye.z, 1},
+          .field_of_view = 30,
+          .width = 800,
+          .height = 600};
+}
+
+// False where a chunk is damaged.
+bool apply(Refiner& refiner, Planner& planner, std::span<const std::uint8_t> bytes) {
+  while (const auto chunk = planner.next()) {
+    require(refiner.ready(*chunk));
+    planner.have(*chunk);
+    const ChunkInfo& info = refiner.manifest().chunks[*chunk];
+    if (!refiner.apply(*chunk, part(bytes, info.offset, info.length))) return false;
+    require(refiner.applied(*chunk) && !refiner.ready(*chunk));
+    check(refiner);
+  }
+  return true;
 }
 
 void decode(std::span<const std::uint8_t> bytes) {
@@ -41,14 +82,12 @@ void decode(std::span<const std::uint8_t> bytes) {
   auto refiner = Refiner::start(*manifest, fuzz::read_raw_base(base_bytes, *manifest));
   if (!refiner) return;
   check(*refiner);
+  plan(*manifest);
   Planner planner(*manifest);
+  if (const View view = close_up(manifest->lattice); is_sane(view)) planner.want(view);
+  if (!apply(*refiner, planner, bytes)) return;
   planner.want(WantTriangles{manifest->levels.back().faces});
-  while (const auto chunk = planner.next()) {
-    planner.have(*chunk);
-    const ChunkInfo& info = manifest->chunks[*chunk];
-    if (!refiner->apply(*chunk, part(bytes, info.offset, info.length))) return;
-    check(*refiner);
-  }
+  if (!apply(*refiner, planner, bytes)) return;
   refiner->undo_to_faces(refiner->face_count() / 2);
   check(*refiner);
 }

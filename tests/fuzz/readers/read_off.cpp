@@ -2,6 +2,7 @@
 #include "fuzz/readers/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size <= vitrine::fuzz::kMostBytes) vitrine::fuzz::check(vitrine::read_off({data, size}));
+  if (size <= vitrine::fuzz::kMostBytes)
+    vitrine::fuzz::check({data, size}, vitrine::read_off({data, size}));
   return 0;
 }

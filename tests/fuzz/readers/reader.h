@@ -5,12 +5,15 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 #include <string>
 
 #include "codec/import/raw_mesh.h"
 #include "codec/import/readers.h"
 #include "codec/import/repair.h"
+#include "codec/import/unit_comment.h"
 #include "codec/mesh/connectivity.h"
+#include "codec/mesh/unit.h"
 
 namespace vitrine::fuzz {
 
@@ -20,9 +23,7 @@ inline void require(bool holds) {
   if (!holds) std::abort();
 }
 
-inline void check(Expected<RawMesh> raw) {
-  if (!raw) return require(raw.error().message.find('\n') == std::string::npos);
-  auto imported = std::move(*raw).finish({});
+inline void check(Expected<ImportedMesh> imported) {
   if (!imported) return require(imported.error().message.find('\n') == std::string::npos);
   const TriangleMesh before = imported->mesh;
   require(before.colours.empty() || before.colours.size() == before.positions.size());
@@ -33,6 +34,14 @@ inline void check(Expected<RawMesh> raw) {
   require(mesh.colours.empty() || mesh.colours.size() == mesh.positions.size());
   const auto count = static_cast<std::uint32_t>(mesh.positions.size());
   require(Connectivity::close(count, mesh.faces).has_value());
+}
+
+// For the readers of text, which may state a unit.
+inline void check(std::span<const std::uint8_t> bytes, Expected<RawMesh> raw) {
+  const std::string_view unit = unit_in_comments(bytes);
+  require(unit.empty() || metres_per(unit));
+  if (!raw) return check(Unexpected(raw.error()));
+  check(std::move(*raw).finish({}));
 }
 
 }  // namespace vitrine::fuzz

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""How many lines of decoder and readers the fuzzers' corpora reach: coverage.py PROFDATA COV BUILD
+
+Replays the committed corpora, and what the preset `fuzz` has found, through the programs of the preset
+`coverage`. Fails below 95 % of the decoder's lines."""
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+CORPUS = ROOT / "tests/fuzz/corpus"
+FOUND = ROOT / "build/fuzz/fuzz/found"
+LEAST_OF_DECODER = 95  # per cent
+
+
+def decoder_sources(lines):
+    """What of codec/progressive the browser compiles, its headers, connectivity, and what decodes the base natively.
+    Not codec/core, which serves encoder and decoder alike."""
+    listed = set(re.findall(r"codec/progressive/\w+\.cpp", (ROOT / "codec/wasm/CMakeLists.txt").read_text()))
+    listed |= {"codec/mesh/connectivity.cpp", "codec/base/base_decoder.cpp", "codec/progressive/refine.cpp"}
+    return {source for source in lines if source in listed or re.fullmatch(r"codec/progressive/\w+\.h", source)}
+
+
+def replay(program, profile):
+    name = program.name.removeprefix("fuzz_")
+    corpora = [folder for folder in (CORPUS / name, FOUND / name) if folder.is_dir()]
+    subprocess.run([program, *corpora], check=True, stdout=subprocess.DEVNULL,
+                   env={**os.environ, "LLVM_PROFILE_FILE": str(profile)})
+    return profile
+
+
+def count_lines(cov, profile, programs):
+    """{source: (lines reached, lines)} of all that the programs hold."""
+    objects = [word for program in programs[1:] for word in ("-object", program)]
+    report = subprocess.run([cov, "export", "-summary-only", "-instr-profile", profile, programs[0], *objects],
+                            check=True, capture_output=True, text=True).stdout
+    lines = {}
+    for file in json.loads(report)["data"][0]["files"]:
+        path = Path(re.sub(r".*/rooms/\w+/", f"{ROOT}/", file["filename"])).resolve()
+        if path.is_relative_to(ROOT / "codec"):
+            summary = file["summary"]["lines"]
+            lines[str(path.relative_to(ROOT))] = (summary["covered"], summary["count"])
+    return lines
+
+
+def show(name, counts):
+    reached, lines = map(sum, zip(*counts))
+    print(f"{name:<42} {reached:>6} of {lines:>6} lines {100 * reached / lines:>7.2f} %")
+    return 100 * reached / lines
+
+
+def main():
+    profdata, cov, build = sys.argv[1:]
+    programs = sorted(Path(build, "fuzz").glob("fuzz_*"))
+    profiles = [replay(program, Path(build, "fuzz", f"profile.{i}")) for i, program in enumerate(programs)]
+    merged = Path(build, "fuzz/profile")
+    subprocess.run([profdata, "merge", "-o", merged, *profiles], check=True)
+    lines = count_lines(cov, merged, programs)
+    decoder, readers = decoder_sources(lines), {source for source in lines if source.startswith("codec/import/")}
+    for source in sorted(decoder | readers):
+        show(source, [lines[source]])
+    print()
+    for folder in sorted({str(Path(source).parent) for source in decoder | readers}):
+        show(folder, [lines[source] for source in decoder | readers if str(Path(source).parent) == folder])
+    print()
+    show("readers", [lines[source] for source in readers])
+    share = show("decoder", [lines[source] for source in decoder])
+    if share < LEAST_OF_DECODER:
+        sys.exit(f"coverage: under {LEAST_OF_DECODER} % of the decoder; fuzz longer, merge what is found into "
+                 "tests/fuzz/corpus, or delete what nothing reaches")
+
+
+if __name__ == "__main__":
+    main()
