@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "codec/mesh/closest_point.h"
 #include "codec/progressive/placement.h"
 
 namespace vitrine {
@@ -44,6 +45,20 @@ bool fan_survives(const Surface& surface, const Star& star, VertexId centre, Ver
     a = b;
   }
   return true;
+}
+
+// Squared distance of p to the faces that a fan keeps once its edge to `other` has collapsed.
+double distance_to_fan(const Surface& surface, const Star& star, VertexId other, const Vec3& target,
+                       const Vec3& p) {
+  double least = dot(p - target, p - target);
+  VertexId a = star.vertex[star.valence - 1];
+  for (VertexId b : star.neighbours()) {
+    const bool stays = a != other && b != other && !is_virtual(a) && !is_virtual(b);
+    if (stays)
+      least = std::min(least, squared_distance({target, surface.point(a), surface.point(b)}, p));
+    a = b;
+  }
+  return least;
 }
 
 }  // namespace
@@ -104,6 +119,19 @@ bool keeps_orientation(const Surface& surface, const EdgeStar& edge, const Vec3i
   const Vec3 to = surface.middle(target);
   return fan_survives(surface, edge.star1, edge.v1, edge.v2, to) &&
          fan_survives(surface, edge.star2, edge.v2, edge.v1, to);
+}
+
+bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& target, double reach) {
+  const Vec3 to = surface.middle(target);
+  const double most = reach * reach;
+  for (const VertexId v : {edge.v1, edge.v2}) {
+    const Vec3 p = surface.point(v);
+    if (dot(p - to, p - to) <= most) continue;
+    const double least = std::min(distance_to_fan(surface, edge.star1, edge.v2, to, p),
+                                  distance_to_fan(surface, edge.star2, edge.v1, to, p));
+    if (least > most) return false;
+  }
+  return true;
 }
 
 }  // namespace vitrine

@@ -7,6 +7,8 @@
 namespace vitrine {
 namespace {
 
+constexpr double kReach = 0.25;  // share of the mean edge
+
 // Costs are not negative, so that their bits ascend with them.
 std::uint32_t cost_key(double cost) {
   return std::bit_cast<std::uint32_t>(static_cast<float>(std::max(cost, 0.0)));
@@ -55,6 +57,7 @@ void Matcher::sum_rings() {
 
 void Matcher::list_edges(const LevelRules& rules) {
   edges_.clear();
+  double lengths = 0;
   const Connectivity& mesh = surface_.mesh;
   for (VertexId v : surface_.live) {
     const Corner first = mesh.corner_at(v);
@@ -67,11 +70,13 @@ void Matcher::list_edges(const LevelRules& rules) {
         const Quadric &a = surface_.quadric[v], &b = surface_.quadric[w];
         const Vec3 target = likely_target(rules, c), d = surface_.point(v) - surface_.point(w);
         const double regular = rules.length_weight * dot(d, d) * (a.weight() + b.weight());
+        lengths += length(d);
         edges_.push_back({cost_key(a.at(target) + b.at(target) + regular), c});
       }
       c = mesh.swing(c);
     } while (c != first);
   }
+  reach_ = kReach * lengths / static_cast<double>(std::max<std::size_t>(edges_.size(), 1));
 }
 
 // v~ up to rounding, for a fraction of the price of merged_position().
@@ -101,6 +106,7 @@ bool Matcher::choose(const LevelRules& rules, Corner c) {
   const Vec3i target = merged_position(surface_, edge, rules.placement, rules.parity);
   if (!rules.allow(target)) return false;
   if (!keeps_orientation(surface_, edge, target)) return false;
+  if (!keeps_near(surface_, edge, target, reach_)) return false;
   taken_[edge.v1] = taken_[edge.v2] = 1;
   withhold_neighbours(rules, edge);
   picks_.push_back({c, target});

@@ -48,6 +48,7 @@ class Matcher {
   std::vector<std::uint8_t> taken_;          // per vertex
   std::vector<Vec3> ring_sum_;               // per vertex: of its real neighbours
   std::vector<std::uint32_t> ring_size_;
+  double reach_ = 0;  // of keeps_near()
   std::vector<Pick> picks_;
 };
 

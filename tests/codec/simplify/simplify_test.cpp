@@ -325,6 +325,20 @@ TEST(Simplify, TheHeapTakesTheCheapestPairFirst) {
   EXPECT_NE(std::find(base.begin(), base.end(), fine.positions[bump]), base.end());
 }
 
+TEST(Simplify, NeedlesAreNotCutWhereFlatPartsCanGo) {
+  constexpr std::uint32_t kSide = 30;
+  TriangleMesh needles = sheet(kSide, kSide);
+  const double edge = length(needles.positions[1] - needles.positions[0]);
+  const auto is_tip = [](VertexId v) { return v / kSide % 3 == 1 && v % kSide % 3 == 1; };
+  for (VertexId v = 0; v < kSide * kSide; ++v)
+    needles.positions[v].z = is_tip(v) ? 3 * edge : 0;
+  const auto hierarchy = simplify(on_lattice(needles), {.target_vertices = 60});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_GT(hierarchy->levels.back().size(), kSide * kSide / 10);
+  for (const Collapse& c : hierarchy->levels.back())
+    EXPECT_FALSE(is_tip(c.v1) || is_tip(c.v2));
+}
+
 TEST(Simplify, FacesWithoutAreaCollapseToo) {
   LatticeMesh flat = on_lattice(sheet(40, 40));
   for (Vec3i& p : flat.positions)
