@@ -26,6 +26,16 @@ struct Quadric {
     return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) +
            p.y * (yy * p.y + 2 * (yz * p.z + y)) + p.z * (zz * p.z + 2 * z) + c;
   }
+
+  // How much of it the best step along the slope would take away (one step of steepest descent).
+  double mendable(const Vec3& p) const {
+    const Vec3 slope{xx * p.x + xy * p.y + xz * p.z + x, xy * p.x + yy * p.y + yz * p.z + y,
+                     xz * p.x + yz * p.y + zz * p.z + z};
+    const double square = dot(slope, slope);
+    const double bend = slope.x * (xx * slope.x + 2 * (xy * slope.y + xz * slope.z)) +
+                        slope.y * (yy * slope.y + 2 * yz * slope.z) + zz * slope.z * slope.z;
+    return bend > 0 ? square * square / bend : 0;
+  }
 };
 
 // The plane through `p` with the unit `normal`.

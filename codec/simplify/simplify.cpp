@@ -18,7 +18,7 @@ namespace vitrine {
 namespace {
 
 constexpr std::uint32_t kRegularLevels = 3;  // finest levels that also prefer short edges
-constexpr double kLengthWeight = 1e-2;
+constexpr double kLengthWeight = 5e-3;
 constexpr double kCellPerError = 1;  // side of a cell against the rms distance from the planes
 // A level that removes less than this share of the vertices is the last one: what is left is
 // locked by topology, and each level has its price.
