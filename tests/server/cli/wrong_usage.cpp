@@ -156,6 +156,20 @@ TEST_F(VitrineCommand, a_full_disk_is_an_error_and_leaves_no_part_of_a_file) {
   EXPECT_EQ(result.output, "filler\n");
 }
 
+TEST_F(VitrineCommand, a_full_disk_under_an_installation_is_named) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  std::filesystem::create_directory(path("out"));
+  const std::string publish_and_fill = "\"$1\" publish '" + in +
+                                       "' --data \"$out/data\" > \"$out/published\" && "
+                                       "{ head -c 2000000 /dev/zero > \"$out/filler\"; } 2>&-";
+  const ProgramResult result = run_on_small_disk(publish_and_fill + " || true", path("out"),
+                                                 {"publish", in, "--data", path("out/data")});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("cannot open the catalogue"));
+  EXPECT_THAT(result.errors, HasSubstr("No space left on device; free some space"));
+  EXPECT_EQ(result.output, "data\nfiller\npublished\n");
+}
+
 TEST_F(VitrineCommand, a_read_only_folder_is_an_error) {
   const std::string in = write("in.ply", bumpy_ply(500));
   std::filesystem::create_directory(path("out"));
