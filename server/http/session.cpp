@@ -227,7 +227,7 @@ class Session {
   asio::awaitable<bool> send(const Parser::value_type& request, Exchange& exchange) {
     if (connection_->draining) exchange.keep_alive = false;
     Response& response = exchange.response;
-    const HeadOptions options{exchange.id, exchange.keep_alive};
+    const HeadOptions options{exchange.id, exchange.keep_alive, request.version()};
     std::string head = response_head(response, options);
     const unsigned status = response.status;
     const bool with_body = request.method() != verb::head;
