@@ -75,6 +75,10 @@ TEST_F(VitrineCommand, inputs_that_are_no_mesh_are_refused_and_nothing_is_writte
   EXPECT_THAT(files(), ElementsAre());
 }
 
+TEST_F(VitrineCommand, a_line_end_in_a_name_does_not_break_the_message) {
+  expect_fault(vitrine({"info", path("two\nlines.ply")}), 1);
+}
+
 TEST_F(VitrineCommand, a_folder_is_no_input) {
   expect_fault(vitrine({"info", folder_.path().string()}), 1);
 }
