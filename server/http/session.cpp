@@ -236,7 +236,8 @@ class Session {
     const std::uint64_t sent = co_await send_response(*connection_, std::move(head),
                                                       std::move(body), server_.options().patience);
     record(exchange, text(request.method_string()), text(request.target()), status, sent);
-    lingers_ = sent == size && !exchange.keep_alive;
+    const bool last = !exchange.keep_alive || connection_->draining;
+    lingers_ = sent == size && last;
     co_return sent == size;
   }
 
