@@ -3,7 +3,7 @@
 // to give every sRGB byte back. Far from the origin the node's translation, which
 // is a text, keeps what single precision cannot.
 #include "codec/core/srgb.h"
-#include "codec/export/bounds.h"
+#include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/export/bounds.h"
+#include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // VRML 97 (ISO/IEC 14772-1): one shape, an IndexedFaceSet.
-#include "codec/export/bounds.h"
+#include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
