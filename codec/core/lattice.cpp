@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "codec/core/bounds.h"
+
 namespace vitrine {
 namespace {
 
@@ -20,15 +22,9 @@ Vec3i Lattice::to_lattice(const Vec3& p) const {
 
 Lattice fit_lattice(std::span<const Vec3> positions, int bits) {
   if (positions.empty()) return {.bits = bits};
-  Vec3 low = positions[0], high = positions[0];
-  for (const Vec3& p : positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3 side = high - low;
-  const double longest = std::max({side.x, side.y, side.z});
-  const double step = longest / static_cast<double>((1 << bits) - 1);
-  return {.origin = low, .step = step > 0 ? step : 1.0, .bits = bits};
+  const Bounds box = bounds_of(positions);
+  const double step = box.longest_side() / static_cast<double>((1 << bits) - 1);
+  return {.origin = box.low, .step = step > 0 ? step : 1.0, .bits = bits};
 }
 
 }  // namespace vitrine

@@ -26,8 +26,9 @@ class FileWriter {
     const auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
     bytes_.insert(bytes_.end(), raw.begin(), raw.end());
   }
-  void put_floats(const Vec3& v) {
-    put(static_cast<float>(v.x)), put(static_cast<float>(v.y)), put(static_cast<float>(v.z));
+  template <class Real = float>
+  void put_reals(const Vec3& v) {
+    put(static_cast<Real>(v.x)), put(static_cast<Real>(v.y)), put(static_cast<Real>(v.z));
   }
   void text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
 
@@ -38,10 +39,11 @@ class FileWriter {
     const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     text({digits, static_cast<std::size_t>(end - digits)});
   }
-  void numbers(const Vec3& v) {
-    number(static_cast<float>(v.x)), text(" ");
-    number(static_cast<float>(v.y)), text(" ");
-    number(static_cast<float>(v.z));
+  template <class Real = float>
+  void numbers(const Vec3& v, std::string_view separator = " ") {
+    number(static_cast<Real>(v.x)), text(separator);
+    number(static_cast<Real>(v.y)), text(separator);
+    number(static_cast<Real>(v.z));
   }
 
   std::size_t size() const { return bytes_.size(); }

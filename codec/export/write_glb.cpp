@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Binary glTF 2.0: one mesh of one primitive. Colours are linear light in 16 bits, which is enough
-// to give every sRGB byte back.
-#include <algorithm>
-
+// to give every sRGB byte back. Far from the origin the node's translation, which
+// is a text, keeps what single precision cannot.
 #include "codec/core/srgb.h"
+#include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
@@ -12,34 +12,23 @@ namespace {
 
 constexpr std::size_t kPositionBytes = 12, kColourBytes = 8;
 
-struct Box {
-  Vec3 low, high;
-};
-
-Box bounding_box(const std::vector<Vec3>& positions) {
-  Box box{positions[0], positions[0]};
-  for (const Vec3& p : positions) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
-}
-
+template <class Real>
 void put_vector(FileWriter& json, const Vec3& v) {
-  json.text("["), json.number(static_cast<float>(v.x));
-  json.text(","), json.number(static_cast<float>(v.y));
-  json.text(","), json.number(static_cast<float>(v.z)), json.text("]");
+  json.text("["), json.numbers<Real>(v, ","), json.text("]");
 }
 
 class JsonPart {
  public:
-  explicit JsonPart(const TriangleMesh& mesh)
-      : mesh_(mesh), coloured_(!mesh.colours.empty()), out_(1024) {}
+  // `place` is where the origin of the stored positions, which lie in `box`, is in the scene.
+  JsonPart(const TriangleMesh& mesh, const Bounds& box, const Vec3& place)
+      : mesh_(mesh), box_(box), place_(place), coloured_(!mesh.colours.empty()), out_(1024) {}
 
   FileBytes write() {
     out_.text(
         R"({"asset":{"version":"2.0","generator":"Vitrine"},"scene":0,"scenes":[{"nodes":[0]}],)"
-        R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0)");
+        R"("nodes":[{"mesh":0)");
+    if (place_ != Vec3{}) out_.text(R"(,"translation":)"), put_vector<double>(out_, place_);
+    out_.text(R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0)");
     if (coloured_) out_.text(R"(,"COLOR_0":2)");
     out_.text(R"(},"indices":1,"material":0}]}],"materials":[{"doubleSided":true,)"
               R"("pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.8}}],)");
@@ -52,11 +41,10 @@ class JsonPart {
 
  private:
   void accessors() {
-    const Box box = bounding_box(mesh_.positions);
     out_.text(R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)");
     out_.number(mesh_.positions.size());
-    out_.text(R"(,"min":)"), put_vector(out_, box.low);
-    out_.text(R"(,"max":)"), put_vector(out_, box.high);
+    out_.text(R"(,"min":)"), put_vector<float>(out_, box_.low);
+    out_.text(R"(,"max":)"), put_vector<float>(out_, box_.high);
     out_.text(R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)");
     out_.number(mesh_.faces.size() * 3);
     if (coloured_) {
@@ -84,6 +72,8 @@ class JsonPart {
   }
 
   const TriangleMesh& mesh_;
+  const Bounds box_;
+  const Vec3 place_;
   const bool coloured_;
   FileWriter out_;
   std::size_t at_ = 0;
@@ -96,7 +86,9 @@ std::uint16_t linear_light(std::uint8_t part) {
 }  // namespace
 
 FileBytes write_glb(const TriangleMesh& mesh) {
-  const FileBytes json = JsonPart(mesh).write();
+  const Bounds box = bounds_of(mesh.positions);
+  const Vec3 place = is_far_from_origin(box) ? box.centre() : Vec3{};
+  const FileBytes json = JsonPart(mesh, {box.low - place, box.high - place}, place).write();
   const std::size_t binary = mesh.positions.size() * kPositionBytes +
                              mesh.faces.size() * sizeof(Triangle) +
                              mesh.colours.size() * kColourBytes;
@@ -111,7 +103,7 @@ FileBytes write_glb(const TriangleMesh& mesh) {
   out.put(static_cast<std::uint32_t>(binary));
   out.text({"BIN\0", 4});
   for (const Vec3& p : mesh.positions)
-    out.put_floats(p);
+    out.put_reals(p - place);
   for (const Triangle& face : mesh.faces)
     out.put(face);
   for (const auto& [r, g, b] : mesh.colours) {

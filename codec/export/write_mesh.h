@@ -28,8 +28,9 @@ std::optional<MeshFormat> format_of_extension(std::string_view extension);
 
 // `unit` is that of the positions, empty where it is unknown. PLY, OBJ and STL state it in a
 // comment; GLB and VRML, which are in metres by their standards, are scaled to metres where it is
-// one of kLengthUnits. Fails (kBadInput) on a mesh without faces and where a position does not fit
-// a float, (kLimit) where a format's 32-bit sizes do not suffice.
+// one of kLengthUnits. Far from the origin PLY, OBJ, GLB and VRML hold double precision; STL and
+// DRC cannot. Fails (kBadInput) on a mesh without faces and where a position does not fit a float,
+// (kLimit) where a format's 32-bit sizes do not suffice.
 Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
                                                std::string_view unit = {});
 

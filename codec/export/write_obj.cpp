@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
 namespace vitrine {
 
 FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit) {
+  const bool far = is_far_from_origin(bounds_of(mesh.positions));
   FileWriter out(64 + mesh.positions.size() * 32 + mesh.faces.size() * 24);
   out.text("# written by Vitrine\n");
   if (!unit.empty()) out.text("# unit "), out.text(unit), out.text("\n");
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     out.text("v ");
-    out.numbers(mesh.positions[v]);
+    far ? out.numbers<double>(mesh.positions[v]) : out.numbers(mesh.positions[v]);
     if (!mesh.colours.empty()) {
       const auto [r, g, b] = mesh.colours[v];
       out.text(" ");

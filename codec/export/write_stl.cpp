@@ -20,8 +20,8 @@ FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit) {
     const Vec3 normal = cross(q - p, r - p);
     const double size = length(normal);
     const bool flat = size > 0 && std::isfinite(size);
-    out.put_floats(flat ? normal * (1 / size) : Vec3{});
-    out.put_floats(p), out.put_floats(q), out.put_floats(r);
+    out.put_reals(flat ? normal * (1 / size) : Vec3{});
+    out.put_reals(p), out.put_reals(q), out.put_reals(r);
     out.put(std::uint16_t{0});
   }
   return out.take();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // VRML 97 (ISO/IEC 14772-1): one shape, an IndexedFaceSet.
+#include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
@@ -20,10 +21,11 @@ constexpr std::string_view kOpening =
 }  // namespace
 
 FileBytes write_vrml(const TriangleMesh& mesh) {
+  const bool far = is_far_from_origin(bounds_of(mesh.positions));
   FileWriter out(512 + mesh.positions.size() * 44 + mesh.faces.size() * 28);
   out.text(kOpening);
   for (const Vec3& p : mesh.positions)
-    out.numbers(p), out.text(",\n");
+    (far ? out.numbers<double>(p) : out.numbers(p)), out.text(",\n");
   out.text("      ]\n    }\n    coordIndex [\n");
   for (const Triangle& face : mesh.faces) {
     for (const std::uint32_t v : face)

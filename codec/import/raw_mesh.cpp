@@ -11,7 +11,8 @@
 namespace vitrine {
 namespace {
 
-constexpr double kLargestCoordinate = 1e30;  // squares and cross products stay finite
+// Squares and cross products stay finite. 1e30 in single precision is a little more than in double.
+constexpr double kLargestCoordinate = 1.0000001e30;
 
 }  // namespace
 

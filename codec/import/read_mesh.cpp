@@ -36,10 +36,18 @@ Expected<RawMesh> read_any(std::span<const std::uint8_t> bytes, const ReadOption
   // Many binary STL files start with "solid" too, so the size decides before the word.
   if (is_binary_stl(bytes)) return read_stl(bytes);
   const std::string_view word = first_word(bytes);
-  if (word == "solid" || word == "SOLID") return read_stl(bytes);
+  if (word == "solid" || word == "Solid" || word == "SOLID") return read_stl(bytes);
   if (is_off(word)) return read_off(bytes);
   if (is_obj_keyword(word)) return read_obj(bytes, options.beside);
   return bad_input("not a mesh file Vitrine reads (PLY, OBJ, STL, OFF, GLB); convert it first");
+}
+
+// Some editors begin a text with the byte order mark of UTF-8.
+std::span<const std::uint8_t> without_mark(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 3> kMark{0xEF, 0xBB, 0xBF};
+  const bool marked =
+      bytes.size() > kMark.size() && std::equal(kMark.begin(), kMark.end(), bytes.begin());
+  return marked ? bytes.subspan(kMark.size()) : bytes;
 }
 
 // A quarter turn about x: exact, and it keeps the handedness.
@@ -50,7 +58,8 @@ void turn_z_up_to_y(std::vector<Vec3>& positions) {
 
 }  // namespace
 
-Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
+Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> file, const ReadOptions& options) {
+  const auto bytes = without_mark(file);
   auto raw = read_any(bytes, options);
   if (!raw) return Unexpected(raw.error());
   auto imported = std::move(*raw).finish(options.limits);

@@ -100,11 +100,24 @@ Slot slot_of(const std::string& name) {
   return kNowhere;
 }
 
+// From a colour's part to 0..1.
+double scale_of(PlyType type) {
+  switch (type) {
+    case PlyType::kFloat32:
+    case PlyType::kFloat64:
+      return 1;
+    case PlyType::kUint16:
+      return 1.0 / 65535;
+    default:
+      return 1.0 / 255;  // wider integers hold bytes too
+  }
+}
+
 // Where each property of a vertex goes.
 struct VertexPlan {
   std::vector<Slot> slots;
-  unsigned found = 0;       // bit per slot
-  double colour_scale = 1;  // to 0..1
+  unsigned found = 0;  // bit per slot
+  double colour_scale = 1;
   bool has_normal = false;
 
   explicit VertexPlan(const PlyElement& element) {
@@ -113,8 +126,7 @@ struct VertexPlan {
       slots.push_back(slot);
       found |= 1u << slot;
       has_normal = has_normal || property.name == "nx";
-      if (slot == kRed && property.type == PlyType::kUint8) colour_scale = 1.0 / 255;
-      if (slot == kRed && property.type == PlyType::kUint16) colour_scale = 1.0 / 65535;
+      if (slot == kRed) colour_scale = scale_of(property.type);
     }
   }
   bool has_position() const { return (found & 7) == 7; }

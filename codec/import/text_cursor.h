@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks over text of numbers and words, line by line or ignoring lines. `#` starts a comment and a
-// backslash at the end of a line joins it with the next.
+// Walks over text of numbers and words, line by line or ignoring lines. Lines end with LF, CR LF or
+// CR. `#` starts a comment and a backslash at the end of a line joins it with the next.
 #pragma once
 
 #include <charconv>
@@ -24,13 +24,13 @@ class TextCursor {
   // True when nothing more stands on this line.
   bool line_is_done() {
     skip_blanks();
-    return at_ == end_ || *at_ == '\n' || *at_ == '#';
+    return at_ == end_ || ends_line(*at_) || *at_ == '#';
   }
 
   void next_line() {
-    while (at_ != end_ && *at_ != '\n')
+    while (at_ != end_ && !ends_line(*at_))
       ++at_;
-    if (at_ != end_) ++at_, ++line_;
+    if (at_ != end_) step_over_end(), ++line_;
   }
 
   // Goes to the next word, over lines and comments. False at the end of the text.
@@ -54,7 +54,7 @@ class TextCursor {
   std::string_view rest_of_line() {
     skip_blanks();
     const char* begin = at_;
-    while (at_ != end_ && *at_ != '\n' && *at_ != '\r')
+    while (at_ != end_ && !ends_line(*at_))
       ++at_;
     return {begin, static_cast<std::size_t>(at_ - begin)};
   }
@@ -82,6 +82,13 @@ class TextCursor {
   }
 
  private:
+  static bool ends_line(char c) { return c == '\n' || c == '\r'; }
+
+  void step_over_end() {
+    if (*at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n') ++at_;
+    ++at_;
+  }
+
   static bool is_space(char c) {
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
   }
@@ -96,19 +103,20 @@ class TextCursor {
   }
 
   void skip_blanks() {
-    for (; at_ != end_; ++at_) {
-      if (*at_ == '\n') return;
-      if (*at_ == '\\' && joins_lines()) continue;
-      if (!is_space(*at_)) return;
+    while (at_ != end_ && !ends_line(*at_)) {
+      if (is_space(*at_)) {
+        ++at_;
+      } else if (!join_lines()) {
+        return;
+      }
     }
   }
 
-  // At a backslash: when only the line's end follows, moves onto that end.
-  bool joins_lines() {
-    const char* p = at_ + 1;
-    if (p != end_ && *p == '\r') ++p;
-    if (p == end_ || *p != '\n') return false;
-    at_ = p;
+  // At a backslash that only the line's end follows: steps over both.
+  bool join_lines() {
+    if (*at_ != '\\' || at_ + 1 == end_ || !ends_line(at_[1])) return false;
+    ++at_;
+    step_over_end();
     ++line_;
     return true;
   }

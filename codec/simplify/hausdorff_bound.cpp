@@ -213,6 +213,7 @@ void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cu
 
 // Where no witness near by is good enough, true distances decide.
 void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
+  spend();
   const Vec3 centre = piece.centre();
   const SurfacePoint middle = target_->closest(centre, witness);
   know(std::sqrt(middle.squared));
@@ -231,8 +232,15 @@ void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   halve(piece, middle.triangle);
 }
 
+// Each loss of precision comes sooner than the last: a tangle is given up in time.
+void HausdorffBound::spend() {
+  if (++spent_ <= (kWork + 4 * target_->size()) >> (2 * losses_)) return;
+  negligible_ *= 2, spent_ = 0;
+  losses_ = std::min(losses_ + 1, kMostLosses);
+}
+
 void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
-  if (++halvings_ > kHalvings + target_->size()) negligible_ *= 2, halvings_ = 0;
+  spend();
   const ConvexPiece::Cut parts = piece.halves();
   if (!parts.front.empty()) cover(parts.front, start);
   if (!parts.back.empty()) cover(parts.back, start);

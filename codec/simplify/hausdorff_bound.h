@@ -73,7 +73,8 @@ class HausdorffBound {
 
  private:
   static constexpr int kCuts = 16;  // in a row; rounding must not let them go on for ever
-  static constexpr std::size_t kHalvings = 16'384;  // and one a face, before the precision halves
+  static constexpr std::size_t kWork = 65'536;  // and 4 a face, before the precision halves
+  static constexpr unsigned kMostLosses = 4;    // that quarter the work up to the next
 
   // Of the largest distance known anywhere: how small a region's bound is worth work.
   static constexpr double kSmallShare = 0.2;
@@ -94,6 +95,7 @@ class HausdorffBound {
   void cover(const ConvexPiece& piece, std::uint32_t start);
   void cut(const ConvexPiece& piece, std::uint32_t witness, int cuts);
   void examine(const ConvexPiece& piece, std::uint32_t witness);
+  void spend();
   void halve(const ConvexPiece& piece, std::uint32_t start);
 
   double tolerance_, negligible_;
@@ -102,8 +104,9 @@ class HausdorffBound {
   };
   std::vector<Region> regions_;
   std::uint16_t region_ = 0;
-  double known_ = 0;          // in any region
-  std::size_t halvings_ = 0;  // since the precision was last changed
+  double known_ = 0;       // in any region
+  std::size_t spent_ = 0;  // pieces examined or halved since the precision was last changed
+  unsigned losses_ = 0;
   const WitnessSurface* target_ = nullptr;
   std::uint32_t last_ = 0;  // the newest witness: the next one is near it
 };

@@ -2,10 +2,29 @@
 #include "server/catalogue/sqlite.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 namespace vitrine::sqlite {
+namespace {
 
 constexpr int kBusyMilliseconds = 10'000;  // how long to wait for another process's write
+
+// The error number behind the last result, or 0. SQLite calls a full disk by two names: a result of
+// its own, and an I/O error where the index of the write-ahead log finds no room.
+int system_error(sqlite3* handle) {
+  switch (sqlite3_extended_errcode(handle) & 0xff) {
+    case SQLITE_FULL:
+      return ENOSPC;
+    case SQLITE_IOERR:
+    case SQLITE_CANTOPEN:
+      return sqlite3_system_errno(handle);
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
 
 Database::Database(const std::string& file) {
   sqlite3* handle = nullptr;
@@ -19,7 +38,10 @@ Database::Database(const std::string& file) {
 }
 
 void Database::raise() const {
-  throw Failure(sqlite3_extended_errcode(handle()), sqlite3_errmsg(handle()));
+  const int error = system_error(handle());
+  std::string message = sqlite3_errmsg(handle());
+  if (error != 0) message += std::string(": ") + std::strerror(error);
+  throw Failure(message, error == ENOSPC || error == EDQUOT);
 }
 
 void Database::run(const char* sql) {
@@ -79,7 +101,7 @@ std::string Statement::text(int column) const {
 void Statement::copy_blob(int column, std::span<std::uint8_t> out) const {
   const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column));
   if (sqlite3_column_bytes(handle_.get(), column) != static_cast<int>(out.size())) {
-    throw Failure(SQLITE_CORRUPT, "a column has another length than it should");
+    throw Failure("a column has another length than it should", false);
   }
   std::copy_n(bytes, out.size(), out.begin());
 }

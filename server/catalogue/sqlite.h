@@ -16,8 +16,8 @@
 namespace vitrine::sqlite {
 
 struct Failure : std::runtime_error {
-  Failure(int result, const std::string& message) : std::runtime_error(message), code(result) {}
-  int code;  // SQLite's extended result code
+  Failure(const std::string& message, bool full) : std::runtime_error(message), disk_full(full) {}
+  bool disk_full;  // freeing space helps
 };
 
 class Database {
@@ -25,7 +25,7 @@ class Database {
   explicit Database(const std::string& file);
   void run(const char* sql);  // one or more statements without results
   sqlite3* handle() const { return handle_.get(); }
-  [[noreturn]] void raise() const;
+  [[noreturn]] void raise() const;  // says what the operating system said, where it was that
 
  private:
   struct Close {

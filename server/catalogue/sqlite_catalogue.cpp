@@ -102,10 +102,11 @@ std::vector<std::string> patterns(std::string_view text) {
   return words;
 }
 
-Unexpected refused(const sqlite::Failure& failure) {
+Unexpected refused(const std::string& what, const sqlite::Failure& failure) {
   return fail(ErrorCode::kIo,
-              fmt::format("the catalogue refuses: {}; check the data folder and its free space",
-                          failure.what()));
+              fmt::format("{}: {}; {}", what, failure.what(),
+                          failure.disk_full ? "free some space or choose another data folder"
+                                            : "check the data folder"));
 }
 
 class SqliteCatalogue final : public Catalogue {
@@ -199,7 +200,7 @@ class SqliteCatalogue final : public Catalogue {
     try {
       return action();
     } catch (const sqlite::Failure& failure) {
-      return refused(failure);
+      return refused("the catalogue refuses", failure);
     }
   }
 
@@ -248,9 +249,7 @@ Expected<std::unique_ptr<Catalogue>> open_sqlite_catalogue(const std::filesystem
     }
     return std::make_unique<SqliteCatalogue>(std::move(database));
   } catch (const sqlite::Failure& failure) {
-    return fail(ErrorCode::kIo,
-                fmt::format("cannot open the catalogue {}: {}; check the data folder",
-                            file.string(), failure.what()));
+    return refused("cannot open the catalogue " + file.string(), failure);
   }
 }
 

@@ -10,6 +10,13 @@
 #include <cstring>
 
 namespace vitrine::cli {
+namespace {
+
+bool is_control(char c) {
+  return (c >= '\0' && c < ' ') || c == '\x7F';
+}
+
+}  // namespace
 
 Outcome print(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
@@ -24,7 +31,9 @@ Outcome print_json(const nlohmann::json& object) {
 }
 
 void print_fault(std::string_view message) {
-  const std::string line = fmt::format("vitrine: {}\n", message);
+  std::string line = fmt::format("vitrine: {}", message);
+  std::ranges::replace_if(line, is_control, '?');  // a file's name may hold line ends
+  line += '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw on a full disk
 }
 

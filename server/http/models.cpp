@@ -23,6 +23,17 @@ Response json_response(std::string body) {
   return response;
 }
 
+// Bytes of the model's file under a name that changes with the file: "<sha256><suffix>".
+Response stored(const std::shared_ptr<const PublishedModel>& model, ByteRange range,
+                std::string_view suffix) {
+  Response response;
+  response.type = "application/octet-stream";
+  response.caching = Caching::kRevalidate;
+  response.etag = fmt::format("\"{}{}\"", to_hex(model->record().file), suffix);
+  response.body = stored_body(model, range);
+  return response;
+}
+
 ModelQuery read_query(const Query& query, Faults& faults) {
   constexpr std::size_t kMaxText = 200;
   ModelQuery out;
@@ -69,25 +80,13 @@ Response show_manifest(const Request& request, Services& services) {
 }
 
 Response show_head(const Request& request, Services& services) {
-  return with_model(request, services, [](const auto& model) {
-    Response response;
-    response.type = "application/octet-stream";
-    response.caching = Caching::kRevalidate;
-    response.etag = '"' + to_hex(model->record().file) + "-head\"";
-    response.body = stored_body(model, model->head());
-    return response;
-  });
+  return with_model(request, services,
+                    [](const auto& model) { return stored(model, model->head(), "-head"); });
 }
 
 Response show_file(const Request& request, Services& services) {
-  return with_model(request, services, [](const auto& model) {
-    Response response;
-    response.type = "application/octet-stream";
-    response.caching = Caching::kRevalidate;
-    response.etag = '"' + to_hex(model->record().file) + '"';
-    response.body = stored_body(model, model->whole());
-    return response;
-  });
+  return with_model(request, services,
+                    [](const auto& model) { return stored(model, model->whole(), ""); });
 }
 
 }  // namespace vitrine

@@ -65,7 +65,11 @@ std::string response_head(const Response& response, const HeadOptions& options) 
       "X-Content-Type-Options: nosniff\r\n";
   for (const auto& [name, value] : response.fields)
     fmt::format_to(out, "{}: {}\r\n", name, value);
-  if (!options.keep_alive) head += "Connection: close\r\n";
+  if (!options.keep_alive) {
+    head += "Connection: close\r\n";
+  } else if (options.version < 11) {
+    head += "Connection: keep-alive\r\n";
+  }
   head += "\r\n";
   return head;
 }

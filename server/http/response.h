@@ -29,6 +29,7 @@ struct Response {
 struct HeadOptions {
   std::string_view request_id;
   bool keep_alive = true;
+  unsigned version = 11;  // of the request: HTTP/1.0 keeps a connection only where both say so
 };
 
 // The status line and the fields, up to and including the empty line.

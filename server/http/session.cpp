@@ -227,7 +227,7 @@ class Session {
   asio::awaitable<bool> send(const Parser::value_type& request, Exchange& exchange) {
     if (connection_->draining) exchange.keep_alive = false;
     Response& response = exchange.response;
-    const HeadOptions options{exchange.id, exchange.keep_alive};
+    const HeadOptions options{exchange.id, exchange.keep_alive, request.version()};
     std::string head = response_head(response, options);
     const unsigned status = response.status;
     const bool with_body = request.method() != verb::head;
@@ -236,7 +236,8 @@ class Session {
     const std::uint64_t sent = co_await send_response(*connection_, std::move(head),
                                                       std::move(body), server_.options().patience);
     record(exchange, text(request.method_string()), text(request.target()), status, sent);
-    lingers_ = sent == size && !exchange.keep_alive;
+    const bool last = !exchange.keep_alive || connection_->draining;
+    lingers_ = sent == size && last;
     co_return sent == size;
   }
 

@@ -83,6 +83,17 @@ std::vector<std::array<double, 9>> corner_positions(const TriangleMesh& mesh) {
   return out;
 }
 
+TEST(WriteMesh, FarFromTheOriginDetailIsKept) {
+  TriangleMesh mesh = grid(16);
+  for (Vec3& p : mesh.positions)
+    p = p * (1.0 / 1024) + Vec3{500'000, 5'300'000, 250};
+  for (const MeshFormat format : {MeshFormat::kPly, MeshFormat::kObj, MeshFormat::kGlb}) {
+    const TriangleMesh back = read_back(mesh, format);
+    EXPECT_EQ(back.positions, mesh.positions);
+    EXPECT_EQ(back.faces, mesh.faces);
+  }
+}
+
 TEST(WriteMesh, StlReadsBackTheSameTriangles) {
   const TriangleMesh mesh = sample(false);
   const TriangleMesh back = read_back(mesh, MeshFormat::kStl);

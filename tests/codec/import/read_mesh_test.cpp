@@ -21,6 +21,29 @@ TEST(ReadMesh, RefusesOtherContentWhateverTheNameOfTheFile) {
   }
 }
 
+TEST(ReadMesh, AByteOrderMarkBeforeAnyTextIsSteppedOver) {
+  const std::string mark = "\xEF\xBB\xBF";
+  for (const std::string text :
+       {"# unit mm\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+        "Solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        "endloop\nendfacet\nendsolid x\n",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}) {
+    const auto plain = read_text(text), marked = read_text(mark + text);
+    EXPECT_EQ(marked.mesh.positions, plain.mesh.positions);
+    EXPECT_THAT(marked.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
+    EXPECT_EQ(marked.unit, plain.unit);
+  }
+  EXPECT_THAT(refusal(mark), HasSubstr("not a mesh file"));
+}
+
+TEST(ReadMesh, OneEThirtyInSinglePrecisionIsStillACoordinate) {
+  EXPECT_EQ(read_text("v 0 0 0\nv 1.00000002e30 0 0\nv 0 1 0\nf 1 2 3\n").mesh.faces.size(), 1u);
+  EXPECT_THAT(refusal("v 0 0 0\nv 1.1e30 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("beyond 1e30"));
+}
+
 TEST(ReadMesh, RefusesPointsWithoutFaces) {
   EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\n"), HasSubstr("has 2 points but no faces"));
 }

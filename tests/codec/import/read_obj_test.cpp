@@ -44,6 +44,18 @@ TEST(ReadObj, LinesThatContinue) {
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 4}));
 }
 
+TEST(ReadObj, LinesMayEndInAnyWayAndFaultsKeepTheirLine) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    for (const char* line :
+         {"# first", "", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 \\", "2 3", "f 0"})
+      text += line + end;
+    EXPECT_THAT(refusal(text), HasSubstr("OBJ line 8: "));
+    const auto result = read_text(text.substr(0, text.rfind("f 0")));
+    EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
+  }
+}
+
 TEST(ReadObj, Colours) {
   const auto result = read_text("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
   EXPECT_THAT(result.mesh.colours,

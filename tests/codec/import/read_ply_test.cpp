@@ -76,6 +76,11 @@ TEST(ReadPly, ColoursAsBytesAndAsFractions) {
                           face) +
       "0 0 0 1 2 3 255\n1 0 0 255 0 9 255\n0 1 0 4 5 6 0\n3 0 1 2\n");
   EXPECT_THAT(bytes.mesh.colours, ElementsAre(Colour{1, 2, 3}, Colour{255, 0, 9}, Colour{4, 5, 6}));
+  const auto integers = read_text(
+      header("ascii", "element vertex 3\n" + position +
+                          "property int red\nproperty int green\nproperty int blue\n" + face) +
+      "0 0 0 1 2 3\n1 0 0 255 0 9\n0 1 0 4 5 6\n3 0 1 2\n");
+  EXPECT_EQ(integers.mesh.colours, bytes.mesh.colours);
   const auto fractions = read_text(
       header("ascii", "element vertex 3\n" + position +
                           "property float red\nproperty float green\nproperty float blue\n" +

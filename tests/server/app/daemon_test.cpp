@@ -140,6 +140,15 @@ TEST_F(DaemonTest, KeepsTheConnectionAndAnswersPipelinedRequestsInOrder) {
   EXPECT_TRUE(client.is_closed());
 }
 
+TEST_F(DaemonTest, KeepsAnOldClientsConnectionWhereItAsksForThatAndSaysSo) {
+  HttpClient client(daemon.port());
+  client.send("GET /nothing HTTP/1.0\r\nConnection: keep-alive\r\n\r\n");
+  EXPECT_EQ(client.receive().field("connection"), "keep-alive");
+  client.send("GET /nothing HTTP/1.0\r\n\r\n");
+  EXPECT_EQ(client.receive().field("connection"), "close");
+  EXPECT_TRUE(client.is_closed());
+}
+
 TEST_F(DaemonTest, ClosesAfterARequestWhoseEndIsAmbiguousOrThatIsTooLarge) {
   const std::pair<std::string, int> cases[] = {
       {"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nTransfer-Encoding: chunked\r\n\r\n", 400},

@@ -28,9 +28,9 @@ class ServedFolder {
 
   const std::filesystem::path& path() const { return folder_.path(); }
 
-  std::string publish(const std::string& title) {
-    const auto id = vitrine::publish(*installation_.store, *installation_.catalogue,
-                                     served_pmesh().bytes, {.title = title});
+  std::string publish(const std::string& title, const TinyPmesh& pmesh = served_pmesh()) {
+    const auto id = vitrine::publish(*installation_.store, *installation_.catalogue, pmesh.bytes,
+                                     {.title = title});
     if (!id) throw std::runtime_error(id.error().message);
     return id->to_string();
   }

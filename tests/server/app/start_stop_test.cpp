@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <regex>
@@ -26,6 +27,15 @@ std::string slurp(const std::filesystem::path& file) {
 
 std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+bool accepts(std::uint16_t port) {
+  try {
+    const HttpClient client(port);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
 TEST(Start, SaysItsVersionAndItsOptions) {
@@ -121,24 +131,30 @@ TEST(Stop, SigtermEndsIdleConnectionsAndTheDaemonWithACleanLog) {
 }
 
 TEST(Stop, FinishesATransferThatIsUnderWay) {
+  // An answer larger than the sockets hold, with more requests behind it than the daemon reads
+  // ahead: closing on those would reset the connection and take back the end of the answer.
+  std::string chunk;
+  chunk.resize(32'000'000, 'c');
+  const TinyPmesh large = tiny_pmesh("a base mesh", chunk);
   ServedFolder folder;
-  const std::string id = folder.publish("A small bust");
+  const std::string id = folder.publish("A large bust", large);
   Daemon daemon(folder.path());
-  // Far more answers than the sockets' buffers hold: the daemon is still sending when it is told
-  // to stop. It finishes the answer under way and drops the requests behind it.
-  HttpClient client(daemon.port());
+  const std::string request =
+      "GET /api/v1/models/" + id + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n";
   std::string requests;
-  for (int i = 0; i < 1000; ++i) {
-    requests += "GET /api/v1/models/" + id + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n";
+  while (requests.size() < 200'000)
+    requests += request;
+  {
+    HttpClient client(daemon.port());
+    client.send(requests);
+    EXPECT_EQ(client.receive(false).status, 200);
+    daemon.signal(SIGTERM);
+    while (accepts(daemon.port())) {
+    }
+    const std::string body = client.read_exactly(large.bytes.size());
+    EXPECT_TRUE(std::ranges::equal(to_bytes(body), large.bytes));
+    EXPECT_TRUE(client.is_closed());
   }
-  client.send(requests);
-  EXPECT_EQ(client.receive().status, 200);
-  daemon.signal(SIGTERM);
-  HttpAnswer last;
-  do {
-    last = client.receive();
-    EXPECT_EQ(last.body.size(), served_pmesh().manifest.file_bytes);
-  } while (last.field("connection") != "close" && !client.is_closed());
   EXPECT_EQ(daemon.wait().exit_code, 0);
 }
 

@@ -75,6 +75,10 @@ TEST_F(VitrineCommand, inputs_that_are_no_mesh_are_refused_and_nothing_is_writte
   EXPECT_THAT(files(), ElementsAre());
 }
 
+TEST_F(VitrineCommand, a_line_end_in_a_name_does_not_break_the_message) {
+  expect_fault(vitrine({"info", path("two\nlines.ply")}), 1);
+}
+
 TEST_F(VitrineCommand, a_folder_is_no_input) {
   expect_fault(vitrine({"info", folder_.path().string()}), 1);
 }
@@ -154,6 +158,20 @@ TEST_F(VitrineCommand, a_full_disk_is_an_error_and_leaves_no_part_of_a_file) {
   expect_fault(result, 1);
   EXPECT_THAT(result.errors, HasSubstr("No space left on device; free some space"));
   EXPECT_EQ(result.output, "filler\n");
+}
+
+TEST_F(VitrineCommand, a_full_disk_under_an_installation_is_named) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  std::filesystem::create_directory(path("out"));
+  const std::string publish_and_fill = "\"$1\" publish '" + in +
+                                       "' --data \"$out/data\" > \"$out/published\" && "
+                                       "{ head -c 2000000 /dev/zero > \"$out/filler\"; } 2>&-";
+  const ProgramResult result = run_on_small_disk(publish_and_fill + " || true", path("out"),
+                                                 {"publish", in, "--data", path("out/data")});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("cannot open the catalogue"));
+  EXPECT_THAT(result.errors, HasSubstr("No space left on device; free some space"));
+  EXPECT_EQ(result.output, "data\nfiller\npublished\n");
 }
 
 TEST_F(VitrineCommand, a_read_only_folder_is_an_error) {
