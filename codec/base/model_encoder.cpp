@@ -45,7 +45,7 @@ void add_to_boxes(const MeshState& mesh, std::uint32_t level, RegionTree& tree) 
   for (const std::uint32_t node : tree.regions_at(level))
     box[tree.nodes[node].first] = &tree.nodes[node].box;
   for (VertexId v = 0; v < mesh.vertex_count(); ++v)
-    box[mesh.region[v]]->add({mesh.positions[v], mesh.positions[v]});
+    box[mesh.vertex[v].region]->add({mesh.positions[v], mesh.positions[v]});
 }
 
 void close_boxes(RegionTree& tree) {

@@ -81,11 +81,9 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
                                            std::span<const Triangle> faces) {
   if (auto ok = check_faces(vertex_count, faces); !ok) return tl::unexpected(ok.error());
   Connectivity mesh;
-  mesh.corner_at_.assign(vertex_count, kNoCorner);
-  mesh.vertex_.reserve(faces.size() * 3);
-  for (const Triangle& f : faces)
-    mesh.vertex_.insert(mesh.vertex_.end(), f.begin(), f.end());
-  mesh.opposite_.assign(mesh.vertex_.size(), kNoCorner);
+  mesh.corner_at_.resize(vertex_count, kNoCorner);
+  for (const auto& [a, b, c] : faces)
+    mesh.add_face(a, b, c);
 
   const EdgeTable table = edge_table(vertex_count, faces);
   const std::vector<DirectedEdge>& edges = table.edges;
@@ -103,7 +101,7 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
         candidates.begin(), candidates.end(), twin,
         [](const DirectedEdge& other, std::uint64_t key) { return other.key < key; });
     if (it != candidates.end() && it->key == twin) {
-      mesh.opposite_[e.corner] = it->corner;
+      mesh.swing_[prev(e.corner)] = next(it->corner);
       continue;
     }
     const VertexId from = static_cast<VertexId>(e.key >> 32);
@@ -126,8 +124,7 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
       const VertexId b = mesh.vertex_[prev(c)];
       if (border[b] == kNoCorner) return bad("boundary is not a closed loop" + at_face(c));
       const Corner base = static_cast<Corner>(mesh.vertex_.size());
-      mesh.vertex_.insert(mesh.vertex_.end(), {b, a, loop});
-      mesh.opposite_.insert(mesh.opposite_.end(), {kNoCorner, kNoCorner, kNoCorner});
+      mesh.add_face(b, a, loop);
       mesh.glue(base + 2, c);
       // Edge (virtual, b) of this face is shared with the next one, which leaves from b; the
       // corner opposite to it here is a's, there it is its own b corner.
@@ -171,6 +168,13 @@ std::uint32_t Connectivity::ring(VertexId v, std::span<Corner> corners) const {
   return valence;
 }
 
+void Connectivity::add_face(VertexId a, VertexId b, VertexId c) {
+  vertex_.push_back(a);
+  vertex_.push_back(b);
+  vertex_.push_back(c);
+  swing_.resize(vertex_.size(), kNoCorner);
+}
+
 void Connectivity::add_valence(VertexId v, int delta) {
   if (is_virtual(v)) loop_length_[v & ~kVirtualBit] += static_cast<std::uint32_t>(delta);
 }
@@ -182,17 +186,18 @@ void Connectivity::anchor(VertexId v, Corner c) {
 VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::uint32_t i,
                              std::uint32_t j) {
   const std::uint32_t n = static_cast<std::uint32_t>(corners.size());
-  const Corner before_i = corners[(i + n - 1) % n], at_i = corners[i];
-  const Corner before_j = corners[(j + n - 1) % n], at_j = corners[j];
+  const auto before = [n](std::uint32_t k) { return k == 0 ? n - 1 : k - 1; };
+  const Corner before_i = corners[before(i)], at_i = corners[i];
+  const Corner before_j = corners[before(j)], at_j = corners[j];
   const VertexId qi = vertex_[next(at_i)], qj = vertex_[next(at_j)];
   const VertexId w = vertex_count();
 
   corner_at_.push_back(at_i);
-  for (std::uint32_t k = i; k != j; k = (k + 1) % n)
+  for (std::uint32_t k = i; k != j; k = k + 1 == n ? 0 : k + 1)
     vertex_[corners[k]] = w;
   const Corner a = static_cast<Corner>(vertex_.size()), b = a + 3;
-  vertex_.insert(vertex_.end(), {v, qi, w, v, w, qj});
-  opposite_.resize(vertex_.size());
+  add_face(v, qi, w);
+  add_face(v, w, qj);
   glue(next(before_i), a + 2);
   glue(prev(at_i), a);
   glue(a + 1, b + 2);
@@ -207,7 +212,7 @@ VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::u
 void Connectivity::collapse(Corner c) {
   // Face B = (v1, v2, apex12); face A = (v2, v1, apex21) lies across the edge (v1, v2).
   const Corner b1 = c, b2 = next(c), b3 = prev(c);
-  const Corner a3 = opposite_[b3], a2 = next(a3), a1 = prev(a3);  // a2 at v2, a1 at v1
+  const Corner a3 = opposite(b3), a2 = next(a3), a1 = prev(a3);  // a2 at v2, a1 at v1
   const VertexId v1 = vertex_[b1], v2 = vertex_[b2], apex12 = vertex_[b3], apex21 = vertex_[a3];
   // Every corner of v2 becomes one of v1.
   Corner k = b2;
@@ -215,8 +220,8 @@ void Connectivity::collapse(Corner c) {
     vertex_[k] = v1;
     k = swing(k);
   } while (k != b2);
-  const Corner over_b1 = opposite_[b1], over_b2 = opposite_[b2];
-  const Corner over_a1 = opposite_[a1], over_a2 = opposite_[a2];
+  const Corner over_b1 = opposite(b1), over_b2 = opposite(b2);
+  const Corner over_a1 = opposite(a1), over_a2 = opposite(a2);
   glue(over_b1, over_b2);
   glue(over_a1, over_a2);
   anchor(v1, next(over_b2));
@@ -233,15 +238,9 @@ void Connectivity::unsplit(VertexId v) {
   const Corner b = static_cast<Corner>(vertex_.size()) - 3;  // (v, w, qj)
   if (vertex_[b] != v) return;
   collapse(b);
-  vertex_.resize(vertex_.size() - 6);
-  opposite_.resize(vertex_.size());
+  vertex_.resize(vertex_.size() - 6, kNoCorner);
+  swing_.resize(vertex_.size(), kNoCorner);
   corner_at_.pop_back();
-}
-
-void Connectivity::reserve(std::size_t vertices, std::size_t faces) {
-  corner_at_.reserve(vertices);
-  vertex_.reserve(3 * faces);
-  opposite_.reserve(3 * faces);
 }
 
 }  // namespace vitrine

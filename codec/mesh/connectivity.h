@@ -13,6 +13,7 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/limits.h"
+#include "codec/core/segments.h"
 #include "codec/core/vec.h"
 
 namespace vitrine {
@@ -46,7 +47,8 @@ class Connectivity {
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(vertex_.size() / 3); }
 
   VertexId vertex(Corner c) const { return vertex_[c]; }
-  Corner opposite(Corner c) const { return opposite_[c]; }  // the corner across c's opposite edge
+  // The corner across c's opposite edge.
+  Corner opposite(Corner c) const { return prev(swing_[prev(c)]); }
   Corner corner_at(VertexId real) const { return corner_at_[real]; }  // kNoCorner where removed
   std::uint32_t loop_length(VertexId virt) const { return loop_length_[virt & ~kVirtualBit]; }
   bool is_dead(std::uint32_t face) const { return corner_at_face_dead(face); }
@@ -57,7 +59,7 @@ class Connectivity {
   }
 
   // The next corner at the same vertex, counter-clockwise.
-  Corner swing(Corner c) const { return next(opposite_[next(c)]); }
+  Corner swing(Corner c) const { return swing_[c]; }
 
   // Writes the corners at `v` counter-clockwise, starting at corner_at(v); corner i has
   // vertex(next(corner)) = the ring's i-th vertex. Returns the valence, or 0 where it exceeds
@@ -84,17 +86,19 @@ class Connectivity {
   // Takes back the newest split; v is the vertex that was split. O(valence).
   void unsplit(VertexId v);
 
-  void reserve(std::size_t vertices, std::size_t faces);
-
  private:
   bool corner_at_face_dead(std::uint32_t face) const { return vertex_[3 * face] == kNoCorner; }
-  void glue(Corner a, Corner b) { opposite_[a] = b, opposite_[b] = a; }
+  // Makes a and b opposite.
+  void glue(Corner a, Corner b) { swing_[prev(a)] = next(b), swing_[prev(b)] = next(a); }
+  void add_face(VertexId a, VertexId b, VertexId c);
   void add_valence(VertexId v, int delta);
   void anchor(VertexId v, Corner c);
 
-  std::vector<VertexId> vertex_;   // per corner; kNoCorner in all three where the face is dead
-  std::vector<Corner> opposite_;   // per corner
-  std::vector<Corner> corner_at_;  // per real vertex
+  // Walks round vertices are what all work consists of: the table has their steps, which are one
+  // look-up each, and not the opposite corners, which would be one and two turns within a face.
+  Segments<VertexId> vertex_;   // per corner; kNoCorner in all three where the face is dead
+  Segments<Corner> swing_;      // per corner
+  Segments<Corner> corner_at_;  // per real vertex
   std::vector<std::uint32_t> loop_length_;  // per virtual vertex
 };
 

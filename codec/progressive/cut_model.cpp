@@ -12,22 +12,26 @@ constexpr double kNegligible = 1e-3;  // probability of a candidate that learnin
 
 // Sums over the real ring vertices before each position, twice round.
 struct Prefix {
-  std::array<Vec3, 2 * kMaxSplitValence + 1> sum{};
-  std::array<double, 2 * kMaxSplitValence + 1> squares{};
-  std::array<int, 2 * kMaxSplitValence + 1> count{};
-};
-
-Prefix prefix_of(const CutRing& ring) {
-  Prefix p;
-  for (std::uint32_t k = 0; k < 2 * ring.size; ++k) {
-    const std::uint32_t m = k < ring.size ? k : k - ring.size;
-    const bool real = !ring.is_virtual[m];
-    p.sum[k + 1] = real ? p.sum[k] + ring.at[m] : p.sum[k];
-    p.squares[k + 1] = p.squares[k] + (real ? dot(ring.at[m], ring.at[m]) : 0.0);
-    p.count[k + 1] = p.count[k] + (real ? 1 : 0);
+  explicit Prefix(const CutRing& ring) {
+    x[0] = y[0] = z[0] = squares[0] = 0;
+    count[0] = 0;
+    for (std::uint32_t k = 0; k < 2 * ring.size; ++k) {
+      const std::uint32_t m = k < ring.size ? k : k - ring.size;
+      const bool real = !ring.is_virtual[m];
+      const Vec3& p = ring.at[m];
+      x[k + 1] = real ? x[k] + p.x : x[k];
+      y[k + 1] = real ? y[k] + p.y : y[k];
+      z[k + 1] = real ? z[k] + p.z : z[k];
+      squares[k + 1] = real ? squares[k] + dot(p, p) : squares[k];
+      count[k + 1] = count[k] + (real ? 1 : 0);
+    }
   }
-  return p;
-}
+  Vec3 sum(std::uint32_t k) const { return {x[k], y[k], z[k]}; }
+
+  static constexpr std::size_t kSize = 2 * kMaxSplitValence + 1;
+  std::array<double, kSize> x, y, z, squares;
+  std::array<int, kSize> count;
+};
 
 // 1 / n; the quotients are exact roundings, so the table only saves the divisions.
 constexpr auto kReciprocal = [] {
@@ -46,7 +50,7 @@ struct Arc {
 Arc arc(const Prefix& p, std::uint32_t from, std::uint32_t to) {  // both ends included
   Arc a;
   a.count = p.count[to + 1] - p.count[from];
-  a.sum = p.sum[to + 1] - p.sum[from];
+  a.sum = p.sum(to + 1) - p.sum(from);
   a.squares = p.squares[to + 1] - p.squares[from];
   if (a.count > 0) a.mean = a.sum * kReciprocal[static_cast<std::size_t>(a.count)];
   return a;
@@ -75,7 +79,7 @@ Vec3 CutModel::estimate(const CutRing& ring, const Cut& cut) {
 }
 
 void CutModel::evaluate(const CutRing& ring) {
-  const Prefix prefix = prefix_of(ring);
+  const Prefix prefix(ring);
   const std::uint32_t n = ring.size;
   const double inverse = 1.0 / ring.scale;
   count_ = 0;

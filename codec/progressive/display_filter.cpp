@@ -42,17 +42,11 @@ Vec3 display_shift(const MeshState& mesh, VertexId v) {
   return shape.area * (-dot(shape.area, shape.mean) / size);  // the mean is relative to p
 }
 
-void filter_for_display(const MeshState& mesh,
-                        const std::function<const LevelInfo&(VertexId)>& level,
-                        std::vector<Vec3>& out) {
-  out.resize(mesh.vertex_count());
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-    const LevelInfo& at = level(v);
-    const double a = mesh.border[v] == 0 ? at.display_filter : 0;
-    const double offset = display_offset(at.shift);
-    out[v] = to_vec3(mesh.positions[v]) + Vec3{offset, offset, offset};
-    if (a != 0) out[v] += display_shift(mesh, v) * a;
-  }
+Vec3 display_position(const MeshState& mesh, VertexId v, const LevelInfo& at) {
+  const double offset = display_offset(at.shift);
+  const Vec3 p = to_vec3(mesh.positions[v]) + Vec3{offset, offset, offset};
+  if (mesh.vertex[v].border || at.display_filter == 0) return p;
+  return p + display_shift(mesh, v) * at.display_filter;
 }
 
 }  // namespace vitrine

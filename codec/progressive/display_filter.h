@@ -3,9 +3,6 @@
 // the shrinkage of midpoint placement for no bytes.
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "codec/progressive/manifest.h"
 #include "codec/progressive/mesh_state.h"
 
@@ -14,11 +11,8 @@ namespace vitrine {
 // The shift of v for a = 1, lattice units. Vertices on a boundary stay where they are.
 Vec3 display_shift(const MeshState& mesh, VertexId v);
 
-// One filtered position per vertex, lattice units. `level(v)` is the level that v has reached.
-// Vertices next to another region stay, so that what a region shows does not depend on how far its
-// neighbours are.
-void filter_for_display(const MeshState& mesh,
-                        const std::function<const LevelInfo&(VertexId)>& level,
-                        std::vector<Vec3>& out);
+// Where v is displayed, lattice units. `at` is the level that v has reached. Vertices next to
+// another region stay, so that what a region shows does not depend on how far its neighbours are.
+Vec3 display_position(const MeshState& mesh, VertexId v, const LevelInfo& at);
 
 }  // namespace vitrine

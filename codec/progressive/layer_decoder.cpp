@@ -7,9 +7,9 @@
 
 namespace vitrine {
 
-Expected<std::vector<Split>> decode_layer(MeshState& mesh, const ChunkFrame& frame,
-                                          const RegionTree& tree, std::uint32_t node,
-                                          std::span<const std::uint8_t> bytes) noexcept {
+Expected<ChunkSplits> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
+                                   std::uint32_t node,
+                                   std::span<const std::uint8_t> bytes) noexcept {
   RangeDecoder coder(bytes);
   NoTruth truth;
   // On the heap: the models are larger than a WebAssembly stack likes.

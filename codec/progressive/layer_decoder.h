@@ -15,8 +15,8 @@ namespace vitrine {
 // chunk's region in `tree`; where that forks in the next level, the chunk says which child each
 // vertex goes to.
 // Safe on hostile bytes; after an error `mesh` is a manifold in memory, but of no use.
-Expected<std::vector<Split>> decode_layer(MeshState& mesh, const ChunkFrame& frame,
-                                          const RegionTree& tree, std::uint32_t node,
-                                          std::span<const std::uint8_t> bytes) noexcept;
+Expected<ChunkSplits> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
+                                   std::uint32_t node,
+                                   std::span<const std::uint8_t> bytes) noexcept;
 
 }  // namespace vitrine

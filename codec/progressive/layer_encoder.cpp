@@ -20,7 +20,6 @@ Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const Bas
   auto mesh = MeshState::from_base(base, hierarchy.shift[0], hierarchy.tree.leaves());
   if (!mesh) return tl::unexpected(mesh.error());
   LayerEncoder encoder(hierarchy, std::move(*mesh));
-  encoder.mesh_.reserve(hierarchy.leaf.size());
   encoder.fine_ = std::move(fine_ids);
   encoder.fine_.reserve(hierarchy.leaf.size());
   encoder.state_.assign(hierarchy.leaf.size(), kNone);

@@ -29,6 +29,7 @@
 #include "codec/progressive/mesh_state.h"
 #include "codec/progressive/placement.h"
 #include "codec/progressive/surroundings.h"
+#include "codec/progressive/visiting_order.h"
 
 namespace vitrine {
 
@@ -64,19 +65,16 @@ class LayerPass {
   LayerPass(MeshState& mesh, const ChunkFrame& frame, Coder& coder, Truth& truth)
       : mesh_(mesh), frame_(frame), coder_(coder), truth_(truth) {}
 
-  Expected<std::vector<Split>> run() {
+  Expected<ChunkSplits> run() {
     // Each vertex splits at most once: memory follows the mesh, not what the header says.
     if (frame_.splits > mesh_.members[frame_.region].size()) return damaged("too many splits");
     refine_lattice();
-    splits_.reserve(frame_.splits);
-    for (const VertexId v : visiting_order()) {
-      if (auto ok = visit(v); !ok) return tl::unexpected(ok.error());
+    if (auto ok = split_all(); !ok) return tl::unexpected(ok.error());
+    errors_.reserve(chunk_.size());
+    while (errors_.size() < chunk_.size()) {
+      if (!place()) return damaged("a vertex leaves the lattice");
     }
-    if (splits_.size() != frame_.splits) return damaged("too few splits");
-    for (std::size_t s = 0; s < splits_.size(); ++s) {
-      if (!place(s)) return damaged("a vertex leaves the lattice");
-    }
-    return std::move(splits_);
+    return std::move(chunk_);
   }
 
   const FlagModel& flags() const { return flags_; }
@@ -110,26 +108,25 @@ class LayerPass {
     }
   }
 
-  std::vector<VertexId> visiting_order() const {
-    const auto& members = mesh_.members[frame_.region];
-    std::vector<std::pair<std::uint64_t, VertexId>> keyed;
-    keyed.reserve(members.size());
-    for (const VertexId v : members)
-      keyed.emplace_back(order_key(mesh_.positions[v]), v);
-    std::stable_sort(keyed.begin(), keyed.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<VertexId> order;
-    order.reserve(keyed.size());
-    for (const auto& [key, v] : keyed)
-      order.push_back(v);
-    return order;
+  Expected<void> split_all() {
+    const std::vector<VertexId> order =
+        visiting_order(mesh_.positions, mesh_.members[frame_.region]);
+    reserve_splits();
+    for (const VertexId v : order) {
+      if (auto ok = visit(v); !ok) return ok;
+    }
+    if (chunk_.size() != frame_.splits) return damaged("too few splits");
+    return {};
   }
 
-  static std::uint64_t order_key(const Vec3i& p) {
-    const auto part = [](std::int32_t c) {
-      return static_cast<std::uint64_t>(std::int64_t{c} + kCoordinateBound);
-    };
-    return part(p.x) << 42 | part(p.y) << 21 | part(p.z);
+  void reserve_splits() {
+    std::vector<VertexId>& members = mesh_.members[frame_.region];
+    members.reserve(members.size() + frame_.splits);
+    chunk_.first_vertex = mesh_.vertex_count();
+    chunk_.first_face = mesh_.connectivity.face_count();
+    chunk_.splits.reserve(frame_.splits);
+    if (!mesh_.colours.empty()) chunk_.merged_colours.reserve(frame_.splits);
+    if (frame_.placement == Placement::kPyramid) terms_.reserve(frame_.splits);
   }
 
   Expected<void> visit(VertexId v) {
@@ -139,10 +136,10 @@ class LayerPass {
     if (!fits && !features.border) return {};  // its valence is known to be too high
     SplitTruth told;
     const bool split = flags_.code(coder_, features, truth_.find(v, told));
-    mesh_.visited_level[v] = static_cast<std::uint8_t>(frame_.level);
+    mesh_.vertex[v].visited_level = static_cast<std::uint8_t>(frame_.level);
     if (!split) return {};
     if (!fits) return damaged("a split at too high a valence");
-    if (splits_.size() == frame_.splits) return damaged("too many splits");
+    if (chunk_.size() == frame_.splits) return damaged("too many splits");
     apply(v, ring, told);
     return {};
   }
@@ -163,47 +160,47 @@ class LayerPass {
     const CutRing around = cut_ring(mesh_, v, ring);
     cut = cuts_.code(coder_, around, cut);
 
-    Split split{.v = v, .merged = mesh_.positions[v], .new_face = mesh_.connectivity.face_count()};
-    if (!mesh_.colours.empty()) split.merged_colour = mesh_.colours[v];
-    split.term = term(ring, cut);
-    split.w = mesh_.connectivity.split(v, std::span<const Corner>(ring.corners.data(), ring.size),
-                                       cut.i, cut.j);
+    const Vec3i merged = mesh_.positions[v];
+    if (!mesh_.colours.empty()) chunk_.merged_colours.push_back(mesh_.colours[v]);
+    if (frame_.placement == Placement::kPyramid) terms_.push_back(term(ring, cut));
+    const VertexId w = mesh_.connectivity.split(
+        v, std::span<const Corner>(ring.corners.data(), ring.size), cut.i, cut.j);
     mesh_.inherit(v);
-    update_marks(split, ring, cut);
-    estimate(split, CutModel::estimate(around, cut));
-    splits_.push_back(split);
+    update_records(v, w, ring, cut);
+    estimate(v, w, merged, CutModel::estimate(around, cut));
+    chunk_.splits.push_back({v, merged});
     if constexpr (Coder::kEncodes) {
       const Vec3i none;
       told_.push_back(swapped ? std::pair(none - told.d, none - told.colour_d)
                               : std::pair(told.d, told.colour_d));
     }
-    truth_.applied(v, split.w, swapped);
+    truth_.applied(v, w, swapped);
   }
 
-  void update_marks(const Split& split, const Ring& ring, const Cut& cut) {
-    const auto own = static_cast<std::uint32_t>(splits_.size());
-    for (const VertexId u : {split.v, split.w}) {
-      mesh_.split_level[u] = mesh_.visited_level[u] = static_cast<std::uint8_t>(frame_.level);
-      mesh_.split_of[u] = own;
-      if (mesh_.border[u] != 0) mesh_.mark_border(u);
+  void update_records(VertexId v, VertexId w, const Ring& ring, const Cut& cut) {
+    for (const VertexId u : {v, w}) {
+      VertexRecord& record = mesh_.vertex[u];
+      record.split_level = record.visited_level = static_cast<std::uint8_t>(frame_.level);
+      record.split_of = static_cast<std::uint32_t>(chunk_.size());
+      if (record.border) mesh_.mark_border(u);
     }
     const std::uint32_t taken = cut.j - cut.i;
-    mesh_.valence[split.v] = static_cast<std::uint8_t>(ring.size - taken + 2);
-    mesh_.valence[split.w] = static_cast<std::uint8_t>(taken + 2);
+    mesh_.vertex[v].valence = static_cast<std::uint8_t>(ring.size - taken + 2);
+    mesh_.vertex[w].valence = static_cast<std::uint8_t>(taken + 2);
     for (const VertexId q : {ring.vertices[cut.i], ring.vertices[cut.j]}) {
-      if (!is_virtual(q) && mesh_.valence[q] < 255) ++mesh_.valence[q];
+      if (!is_virtual(q) && mesh_.vertex[q].valence < 255) ++mesh_.vertex[q].valence;
     }
   }
 
   // Until pass 2 the two vertices stand where they are expected.
-  void estimate(const Split& split, const Vec3& d) {
+  void estimate(VertexId v, VertexId w, const Vec3i& merged, const Vec3& d) {
     const Vec3i half = {exact::round(d.x * 0.5), exact::round(d.y * 0.5), exact::round(d.z * 0.5)};
-    mesh_.positions[split.v] = split.merged + half;
-    mesh_.positions[split.w] = split.merged - half;
+    mesh_.positions[v] = merged + half;
+    mesh_.positions[w] = merged - half;
   }
 
+  // Of the pyramid placement; the midpoint's is the same for all.
   Vec3i term(const Ring& ring, const Cut& cut) const {
-    if (frame_.placement == Placement::kMidpoint) return midpoint_term(frame_.parity);
     std::array<Vec3i, kMaxSplitValence> others;
     std::array<Vec3i, 2> opposite;
     std::size_t n = 0, m = 0;
@@ -219,28 +216,29 @@ class LayerPass {
     return pyramid_term({opposite.data(), m}, {others.data(), n}, frame_.parity);
   }
 
-  bool place(std::size_t s) {
-    Split& split = splits_[s];
-    const SplitSurroundings around = split_surroundings(mesh_, splits_, s);
+  // The next split whose vertices are still where they are expected.
+  bool place() {
+    const std::size_t s = errors_.size();
+    const SplitSurroundings around = split_surroundings(mesh_, chunk_, errors_);
     const Vec3i d = displacements_.code(coder_, around, Coder::kEncodes ? told_[s].first : Vec3i{},
-                                        split.error);
-    const SplitPair pair = unmerge(cell_of(split.merged, frame_.shift), d, split.term);
+                                        errors_.emplace_back());
+    const Vec3i term = terms_.empty() ? midpoint_term(frame_.parity) : terms_[s];
+    const SplitPair pair = unmerge(cell_of(chunk_.splits[s].merged, frame_.shift), d, term);
     if (!in_coordinate_bound(pair.v1) || !in_coordinate_bound(pair.v2)) return false;
     const Vec3i v = middle_of(pair.v1, frame_.shift), w = middle_of(pair.v2, frame_.shift);
     if (!in_coordinate_bound(v) || !in_coordinate_bound(w)) return false;
-    mesh_.positions[split.v] = v;
-    mesh_.positions[split.w] = w;
+    mesh_.positions[chunk_.v(s)] = v;
+    mesh_.positions[chunk_.w(s)] = w;
     return mesh_.colours.empty() || place_colour(s);
   }
 
   bool place_colour(std::size_t s) {
-    const Split& split = splits_[s];
     const Vec3i told = Coder::kEncodes ? told_[s].second : Vec3i{};
-    const Vec3i d = colours_.code(coder_, colour_difference(mesh_, split), told);
-    const SplitPair pair = unmerge(split.merged_colour, d, Vec3i{});
+    const Vec3i d = colours_.code(coder_, colour_difference(mesh_, chunk_, s), told);
+    const SplitPair pair = unmerge(chunk_.merged_colours[s], d, Vec3i{});
     if (!in_coordinate_bound(pair.v1) || !in_coordinate_bound(pair.v2)) return false;
-    mesh_.colours[split.v] = pair.v1;
-    mesh_.colours[split.w] = pair.v2;
+    mesh_.colours[chunk_.v(s)] = pair.v1;
+    mesh_.colours[chunk_.w(s)] = pair.v2;
     return true;
   }
 
@@ -252,7 +250,9 @@ class LayerPass {
   CutModel cuts_;
   DisplacementModel displacements_;
   ColourModel colours_;
-  std::vector<Split> splits_;
+  ChunkSplits chunk_;
+  std::vector<Vec3i> terms_;        // r of each split where the placement is the pyramid's
+  std::vector<SplitError> errors_;  // of the splits placed so far
   std::vector<std::pair<Vec3i, Vec3i>> told_;  // encoder: D of position and of colour
 };
 

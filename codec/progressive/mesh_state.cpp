@@ -16,80 +16,56 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shi
       !std::all_of(base.colours.begin(), base.colours.end(), in_coordinate_bound)) {
     return fail(ErrorCode::kBadInput, "the base mesh leaves the lattice or the range of colours");
   }
-  MeshState mesh{.connectivity = std::move(*closed), .positions = {}};
+  MeshState mesh;
+  mesh.connectivity = std::move(*closed);
   mesh.shift = mesh.foreign_shift = shift;
-  for (const Vec3i& cell : base.positions)
+  for (const Vec3i& cell : base.positions) {
     mesh.positions.push_back(middle_of(cell, shift));
-  if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), in_coordinate_bound))
-    return fail(ErrorCode::kBadInput, "the base mesh leaves the lattice");
-  mesh.colours = base.colours;
-  mesh.region.assign(n, 0);
-  mesh.split_level.assign(n, 0);
-  mesh.visited_level.assign(n, 0);
-  mesh.border.assign(n, 0);
-  mesh.valence.assign(n, 0);
-  mesh.split_of.assign(n, 0xFFFF'FFFFu);
+    if (!in_coordinate_bound(mesh.positions[mesh.vertex_count() - 1]))
+      return fail(ErrorCode::kBadInput, "the base mesh leaves the lattice");
+  }
+  for (const Vec3i& colour : base.colours)
+    mesh.colours.push_back(colour);
   mesh.members.resize(leaves);
   mesh.born.assign(leaves, 0);
   mesh.born[0] = n;
   for (VertexId v = 0; v < n; ++v) {
-    mesh.birth.push_back(v);
+    mesh.vertex.push_back({.birth = v});
     mesh.members[0].push_back(v);
     mesh.count_valence(v);
   }
   return mesh;
 }
 
-void MeshState::reserve(std::size_t vertices) {
-  connectivity.reserve(vertices, 2 * vertices);
-  positions.reserve(vertices);
-  if (!colours.empty()) colours.reserve(vertices);
-  region.reserve(vertices);
-  birth.reserve(vertices);
-  split_level.reserve(vertices);
-  visited_level.reserve(vertices);
-  border.reserve(vertices);
-  valence.reserve(vertices);
-  split_of.reserve(vertices);
-}
-
 void MeshState::count_valence(VertexId v) {
   const Corner first = connectivity.corner_at(v);
   Corner c = first;
-  valence[v] = 0;
+  std::uint8_t& valence = vertex[v].valence;
+  valence = 0;
   do {
-    if (valence[v] < 255) ++valence[v];
+    if (valence < 255) ++valence;
     c = connectivity.swing(c);
   } while (c != first);
 }
 
 void MeshState::inherit(VertexId v) {
-  const std::uint16_t k = region[v];
   const VertexId w = vertex_count();
   positions.push_back(positions[v]);
   if (!colours.empty()) colours.push_back(colours[v]);
-  region.push_back(k);
-  birth.push_back(std::uint64_t{k} << 32 | born[k]++);
-  members[k].push_back(w);
-  split_level.push_back(split_level[v]);
-  visited_level.push_back(visited_level[v]);
-  border.push_back(border[v]);
-  valence.push_back(0);
-  split_of.push_back(split_of[v]);
+  VertexRecord record = vertex[v];
+  record.born_in = record.region;
+  record.birth = born[record.region]++;
+  vertex.push_back(record);
+  members[record.region].push_back(w);
 }
 
 void MeshState::disinherit() {
-  members[region.back()].pop_back();
-  --born[birth.back() >> 32];
+  const VertexRecord& record = vertex[vertex_count() - 1];
+  members[record.region].pop_back();
+  --born[record.born_in];
+  vertex.pop_back();
   positions.pop_back();
   if (!colours.empty()) colours.pop_back();
-  region.pop_back();
-  birth.pop_back();
-  split_level.pop_back();
-  visited_level.pop_back();
-  border.pop_back();
-  valence.pop_back();
-  split_of.pop_back();
 }
 
 std::uint32_t MeshState::real_face_count() const {
@@ -113,20 +89,21 @@ std::vector<Triangle> MeshState::real_faces() const {
 std::vector<Colour> MeshState::display_colours() const {
   std::vector<Colour> out;
   out.reserve(colours.size());
-  for (const Vec3i& c : colours)
-    out.push_back(from_ycocg(c));
+  for (VertexId v = 0; v < colours.size(); ++v)
+    out.push_back(from_ycocg(colours[v]));
   return out;
 }
 
 void MeshState::mark_border(VertexId v) {
   const Corner first = connectivity.corner_at(v);
-  border[v] = 0;
+  VertexRecord& record = vertex[v];
+  record.border = false;
   Corner c = first;
   do {
     const VertexId q = connectivity.vertex(next(c));
-    if (!is_virtual(q) && region[q] != region[v]) border[v] = 1;
+    record.border = !is_virtual(q) && vertex[q].region != record.region;
     c = connectivity.swing(c);
-  } while (c != first);
+  } while (c != first && !record.border);
 }
 
 }  // namespace vitrine

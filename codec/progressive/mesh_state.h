@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/core/segments.h"
 #include "codec/mesh/connectivity.h"
 #include "codec/progressive/base_mesh.h"
 #include "codec/progressive/cell.h"
@@ -20,6 +21,21 @@ constexpr bool in_coordinate_bound(const Vec3i& p) {
   return ok(p.x) && ok(p.y) && ok(p.z);
 }
 
+// What is known of a vertex besides where it is.
+struct VertexRecord {
+  // A vertex is for ever known as the `birth`-th one born in the region `born_in`. So it does not
+  // depend on the order in which regions are refined, nor on which of them have forked.
+  std::uint32_t birth = 0;
+  std::uint16_t born_in = 0;
+  std::uint16_t region = 0;               // its first leaf (region_tree.h)
+  std::uint32_t split_of = 0xFFFF'FFFFu;  // index of its split in the chunk that holds that
+  std::uint8_t split_level = 0;           // level of its last split
+  std::uint8_t visited_level = 0;         // level in which it was last visited
+  std::uint8_t valence = 0;               // saturates at 255
+  bool border = false;                    // a neighbour is of another region
+};
+static_assert(sizeof(VertexRecord) == 16, "there is one for each vertex of a model");
+
 struct MeshState {
   // One region of `leaves` leaves, level 0. `base` holds the cells (cell.h) of a level with
   // `shift`. Fails where the base is not a manifold or leaves the bound.
@@ -27,41 +43,31 @@ struct MeshState {
                                        std::uint32_t leaves);
 
   Connectivity connectivity;
-  std::vector<Vec3i> positions;
-  std::vector<Vec3i> colours;  // YCoCg-R, or empty
+  Segments<Vec3i> positions;
+  Segments<Vec3i> colours;  // YCoCg-R, or empty
+  Segments<VertexRecord> vertex;
 
-  std::vector<std::uint16_t> region;           // of the vertex: its first leaf (region_tree.h)
-  std::vector<std::vector<VertexId>> members;  // per region: its vertices, in order of birth
-  // A vertex is for ever known as the n-th one born in a region: 2^32 region + n. So it does not
-  // depend on the order in which regions are refined, nor on which of them have forked.
-  std::vector<std::uint64_t> birth;
-  std::vector<std::uint32_t> born;  // per region: vertices so far
+  std::vector<std::vector<VertexId>> members;  // per region: its vertices, ascending
+  std::vector<std::uint32_t> born;             // per region: vertices so far
 
   // Of the chunk decoded last: positions of its region are middles of cells of 2^shift, those of
   // other regions count as far as they are known at the level before, 2^foreign_shift.
   std::uint32_t shift = 0, foreign_shift = 0;
 
-  std::vector<std::uint8_t> split_level;    // level of the vertex' last split
-  std::vector<std::uint8_t> visited_level;  // level in which the vertex was last visited
-  std::vector<std::uint8_t> valence;        // saturates at 255
-  std::vector<std::uint32_t> split_of;      // index of the vertex' split in the chunk that holds it
-  std::vector<std::uint8_t> border;         // 1 where a neighbour is of another region
-
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size()); }
   // A real vertex as a chunk of region `from` may see it, whether or not its own region has reached
   // the chunk's level.
   Vec3i seen_from(std::uint16_t from, VertexId v) const {
-    if (region[v] == from) return positions[v];
+    if (vertex[v].region == from) return positions[v];
     return middle_of(cell_of(positions[v], foreign_shift), foreign_shift);
   }
-  std::uint16_t region_of(VertexId v) const { return is_virtual(v) ? kNoRegion : region[v]; }
+  std::uint16_t region_of(VertexId v) const { return is_virtual(v) ? kNoRegion : vertex[v].region; }
   std::uint64_t canonical(VertexId v) const {
-    return is_virtual(v) ? std::uint64_t{v} << 32 | v : birth[v];
+    if (is_virtual(v)) return std::uint64_t{v} << 32 | v;
+    return std::uint64_t{vertex[v].born_in} << 32 | vertex[v].birth;
   }
 
   void count_valence(VertexId v);
-  // Makes room for that many vertices of a closed mesh.
-  void reserve(std::size_t vertices);
   // Appends what the vertex that was split off `v` inherits from it.
   void inherit(VertexId v);
   // Takes the newest vertex back (after Connectivity::unsplit).

@@ -15,11 +15,17 @@ struct Refiner::State {
   MeshState mesh;
   std::vector<bool> applied;
   std::vector<std::uint8_t> leaf_level;  // per leaf of the region tree: the level it has reached
-  std::vector<Split> newest;             // splits of the chunk applied last
+  ChunkSplits newest;                    // of the chunk applied last
   std::uint32_t faces = 0;               // real ones
   bool usable = true;
 
   ChunkFrame frame(const ChunkInfo& chunk) const;
+  // Of the two that a split of `newest` brought.
+  std::uint32_t real_faces_of(std::size_t split) const {
+    const std::uint32_t face = newest.face(split);
+    return (mesh.connectivity.is_real(face) ? 1 : 0) +
+           (mesh.connectivity.is_real(face + 1) ? 1 : 0);
+  }
 };
 
 ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
@@ -93,13 +99,12 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
                                           std::to_string(info.length) + "; fetch it again");
   }
   s.usable = false;
+  s.newest = {};
   auto splits = decode_layer(s.mesh, s.frame(info), s.manifest.tree, info.node, bytes);
   if (!splits) return tl::unexpected(splits.error());
   s.newest = std::move(*splits);
-  for (const Split& split : s.newest) {
-    s.faces += s.mesh.connectivity.is_real(split.new_face) ? 1 : 0;
-    s.faces += s.mesh.connectivity.is_real(split.new_face + 1) ? 1 : 0;
-  }
+  for (std::size_t i = 0; i < s.newest.size(); ++i)
+    s.faces += s.real_faces_of(i);
   const RegionNode& region = s.manifest.region(info);
   std::fill_n(s.leaf_level.begin() + region.first, region.leaves,
               static_cast<std::uint8_t>(info.level));
@@ -110,15 +115,15 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
 
 void Refiner::undo_to_faces(std::uint32_t faces) noexcept {
   State& s = *state_;
-  while (s.faces > faces && !s.newest.empty()) {
-    const Split split = s.newest.back();
-    s.newest.pop_back();
-    s.faces -= s.mesh.connectivity.is_real(split.new_face) ? 1 : 0;
-    s.faces -= s.mesh.connectivity.is_real(split.new_face + 1) ? 1 : 0;
+  while (s.faces > faces && s.newest.size() > 0) {
+    const std::size_t last = s.newest.size() - 1;
+    const Split split = s.newest.splits[last];
+    s.faces -= s.real_faces_of(last);
     s.mesh.connectivity.unsplit(split.v);
     s.mesh.disinherit();
     s.mesh.positions[split.v] = split.merged;
-    if (!s.mesh.colours.empty()) s.mesh.colours[split.v] = split.merged_colour;
+    if (!s.mesh.colours.empty()) s.mesh.colours[split.v] = s.newest.merged_colours[last];
+    s.newest.splits.pop_back();
     s.usable = false;
   }
 }
@@ -130,30 +135,28 @@ std::uint32_t Refiner::face_count() const {
   return state_->faces;
 }
 std::uint32_t Refiner::level_of(VertexId v) const {
-  return state_->leaf_level[state_->mesh.region[v]];
+  return state_->leaf_level[state_->mesh.vertex[v].region];
 }
 std::uint32_t Refiner::region_of(VertexId v) const {
-  return state_->mesh.region[v];
+  return state_->mesh.vertex[v].region;
 }
 const Connectivity& Refiner::connectivity() const {
   return state_->mesh.connectivity;
 }
-std::span<const Vec3i> Refiner::positions() const {
+const Segments<Vec3i>& Refiner::positions() const {
   return state_->mesh.positions;
 }
-std::span<const Vec3i> Refiner::colours() const {
+const Segments<Vec3i>& Refiner::colours() const {
   return state_->mesh.colours;
 }
 
-void Refiner::display_positions(std::vector<Vec3>& out) const {
-  filter_for_display(
-      state_->mesh,
-      [this](VertexId v) -> const LevelInfo& { return state_->manifest.levels[level_of(v)]; }, out);
+Vec3 Refiner::display_position(VertexId v) const {
+  return vitrine::display_position(state_->mesh, v, state_->manifest.levels[level_of(v)]);
 }
 
 LatticeMesh Refiner::lattice_mesh() const {
   LatticeMesh out{.lattice = state_->manifest.lattice};
-  out.positions = state_->mesh.positions;
+  out.positions = state_->mesh.positions.flat();
   out.faces = state_->mesh.real_faces();
   out.colours = state_->mesh.display_colours();
   return out;
@@ -161,10 +164,10 @@ LatticeMesh Refiner::lattice_mesh() const {
 
 TriangleMesh Refiner::display_mesh() const {
   TriangleMesh out;
-  display_positions(out.positions);
+  out.positions.reserve(vertex_count());
   const Lattice& lattice = state_->manifest.lattice;
-  for (Vec3& p : out.positions)
-    p = lattice.origin + p * lattice.step;
+  for (VertexId v = 0; v < vertex_count(); ++v)
+    out.positions.push_back(lattice.origin + display_position(v) * lattice.step);
   out.faces = state_->mesh.real_faces();
   out.colours = state_->mesh.display_colours();
   return out;

@@ -5,16 +5,17 @@
 //
 // Contract: safe on hostile bytes. A damaged chunk gives an error or a valid mesh, and after an
 // error the refiner is unusable (`apply` keeps failing with kState) but its memory is in order.
-// It holds at most 320 bytes per vertex of the mesh at hand, 1 KiB per region and 256 KiB; a chunk
-// brings at most one vertex per vertex that was there, and 16 per byte and 256 more (most_splits).
+// It holds, at every moment, at most 60 bytes per triangle of the closed mesh at hand (64 with
+// colours), 1 KiB per region and 512 KiB; a chunk brings at most one vertex per vertex that was
+// there, and 16 per byte and 256 more (most_splits). Nothing is allocated per split.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "codec/core/expected.h"
+#include "codec/core/segments.h"
 #include "codec/mesh/connectivity.h"
 #include "codec/mesh/triangle_mesh.h"
 #include "codec/progressive/base_mesh.h"
@@ -52,12 +53,12 @@ class Refiner {
   // The surface as coded: lattice units. All slots of `connectivity()` are live; faces with a
   // virtual corner (is_virtual) close boundary loops and are not part of the surface.
   const Connectivity& connectivity() const;
-  std::span<const Vec3i> positions() const;
-  std::span<const Vec3i> colours() const;  // YCoCg-R (colour.h); empty where the model has none
+  const Segments<Vec3i>& positions() const;
+  const Segments<Vec3i>& colours() const;  // YCoCg-R (colour.h); empty where the model has none
 
-  // The surface as displayed and exported: the display filter applied, lattice units, one entry
-  // per vertex (DESIGN section 2). Equal to positions() at full resolution.
-  void display_positions(std::vector<Vec3>& out) const;
+  // Where a vertex is displayed and exported: the display filter applied, lattice units (DESIGN
+  // section 2). Equal to positions() at full resolution.
+  Vec3 display_position(VertexId v) const;
 
   LatticeMesh lattice_mesh() const;   // exact, real faces only
   TriangleMesh display_mesh() const;  // filtered, model units, real faces only

@@ -4,6 +4,8 @@
 // a region is convex.
 #pragma once
 
+#include <utility>
+
 #include "codec/core/range_coder.h"
 #include "codec/progressive/mesh_state.h"
 #include "codec/progressive/region_tree.h"
@@ -17,8 +19,7 @@ template <class Coder, class Truth>
 void code_fork(MeshState& mesh, Coder& coder, const RegionTree& tree, std::uint32_t node,
                std::uint32_t level, const Truth& truth) {
   AdaptiveBit as_expected{.one = 65000, .seen = 8};
-  const std::vector<VertexId> all = std::move(mesh.members[tree.nodes[node].first]);
-  mesh.members[tree.nodes[node].first].clear();
+  const std::vector<VertexId> all = std::exchange(mesh.members[tree.nodes[node].first], {});
   for (const VertexId v : all) {
     std::uint32_t child = node;
     while (tree.nodes[child].forks_by(level)) {
@@ -28,8 +29,8 @@ void code_fork(MeshState& mesh, Coder& coder, const RegionTree& tree, std::uint3
       const bool second = (coder.bit(as_expected, told == expected ? 1 : 0) != 0) == expected;
       child = second ? parent.second : child + 1;
     }
-    mesh.region[v] = static_cast<std::uint16_t>(tree.nodes[child].first);
-    mesh.members[mesh.region[v]].push_back(v);
+    mesh.vertex[v].region = static_cast<std::uint16_t>(tree.nodes[child].first);
+    mesh.members[tree.nodes[child].first].push_back(v);
   }
   for (const VertexId v : all)
     mesh.mark_border(v);

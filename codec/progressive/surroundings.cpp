@@ -13,6 +13,14 @@ struct HalfRing {
   std::array<VertexId, kMaxNeighbours> vertices;
 };
 
+// The corners at the two vertices of a split in its new faces, the next of which is the other one.
+Corner corner_of_v(const ChunkSplits& chunk, std::size_t s) {
+  return 3 * (chunk.face(s) + 1);
+}
+Corner corner_of_w(const ChunkSplits& chunk, std::size_t s) {
+  return 3 * chunk.face(s) + 2;
+}
+
 HalfRing half_ring(const MeshState& mesh, Corner towards_partner) {
   HalfRing half;
   half.vertices[0] = kVirtualBit;  // where there is none
@@ -22,6 +30,29 @@ HalfRing half_ring(const MeshState& mesh, Corner towards_partner) {
     half.vertices[half.size++] = mesh.connectivity.vertex(next(c));
   }
   return half;
+}
+
+// Where the vertices of a half ring are, as a chunk of `region` sees them, relative to `origin`.
+// Without a meaning where a vertex is virtual.
+struct Spokes {
+  std::array<double, kMaxNeighbours> x, y, z, length;
+  std::array<bool, kMaxNeighbours> own;  // of the region
+
+  Vec3 at(std::uint32_t k) const { return {x[k], y[k], z[k]}; }
+};
+
+Spokes spokes_of(const MeshState& mesh, const HalfRing& half, std::uint16_t region,
+                 const Vec3i& origin) {
+  Spokes spokes;
+  for (std::uint32_t k = 0; k < half.size; ++k) {
+    const VertexId q = half.vertices[k];
+    spokes.own[k] = mesh.region_of(q) == region;
+    if (is_virtual(q)) continue;
+    const Vec3 p = to_vec3(mesh.seen_from(region, q) - origin);
+    spokes.x[k] = p.x, spokes.y[k] = p.y, spokes.z[k] = p.z;
+    spokes.length[k] = length(p);
+  }
+  return spokes;
 }
 
 struct Mean {
@@ -45,73 +76,76 @@ struct NeighbourSplits {
 };
 
 // Parallelogram prediction of the vertex across the edge that faces it.
-void add_parallelogram(const MeshState& mesh, const HalfRing& half, std::uint32_t k,
-                       std::uint16_t region, const Vec3i& origin, HalfFeatures& f) {
-  const VertexId a = half.vertices[k], b = half.vertices[k + 1];
-  if (mesh.region_of(a) != region || mesh.region_of(b) != region) return;
+void add_parallelogram(const MeshState& mesh, const HalfRing& half, const Spokes& spokes,
+                       std::uint32_t k, std::uint16_t region, const Vec3i& origin,
+                       HalfFeatures& f) {
+  if (!spokes.own[k] || !spokes.own[k + 1]) return;
   const VertexId tip = mesh.connectivity.vertex(mesh.connectivity.opposite(half.corners[k]));
   if (mesh.region_of(tip) != region) return;
-  const Vec3i& across = mesh.positions[tip];
-  f.parallelogram.add(to_vec3(mesh.positions[a] + mesh.positions[b] - across - origin));
-  f.tip.add(to_vec3(across - origin));
+  const Vec3 across = to_vec3(mesh.positions[tip] - origin);
+  f.parallelogram.add(spokes.at(k) + spokes.at(k + 1) - across);
+  f.tip.add(across);
 }
 
-void add_neighbour_split(const MeshState& mesh, std::span<const Split> splits, std::size_t s,
-                         VertexId q, const Vec3& sense, NeighbourSplits& out) {
-  const std::uint32_t t = mesh.split_of[q];
-  if (t >= splits.size() || (splits[t].v != q && splits[t].w != q)) return;
-  if (t >= s) {
+void add_neighbour_split(const MeshState& mesh, const ChunkSplits& chunk,
+                         std::span<const SplitError> errors, VertexId q, const Vec3& sense,
+                         NeighbourSplits& out) {
+  const std::uint32_t t = mesh.vertex[q].split_of;
+  if (t >= chunk.size() || (chunk.v(t) != q && chunk.w(t) != q)) return;
+  if (t >= errors.size()) {
     ++out.pending;
     return;
   }
-  const Vec3 d = to_vec3(mesh.positions[splits[t].v] - mesh.positions[splits[t].w]);
+  const Vec3 d = to_vec3(mesh.positions[chunk.v(t)] - mesh.positions[chunk.w(t)]);
   out.d.add(dot(d, sense) < 0 ? d * -1.0 : d);
-  out.error.all += splits[t].error.all;
-  out.error.normal += splits[t].error.normal;
+  out.error.all += errors[t].all;
+  out.error.normal += errors[t].normal;
 }
 
-HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, std::uint16_t region,
-                           const Vec3i& origin) {
+HalfFeatures half_features(const MeshState& mesh, const HalfRing& half, const Spokes& spokes,
+                           std::uint16_t region, const Vec3i& origin) {
   HalfFeatures f;
   for (std::uint32_t k = 0; k < half.size; ++k) {
-    const VertexId q = half.vertices[k];
-    if (is_virtual(q)) continue;
-    const Vec3 p = to_vec3(mesh.seen_from(region, q) - origin);
+    if (is_virtual(half.vertices[k])) continue;
+    const Vec3 p = spokes.at(k);
     f.all.add(p);
-    f.distance += length(p);
+    f.distance += spokes.length[k];
     if (k > 0 && k + 1 < half.size) {
       f.inner.add(p);
       if (k == 1) f.shoulders += p;
       if (k + 2 == half.size) f.shoulders += p;
     }
-    if (k + 1 < half.size) add_parallelogram(mesh, half, k, region, origin, f);
+    if (k + 1 < half.size) add_parallelogram(mesh, half, spokes, k, region, origin, f);
   }
   return f;
 }
 
 // Area vector of the closed outline: the half ring of v from q_j round to q_i, then that of w.
-Vec3 outline_normal(const MeshState& mesh, const HalfRing& a, const HalfRing& b,
-                    std::uint16_t region, const Vec3i& origin) {
-  Vec3 area, first, last;
-  bool any = false;
-  const auto visit = [&](const HalfRing& half) {
+class Outline {
+ public:
+  void add(const HalfRing& half, const Spokes& spokes) {
     for (std::uint32_t k = 0; k < half.size; ++k) {
       if (is_virtual(half.vertices[k])) continue;
-      const Vec3 p = to_vec3(mesh.seen_from(region, half.vertices[k]) - origin);
-      if (any) {
-        area += cross(last, p);
+      const Vec3 p = spokes.at(k);
+      if (any_) {
+        area_ += cross(last_, p);
       } else {
-        first = p;
+        first_ = p;
       }
-      last = p, any = true;
+      last_ = p, any_ = true;
     }
-  };
-  visit(a);
-  visit(b);
-  area += cross(last, first);
-  const double l = length(area);
-  return l > 1e-9 ? area * (1 / l) : Vec3{};
-}
+  }
+
+  Vec3 normal() const {
+    const Vec3 area = area_ + cross(last_, first_);
+    const double l = length(area);
+    return l > 1e-9 ? area * (1 / l) : Vec3{};
+  }
+
+ private:
+  Vec3 area_, first_, last_;
+  bool any_ = false;
+};
 
 Vec3 unit(const Vec3& v) {
   const double l = length(v);
@@ -131,12 +165,10 @@ struct Unevenness {
   double height = 0, distance = 0;
   int count = 0;
 
-  void add(const MeshState& mesh, const HalfRing& half, std::uint16_t region, const Vec3i& origin,
-           const Vec3& normal, double scale) {
+  void add(const HalfRing& half, const Spokes& spokes, const Vec3& normal, double scale) {
     for (std::uint32_t k = 0; k < half.size; ++k) {
       if (is_virtual(half.vertices[k])) continue;
-      const Vec3 p = to_vec3(mesh.seen_from(region, half.vertices[k]) - origin);
-      const double h = dot(p, normal), l = length(p) - scale;
+      const double h = dot(spokes.at(k), normal), l = spokes.length[k] - scale;
       height += h * h, distance += l * l, ++count;
     }
   }
@@ -165,8 +197,8 @@ bool gather_ring(const MeshState& mesh, VertexId v, Ring& ring) {
 FlagFeatures flag_features(const MeshState& mesh, VertexId v, const Ring& ring,
                            std::uint32_t level) {
   FlagFeatures f;
-  f.border = mesh.border[v] != 0;
-  f.age = static_cast<int>(level - mesh.split_level[v]);
+  f.border = mesh.vertex[v].border;
+  f.age = static_cast<int>(level - mesh.vertex[v].split_level);
   if (f.border) return f;
   f.valence = static_cast<int>(ring.size);
   double sum = 0;
@@ -177,9 +209,9 @@ FlagFeatures flag_features(const MeshState& mesh, VertexId v, const Ring& ring,
     const Vec3 edge = to_vec3(mesh.positions[q] - mesh.positions[v]);
     sum += dot(edge, edge);
     ++real;
-    if (mesh.split_level[q] == level) {
+    if (mesh.vertex[q].split_level == level) {
       ++f.split;
-    } else if (mesh.visited_level[q] == level) {
+    } else if (mesh.vertex[q].visited_level == level) {
       ++f.unsplit;
     }
   }
@@ -189,6 +221,7 @@ FlagFeatures flag_features(const MeshState& mesh, VertexId v, const Ring& ring,
 
 CutRing cut_ring(const MeshState& mesh, VertexId v, const Ring& ring) {
   CutRing out;
+  const std::uint16_t region = mesh.vertex[v].region;
   out.size = ring.size;
   double sum = 0;
   int real = 0;
@@ -197,24 +230,28 @@ CutRing cut_ring(const MeshState& mesh, VertexId v, const Ring& ring) {
     out.valence[k] = 6;
     out.is_virtual[k] = is_virtual(q);
     if (out.is_virtual[k]) continue;
-    out.at[k] = to_vec3(mesh.seen_from(mesh.region[v], q) - mesh.positions[v]);
+    out.at[k] = to_vec3(mesh.seen_from(region, q) - mesh.positions[v]);
     sum += length(out.at[k]);
     ++real;
-    const bool known = mesh.region[q] == mesh.region[v] && mesh.border[q] == 0;
-    if (known) out.valence[k] = static_cast<std::int8_t>(std::min<int>(mesh.valence[q], 100));
+    const VertexRecord& record = mesh.vertex[q];
+    const bool known = record.region == region && !record.border;
+    if (known) out.valence[k] = static_cast<std::int8_t>(std::min<int>(record.valence, 100));
   }
   out.scale = std::max(real > 0 ? sum / real : 1.0, 0.5);
   return out;
 }
 
-SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Split> splits,
-                                     std::size_t s) {
-  const Split& split = splits[s];
-  const std::uint16_t region = mesh.region[split.v];
-  const HalfRing of_v = half_ring(mesh, 3 * (split.new_face + 1));
-  const HalfRing of_w = half_ring(mesh, 3 * split.new_face + 2);
-  const HalfFeatures v = half_features(mesh, of_v, region, split.merged);
-  const HalfFeatures w = half_features(mesh, of_w, region, split.merged);
+SplitSurroundings split_surroundings(const MeshState& mesh, const ChunkSplits& chunk,
+                                     std::span<const SplitError> errors) {
+  const std::size_t s = errors.size();
+  const Split& split = chunk.splits[s];
+  const std::uint16_t region = mesh.vertex[split.v].region;
+  const HalfRing of_v = half_ring(mesh, corner_of_v(chunk, s));
+  const HalfRing of_w = half_ring(mesh, corner_of_w(chunk, s));
+  const Spokes to_v = spokes_of(mesh, of_v, region, split.merged);
+  const Spokes to_w = spokes_of(mesh, of_w, region, split.merged);
+  const HalfFeatures v = half_features(mesh, of_v, to_v, region, split.merged);
+  const HalfFeatures w = half_features(mesh, of_w, to_w, region, split.merged);
 
   SplitSurroundings out;
   const int neighbours = std::max(v.all.count + w.all.count, 1);
@@ -222,7 +259,10 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   const double cells = 1.0 / static_cast<double>(1u << mesh.shift);
   const double scale = std::max((v.distance + w.distance) / neighbours, 0.5 / cells);
   out.scale = scale * cells;
-  out.normal = outline_normal(mesh, of_v, of_w, region, split.merged);
+  Outline outline;
+  outline.add(of_v, to_v);
+  outline.add(of_w, to_w);
+  out.normal = outline.normal();
 
   const Vec3 arcs = v.all.value() - w.all.value();
   const bool inner = v.inner.count > 0 && w.inner.count > 0;
@@ -236,15 +276,16 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   Vec3 chord;
   const VertexId qj = of_v.vertices[0], qi = of_w.vertices[0];
   if (of_v.size > 0 && of_w.size > 0 && !is_virtual(qi) && !is_virtual(qj)) {
-    chord = to_vec3(mesh.seen_from(region, qj) - mesh.seen_from(region, qi));
+    chord = to_v.at(0) - to_w.at(0);
   }
   NeighbourSplits around;
-  for (const HalfRing* half : {&of_v, &of_w}) {
-    for (std::uint32_t k = 0; k < half->size; ++k) {
-      const VertexId q = half->vertices[k];
-      if (mesh.region_of(q) == region) add_neighbour_split(mesh, splits, s, q, arcs, around);
+  const auto add_neighbour_splits = [&](const HalfRing& half, const Spokes& spokes) {
+    for (std::uint32_t k = 0; k < half.size; ++k) {
+      if (spokes.own[k]) add_neighbour_split(mesh, chunk, errors, half.vertices[k], arcs, around);
     }
-  }
+  };
+  add_neighbour_splits(of_v, to_v);
+  add_neighbour_splits(of_w, to_w);
   const Vec3 across = unit(cross(out.normal, chord)) * scale;
   const int known = around.d.count;
   const Vec3 neighbour_d = known > 0 ? around.d.value() : arcs * CutModel::kArcToEdge;
@@ -267,8 +308,8 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   const auto more = static_cast<int>(std::max(of_v.size, of_w.size));
   out.kind = fewer > 4 ? 1 : 0;
   Unevenness uneven;
-  uneven.add(mesh, of_v, region, split.merged, out.normal, scale);
-  uneven.add(mesh, of_w, region, split.merged, out.normal, scale);
+  uneven.add(of_v, to_v, out.normal, scale);
+  uneven.add(of_w, to_w, out.normal, scale);
   const double inverse = 1 / scale, per_square = inverse * inverse / std::max(uneven.count, 1);
   const double lengths = length(arcs) * length(chord);
   const double slant = lengths > 0 ? std::fabs(dot(arcs, chord)) / lengths : 0;
@@ -293,16 +334,16 @@ SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Spli
   return out;
 }
 
-Vec3 colour_difference(const MeshState& mesh, const Split& split) {
+Vec3 colour_difference(const MeshState& mesh, const ChunkSplits& chunk, std::size_t s) {
   const auto mean = [&](Corner towards_partner) {
     const HalfRing half = half_ring(mesh, towards_partner);
     Mean m;
     for (std::uint32_t k = 0; k < half.size; ++k) {
       if (!is_virtual(half.vertices[k])) m.add(to_vec3(mesh.colours[half.vertices[k]]));
     }
-    return m.count > 0 ? m.value() : to_vec3(split.merged_colour);
+    return m.count > 0 ? m.value() : to_vec3(chunk.merged_colours[s]);
   };
-  return mean(3 * (split.new_face + 1)) - mean(3 * split.new_face + 2);
+  return mean(corner_of_v(chunk, s)) - mean(corner_of_w(chunk, s));
 }
 
 }  // namespace vitrine

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "codec/progressive/cut_model.h"
 #include "codec/progressive/displacement_model.h"
@@ -14,20 +15,32 @@
 
 namespace vitrine {
 
-// A vertex split as it was applied.
+// A vertex split as it was applied: what it takes to undo it.
 struct Split {
-  VertexId v = 0, w = 0;       // w is the new vertex
-  Vec3i merged;                // v~
-  Vec3i merged_colour;         // YCoCg-R
-  Vec3i term;                  // r of the placement
-  std::uint32_t new_face = 0;  // (v, q_i, w); the next face is (v, w, q_j)
-  SplitError error;            // of its predicted D
+  VertexId v = 0;
+  Vec3i merged;  // v~
+};
+
+// The splits of one chunk, in coded order.
+struct ChunkSplits {
+  VertexId first_vertex = 0;  // what the first split brought
+  std::uint32_t first_face = 0;
+  std::vector<Split> splits;
+  std::vector<Vec3i> merged_colours;  // YCoCg-R, or empty
+
+  std::size_t size() const { return splits.size(); }
+  VertexId v(std::size_t s) const { return splits[s].v; }
+  VertexId w(std::size_t s) const {
+    return first_vertex + static_cast<VertexId>(s);
+  }  // the new one
+  // The face (v, q_i, w); the next one is (v, w, q_j).
+  std::uint32_t face(std::size_t s) const { return first_face + 2 * static_cast<std::uint32_t>(s); }
 };
 
 struct Ring {
   std::uint32_t size = 0;
-  std::array<Corner, kMaxSplitValence> corners{};
-  std::array<VertexId, kMaxSplitValence> vertices{};
+  std::array<Corner, kMaxSplitValence> corners;
+  std::array<VertexId, kMaxSplitValence> vertices;
 };
 
 // The one-ring of v from its canonically smallest vertex on; false above kMaxSplitValence.
@@ -38,11 +51,12 @@ FlagFeatures flag_features(const MeshState& mesh, VertexId v, const Ring& ring,
 
 CutRing cut_ring(const MeshState& mesh, VertexId v, const Ring& ring);
 
-// Surroundings of splits[s] in the fine connectivity; splits before s have their final positions.
-SplitSurroundings split_surroundings(const MeshState& mesh, std::span<const Split> splits,
-                                     std::size_t s);
+// Surroundings of the s-th split in the fine connectivity. `errors` holds those of the predicted D
+// of the s splits before, which have their final positions.
+SplitSurroundings split_surroundings(const MeshState& mesh, const ChunkSplits& chunk,
+                                     std::span<const SplitError> errors);
 
-// Difference of the mean colours around the two vertices of a split.
-Vec3 colour_difference(const MeshState& mesh, const Split& split);
+// Difference of the mean colours around the two vertices of the s-th split.
+Vec3 colour_difference(const MeshState& mesh, const ChunkSplits& chunk, std::size_t s);
 
 }  // namespace vitrine

@@ -147,29 +147,34 @@ VITRINE_EXPORT(face_count) std::uint32_t face_count(Model* model) {
   return model->refiner().face_count();
 }
 
-// The displayed surface: refreshes the arrays below.
+// The displayed surface comes in pieces: after display(), each call fills the arrays below with the
+// next vertices or faces and says how many; 0 at the end.
 VITRINE_EXPORT(display) void display(Model* model) {
   model->display();
 }
+VITRINE_EXPORT(next_vertices) std::uint32_t next_vertices(Model* model) {
+  return model->next_vertices();
+}
+VITRINE_EXPORT(next_faces) std::uint32_t next_faces(Model* model) {
+  return model->next_faces();
+}
 // 3 floats a vertex, model units from the centre of the base mesh's bounding box (see summary).
 VITRINE_EXPORT(positions) const float* positions(Model* model) {
-  return model->display_positions().data();
+  return model->positions().data()->data();
 }
 // 4 signed 16-bit a vertex: the normal times 32767, and 0.
 VITRINE_EXPORT(normals) const std::int16_t* normals(Model* model) {
-  return model->display_normals().data();
-}
-// 3 indices a real face.
-VITRINE_EXPORT(indices) const std::uint32_t* indices(Model* model) {
-  return model->display_indices().data();
+  return model->normals().data()->data();
 }
 // 3 sRGB bytes a vertex, or null.
 VITRINE_EXPORT(colours) const std::uint8_t* colours(Model* model) {
-  const auto& colours = model->display_colours();
-  return colours.empty() ? nullptr : colours[0].data();
+  return model->colours().empty() ? nullptr : model->colours().data()->data();
 }
 // 3 lattice coordinates a vertex, exact.
 VITRINE_EXPORT(lattice_positions) const std::int32_t* lattice_positions(Model* model) {
-  const auto positions = model->refiner().positions();
-  return positions.empty() ? nullptr : &positions[0].x;
+  return &model->lattice_positions().data()->x;
+}
+// 3 indices a real face.
+VITRINE_EXPORT(indices) const std::uint32_t* indices(Model* model) {
+  return model->faces().data()->data();
 }

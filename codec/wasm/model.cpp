@@ -30,14 +30,15 @@ Want to_want(std::uint32_t kind, double value) {
   }
 }
 
-Vec3 box_centre(std::span<const Vec3i> positions) {
-  if (positions.empty()) return {};
-  Vec3i low = positions[0], high = positions[0];
-  for (const Vec3i& p : positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return (to_vec3(low) + to_vec3(high)) * 0.5;
+Vec3 box_centre(const Segments<Vec3i>& positions) {
+  LatticeBox box = LatticeBox::none();
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    box.add({positions[i], positions[i]});
+  return (to_vec3(box.low) + to_vec3(box.high)) * 0.5;
+}
+
+std::array<float, 3> to_floats(const Vec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 Expected<void> check(const std::string& what, std::span<const std::uint8_t> bytes,
@@ -162,57 +163,63 @@ double Model::bytes_held() const {
 }
 
 void Model::display() {
-  std::vector<Vec3> displayed;
-  refiner_->display_positions(displayed);
-  fill_positions(displayed);
-  fill_indices();
-  fill_normals(displayed);
-  fill_colours();
+  shown_ = {};
+  vertices_out_ = faces_out_ = 0;
+  for (VertexId v = 0; v < refiner_->vertex_count(); ++v)
+    shown_.push_back(to_floats(refiner_->display_position(v) - centre_));
 }
 
-void Model::fill_positions(const std::vector<Vec3>& displayed) {
-  positions_.resize(3 * displayed.size());
-  for (std::size_t i = 0; i < displayed.size(); ++i) {
-    const Vec3 p = (displayed[i] - centre_) * manifest_->lattice.step;
-    positions_[3 * i] = static_cast<float>(p.x);
-    positions_[3 * i + 1] = static_cast<float>(p.y);
-    positions_[3 * i + 2] = static_cast<float>(p.z);
-  }
+std::uint32_t Model::next_vertices() {
+  const auto end =
+      static_cast<VertexId>(std::min<std::size_t>(shown_.size(), vertices_out_ + kPiece));
+  const std::uint32_t count = end - vertices_out_;
+  positions_.clear();
+  normals_.clear();
+  colours_.clear();
+  lattice_positions_.clear();
+  for (; vertices_out_ < end; ++vertices_out_)
+    add_vertex(vertices_out_);
+  if (count == 0) shown_ = {}, vertices_out_ = 0;
+  return count;
 }
 
-void Model::fill_indices() {
+void Model::add_vertex(VertexId v) {
+  positions_.push_back(to_floats(shown(v) * manifest_->lattice.step));
+  const Vec3 n = normal(v);
+  normals_.push_back({to_snorm(n.x), to_snorm(n.y), to_snorm(n.z), 0});
+  lattice_positions_.push_back(refiner_->positions()[v]);
+  if (!refiner_->colours().empty()) colours_.push_back(from_ycocg(refiner_->colours()[v]));
+}
+
+Vec3 Model::shown(VertexId v) const {
+  const auto& [x, y, z] = shown_[v];
+  return {x, y, z};
+}
+
+Vec3 Model::normal(VertexId v) const {
   const Connectivity& mesh = refiner_->connectivity();
-  indices_.clear();
-  indices_.reserve(3 * std::size_t{refiner_->face_count()});
-  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-    if (mesh.is_dead(face) || !mesh.is_real(face)) continue;
-    for (Corner c = 3 * face; c < 3 * face + 3; ++c)
-      indices_.push_back(mesh.vertex(c));
-  }
+  const Vec3 origin = shown(v);
+  const Corner first = mesh.corner_at(v);
+  Vec3 sum;
+  Corner c = first;
+  do {
+    const VertexId a = mesh.vertex(next(c)), b = mesh.vertex(prev(c));
+    if (!is_virtual(a) && !is_virtual(b)) sum += cross(shown(a) - origin, shown(b) - origin);
+    c = mesh.swing(c);
+  } while (c != first);
+  const double size = length(sum);
+  return size > 0 ? sum * (1 / size) : Vec3{0, 0, 1};
 }
 
-void Model::fill_colours() {
-  const auto colours = refiner_->colours();
-  colours_.resize(colours.size());
-  std::transform(colours.begin(), colours.end(), colours_.begin(), from_ycocg);
-}
-
-void Model::fill_normals(const std::vector<Vec3>& displayed) {
-  std::vector<Vec3> sums(displayed.size());
-  for (std::size_t i = 0; i < indices_.size(); i += 3) {
-    const Vec3& a = displayed[indices_[i]];
-    const Vec3 normal = cross(displayed[indices_[i + 1]] - a, displayed[indices_[i + 2]] - a);
-    for (std::size_t k = 0; k < 3; ++k)
-      sums[indices_[i + k]] += normal;
+std::uint32_t Model::next_faces() {
+  const Connectivity& mesh = refiner_->connectivity();
+  faces_.clear();
+  for (; faces_out_ < mesh.face_count() && faces_.size() < kPiece; ++faces_out_) {
+    const Corner c = 3 * faces_out_;
+    if (mesh.is_real(faces_out_))
+      faces_.push_back({mesh.vertex(c), mesh.vertex(c + 1), mesh.vertex(c + 2)});
   }
-  normals_.assign(4 * sums.size(), 0);
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    const double size = length(sums[i]);
-    const Vec3 unit = size > 0 ? sums[i] * (1 / size) : Vec3{0, 0, 1};
-    normals_[4 * i] = to_snorm(unit.x);
-    normals_[4 * i + 1] = to_snorm(unit.y);
-    normals_[4 * i + 2] = to_snorm(unit.z);
-  }
+  return static_cast<std::uint32_t>(faces_.size());
 }
 
 const std::vector<double>& Model::summary() {

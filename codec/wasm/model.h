@@ -2,6 +2,7 @@
 // One model in the browser: its manifest, the surface refined so far and the plan towards a want.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "codec/core/segments.h"
 #include "codec/progressive/base_mesh.h"
 #include "codec/progressive/manifest.h"
 #include "codec/progressive/planner.h"
@@ -40,11 +42,17 @@ class Model {
 
   const Refiner& refiner() const { return *refiner_; }
 
+  // The surface is handed out in pieces, so that there is no second copy of it: after display(),
+  // each call fills the arrays with the next vertices or faces and says how many; 0 at the end.
+  static constexpr std::uint32_t kPiece = 4096;  // at most
   void display();
-  const std::vector<float>& display_positions() const { return positions_; }
-  const std::vector<std::int16_t>& display_normals() const { return normals_; }
-  const std::vector<std::uint32_t>& display_indices() const { return indices_; }
-  const std::vector<Colour>& display_colours() const { return colours_; }
+  std::uint32_t next_vertices();
+  std::uint32_t next_faces();
+  const std::vector<std::array<float, 3>>& positions() const { return positions_; }
+  const std::vector<std::array<std::int16_t, 4>>& normals() const { return normals_; }
+  const std::vector<Colour>& colours() const { return colours_; }
+  const std::vector<Vec3i>& lattice_positions() const { return lattice_positions_; }
+  const std::vector<Triangle>& faces() const { return faces_; }
 
   // [0] levels [1] chunks [2] base offset [3] base length [4] file bytes [5] coloured [6] lattice
   // bits [7] lattice step [8..10] centre; then per level: vertices, faces, max error, rms error,
@@ -54,10 +62,9 @@ class Model {
  private:
   Expected<void> restart();
   bool exceeds(const Want& goal) const;  // the surface is finer than that somewhere
-  void fill_positions(const std::vector<Vec3>& displayed);
-  void fill_indices();
-  void fill_colours();
-  void fill_normals(const std::vector<Vec3>& displayed);
+  Vec3 shown(VertexId v) const;
+  Vec3 normal(VertexId v) const;
+  void add_vertex(VertexId v);
 
   std::unique_ptr<Manifest> manifest_;  // the planner points to it
   BaseMesh base_;
@@ -69,10 +76,14 @@ class Model {
   bool trimmed_ = false;  // or failed: nothing can be applied until restart()
 
   std::vector<double> summary_;
-  std::vector<float> positions_;
-  std::vector<std::int16_t> normals_;
-  std::vector<std::uint32_t> indices_;
+  Segments<std::array<float, 3>> shown_;  // lattice units from the centre, of all vertices
+  VertexId vertices_out_ = 0;             // of the surface being handed out
+  std::uint32_t faces_out_ = 0;           // and of the faces that connectivity() has
+  std::vector<std::array<float, 3>> positions_;
+  std::vector<std::array<std::int16_t, 4>> normals_;
   std::vector<Colour> colours_;
+  std::vector<Vec3i> lattice_positions_;
+  std::vector<Triangle> faces_;
 };
 
 }  // namespace vitrine

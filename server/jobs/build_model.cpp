@@ -83,10 +83,9 @@ class LevelErrors {
       }));
     } else {
       auto mesh = displayed(level, filter);
-      pending_.push_back(
-          std::async(how, [this, mesh, regions = regions_of(level.region, mesh->faces)] {
-            return meter_.measure(*mesh, regions);
-          }));
+      pending_.push_back(std::async(how, [this, mesh, regions = regions_of(level, mesh->faces)] {
+        return meter_.measure(*mesh, regions);
+      }));
     }
   }
 
@@ -126,10 +125,10 @@ class LevelErrors {
   std::shared_ptr<const TriangleMesh> displayed(const MeshState& level, double filter) const {
     auto mesh = std::make_shared<TriangleMesh>();
     const LevelInfo shown{.display_filter = filter, .shift = level.shift};
-    filter_for_display(
-        level, [&](VertexId) -> const LevelInfo& { return shown; }, mesh->positions);
-    for (Vec3& p : mesh->positions)
-      p = lattice_.origin + p * lattice_.step;
+    mesh->positions.reserve(level.vertex_count());
+    for (VertexId v = 0; v < level.vertex_count(); ++v)
+      mesh->positions.push_back(lattice_.origin +
+                                display_position(level, v, shown) * lattice_.step);
     mesh->faces = level.real_faces();
     return mesh;
   }
@@ -149,25 +148,27 @@ class LevelErrors {
   LevelRegions regions_of_fine() const {
     LevelRegions out{.of_level = {}, .of_original = {}, .count = 0};
     const auto of_leaf = number_regions(out.count);
-    out.of_original = corners_of(fine_.faces, leaf_, of_leaf);
+    const auto region = [&](VertexId v) { return of_leaf[leaf_[v]]; };
+    out.of_original = corners_of(fine_.faces, region);
     return out;
   }
 
-  LevelRegions regions_of(const std::vector<std::uint16_t>& leaf,
-                          const std::vector<Triangle>& faces) const {
+  LevelRegions regions_of(const MeshState& level, const std::vector<Triangle>& faces) const {
     LevelRegions out = regions_of_fine();
     std::uint32_t count = 0;
-    out.of_level = corners_of(faces, leaf, number_regions(count));
+    const auto of_leaf = number_regions(count);
+    const auto region = [&](VertexId v) { return of_leaf[level.vertex[v].region]; };
+    out.of_level = corners_of(faces, region);
     return out;
   }
 
+  template <class Region>
   static std::vector<CornerRegions> corners_of(const std::vector<Triangle>& faces,
-                                               const std::vector<std::uint16_t>& leaf,
-                                               const std::vector<std::uint16_t>& of_leaf) {
+                                               const Region& region) {
     std::vector<CornerRegions> out;
     out.reserve(faces.size());
     for (const Triangle& f : faces)
-      out.push_back(corner_regions(of_leaf[leaf[f[0]]], of_leaf[leaf[f[1]]], of_leaf[leaf[f[2]]]));
+      out.push_back(corner_regions(region(f[0]), region(f[1]), region(f[2])));
     return out;
   }
 

@@ -24,13 +24,19 @@ void append(Bytes& out, std::span<const T> values) {
 }
 
 void print_state(Model& model) {
+  Bytes lattice, faces, colours, positions, normals;
   model.display();
+  while (model.next_vertices() > 0) {
+    append<Vec3i>(lattice, model.lattice_positions());
+    append<Colour>(colours, model.colours());
+    append<std::array<float, 3>>(positions, model.positions());
+    append<std::array<std::int16_t, 4>>(normals, model.normals());
+  }
+  while (model.next_faces() > 0)
+    append<Triangle>(faces, model.faces());
   Bytes state;
-  append(state, model.refiner().positions());
-  append<std::uint32_t>(state, model.display_indices());
-  append<Colour>(state, model.display_colours());
-  append<float>(state, model.display_positions());
-  append<std::int16_t>(state, model.display_normals());
+  for (const Bytes& part : {lattice, faces, colours, positions, normals})
+    state.insert(state.end(), part.begin(), part.end());
   std::printf("%u %s\n", model.refiner().face_count(), to_hex(sha256(state)).c_str());
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the seconds that the browser's decoder takes for a whole file, once it is warm:
+// Prints the seconds that the browser's decoder takes for a whole file, once it is warm, and the
+// bytes of memory that it has in the end, the surface handed out:
 // node decode_wasm.mjs DECODER.wasm FILE.pmesh
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -30,6 +31,7 @@ async function decode() {
   for (const [chunk, { offset, length }] of info.chunks.entries()) {
     decoder.apply(chunk, file.subarray(offset, offset + length));
   }
+  return decoder;
 }
 
 // Of processor time, of the last run: by then the engine has compiled what it will compile.
@@ -39,4 +41,6 @@ for (let run = 0; run < 3; ++run) {
   await decode();
   seconds = process.cpuUsage(start).user / 1e6;
 }
-console.log(seconds.toFixed(6));
+const decoder = await decode();
+decoder.surface();
+console.log(seconds.toFixed(6), decoder.pages * 65536);

@@ -30,6 +30,8 @@ interface Exports {
   vertex_count(model: Pointer): number;
   face_count(model: Pointer): number;
   display(model: Pointer): void;
+  next_vertices(model: Pointer): number;
+  next_faces(model: Pointer): number;
   positions(model: Pointer): Pointer;
   normals(model: Pointer): Pointer;
   indices(model: Pointer): Pointer;
@@ -155,34 +157,48 @@ export class Decoder {
   }
 
   surface(): Surface {
-    const wasm = this.#wasm;
-    wasm.display(this.#model);
-    const vertices = wasm.vertex_count(this.#model);
-    const triangles = wasm.face_count(this.#model);
-    const { buffer } = wasm.memory;
-    const tints = wasm.colours(this.#model);
-    return {
-      triangles,
-      vertices,
-      bytes: this.bytesHeld,
-      positions: new Float32Array(buffer, wasm.positions(this.#model), 3 * vertices).slice(),
-      normals: new Int16Array(buffer, wasm.normals(this.#model), 4 * vertices).slice(),
-      colours: tints ? linearColours(new Uint8Array(buffer, tints, 3 * vertices)) : undefined,
-      indices: new Uint32Array(buffer, wasm.indices(this.#model), 3 * triangles).slice(),
-    };
+    const wasm = this.#wasm, model = this.#model;
+    const vertices = wasm.vertex_count(model);
+    const positions = new Float32Array(3 * vertices), normals = new Int16Array(4 * vertices);
+    const colours = this.#info?.coloured ? new Uint16Array(4 * vertices) : undefined;
+    this.#eachPiece((buffer, at, count) => {
+      positions.set(new Float32Array(buffer, wasm.positions(model), 3 * count), 3 * at);
+      normals.set(new Int16Array(buffer, wasm.normals(model), 4 * count), 4 * at);
+      colours?.set(linearColours(new Uint8Array(buffer, wasm.colours(model), 3 * count)), 4 * at);
+    });
+    const indices = this.#faces();
+    return { triangles: indices.length / 3, vertices, bytes: this.bytesHeld, positions, normals, colours, indices };
   }
 
   latticeSurface(): LatticeSurface {
+    const wasm = this.#wasm, model = this.#model;
+    const vertices = wasm.vertex_count(model);
+    const positions = new Int32Array(3 * vertices);
+    const colours = this.#info?.coloured ? new Uint8Array(3 * vertices) : undefined;
+    this.#eachPiece((buffer, at, count) => {
+      positions.set(new Int32Array(buffer, wasm.lattice_positions(model), 3 * count), 3 * at);
+      colours?.set(new Uint8Array(buffer, wasm.colours(model), 3 * count), 3 * at);
+    });
+    return { positions, faces: this.#faces(), colours };
+  }
+
+  /** Takes the displayed surface: `use` gets `count` vertices from the `at`-th on, piece by piece. */
+  #eachPiece(use: (buffer: ArrayBuffer, at: number, count: number) => void): void {
     const wasm = this.#wasm;
     wasm.display(this.#model);
-    const vertices = wasm.vertex_count(this.#model);
-    const { buffer } = wasm.memory;
-    const tints = wasm.colours(this.#model);
-    return {
-      positions: new Int32Array(buffer, wasm.lattice_positions(this.#model), 3 * vertices).slice(),
-      faces: new Uint32Array(buffer, wasm.indices(this.#model), 3 * wasm.face_count(this.#model)).slice(),
-      colours: tints ? new Uint8Array(buffer, tints, 3 * vertices).slice() : undefined,
-    };
+    for (let at = 0, count; (count = wasm.next_vertices(this.#model)) > 0; at += count) {
+      use(wasm.memory.buffer, at, count);
+    }
+  }
+
+  /** The faces of the surface that #eachPiece took. */
+  #faces(): Uint32Array {
+    const wasm = this.#wasm;
+    const faces = new Uint32Array(3 * wasm.face_count(this.#model));
+    for (let at = 0, count; (count = wasm.next_faces(this.#model)) > 0; at += count) {
+      faces.set(new Uint32Array(wasm.memory.buffer, wasm.indices(this.#model), 3 * count), 3 * at);
+    }
+    return faces;
   }
 
   #lend<T>(array: Uint8Array | Int32Array | Uint32Array | Float64Array, use: (data: Pointer, size: number) => T): T {

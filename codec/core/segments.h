@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// An array that grows at its end by blocks of equal size. Unlike std::vector it never moves what it
+// holds: growing takes no second copy, leaves no hole behind that only smaller things fit, and an
+// array has at most one block more than its elements need.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace vitrine {
+
+template <class T>
+class Segments {
+ public:
+  static constexpr std::size_t kBlock = 4096;  // elements
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+
+  T& operator[](std::size_t i) { return blocks_[i / kBlock][i % kBlock]; }
+  const T& operator[](std::size_t i) const { return blocks_[i / kBlock][i % kBlock]; }
+
+  void push_back(const T& value) { resize(size_ + 1, value); }
+  void pop_back() { --size_; }
+
+  // New elements are copies of `value`.
+  void resize(std::size_t size, const T& value) {
+    while (blocks_.size() * kBlock < size)
+      blocks_.emplace_back(new T[kBlock]);
+    for (; size_ < size; ++size_)
+      (*this)[size_] = value;
+    size_ = size;
+  }
+
+  // A copy in one piece.
+  std::vector<T> flat() const {
+    std::vector<T> out(size_);
+    for (std::size_t i = 0; i < size_; ++i)
+      out[i] = (*this)[i];
+    return out;
+  }
+
+ private:
+  std::vector<std::unique_ptr<T[]>> blocks_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace vitrine
