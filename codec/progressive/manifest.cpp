@@ -111,6 +111,7 @@ void write_regions(ByteWriter& out, const Manifest& m) {
     for (std::uint32_t n : neighbours)
       out.varint(n - last), last = n;
   }
+  out.u8(static_cast<std::uint8_t>(m.block));
 }
 
 bool read_plane(ByteReader& in, RegionPlane& plane) {
@@ -144,6 +145,8 @@ Expected<void> read_adjacency(ByteReader& in, Manifest& m) {
       }
     }
   }
+  m.block = in.u8();
+  if (m.block == 0) return bad("impossible block of levels");
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
@@ -52,11 +53,15 @@ Json lattice(const Lattice& grid) {
   return {{"origin", vector(grid.origin)}, {"step", grid.step}, {"bits", grid.bits}};
 }
 
-// The cube that the lattice spans. The surface touches its minimum corner's three faces, and the
-// opposite face along its longest side.
-Json bounding_box(const Lattice& grid) {
-  const std::int32_t top = (1 << grid.bits) - 1;
-  return {{"min", vector(grid.origin)}, {"max", vector(grid.to_model({top, top, top}))}};
+// Of all levels as coded, but for what leaves the lattice.
+Json bounding_box(const Manifest& manifest) {
+  const std::int32_t top = (1 << manifest.lattice.bits) - 1;
+  const auto inside = [&](const Vec3i& p) -> Vec3i {
+    return {std::clamp(p.x, 0, top), std::clamp(p.y, 0, top), std::clamp(p.z, 0, top)};
+  };
+  const LatticeBox& box = manifest.tree.nodes[0].box;
+  return {{"min", vector(manifest.lattice.to_model(inside(box.low)))},
+          {"max", vector(manifest.lattice.to_model(inside(box.high)))}};
 }
 
 Json levels(const Manifest& manifest) {
@@ -113,10 +118,11 @@ std::string manifest_json(const PublishedModel& published) {
                {"coloured", manifest.coloured},
                {"boundary_loops", manifest.loops},
                {"lattice", lattice(manifest.lattice)},
-               {"bounding_box", bounding_box(manifest.lattice)},
+               {"bounding_box", bounding_box(manifest)},
                {"levels", levels(manifest)},
                {"regions", manifest.tree.leaves()},
                {"adjacency", manifest.adjacency},
+               {"block", manifest.block},
                {"base",
                 {{"offset", manifest.base_offset},
                  {"length", manifest.base_length},

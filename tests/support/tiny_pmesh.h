@@ -24,6 +24,7 @@ inline TinyPmesh tiny_pmesh(std::string_view base_text, std::string_view chunk_t
   TinyPmesh result;
   Manifest& m = result.manifest;
   m.unit = "mm";
+  m.tree.nodes[0].box.high = {10, 20, 30};
   m.levels = {{.vertices = 4, .faces = 4, .max_error = 0.5, .rms_error = 0.25},
               {.vertices = 6, .faces = 8}};
   m.base_length = base.size();

@@ -69,6 +69,7 @@ TEST_F(DaemonTest, DescribesAModelAndItsManifest) {
   EXPECT_EQ(json["levels"][1]["cumulative_bytes"], manifest.file_bytes);
   EXPECT_EQ(json["chunks"][0]["sha256"], to_hex(manifest.chunks[0].sha256));
   EXPECT_EQ(json["head_bytes"], manifest.head_bytes());
+  EXPECT_EQ(json["bounding_box"]["max"][1], manifest.lattice.to_model({10, 20, 30}).y);
   const HttpAnswer again =
       get(model_url() + "/manifest", "If-None-Match: " + answer.field("etag") + "\r\n");
   EXPECT_EQ(again.status, 304);
