@@ -97,7 +97,9 @@ class Daemon {
   Expected<void> bind(HttpServer& server, const Endpoint& endpoint,
                       const std::filesystem::path& port_file, std::string_view what) {
     const auto port = server.listen(endpoint);
-    if (!port) return Unexpected(port.error());
+    if (!port)
+      return fail(port.error().code,
+                  (what.empty() ? "" : "--admin-listen: ") + port.error().message);
     if (auto written = write_port_file(port_file, *port); !written) return written;
     const bool v6 = endpoint.host.find(':') != std::string::npos;
     events_.event(Severity::kInfo, fmt::format("{}listening on http://{}{}{}:{}", what,

@@ -35,6 +35,17 @@ std::string as_text(const json& info, const Manifest& m) {
       m.loops, m.coloured ? ", coloured" : "", levels_text(m));
 }
 
+// A prefix of a file is a coarser model.
+std::string what_is_here(const Manifest& m, std::uint64_t here) {
+  if (here >= m.file_bytes) return "";
+  if (here < m.head_bytes())
+    return fmt::format("cut off at byte {}: not even the base mesh is here\n", here);
+  std::uint32_t level = 0;
+  while (level + 1 < m.levels.size() && m.cumulative_bytes(level + 1) <= here)
+    ++level;
+  return fmt::format("cut off at byte {}: up to level {} is here\n", here, level);
+}
+
 Outcome info(const Arguments& arguments) {
   const std::string path = arguments.operand(0);
   const auto file = InputFile::open(path);
@@ -42,7 +53,8 @@ Outcome info(const Arguments& arguments) {
   const auto manifest = parse_header(file->bytes());
   if (!manifest) return failed(fmt::format("{}: {}", path, manifest.error().message));
   const json report = describe(*manifest);
-  return arguments.has("--json") ? print_json(report) : print(as_text(report, *manifest));
+  if (arguments.has("--json")) return print_json(report);
+  return print(what_is_here(*manifest, file->bytes().size()) + as_text(report, *manifest));
 }
 
 constexpr std::string_view kOperands[] = {"FILE.pmesh"};

@@ -9,6 +9,10 @@ import { Daemon } from "./daemon.mjs";
 
 const [bin, scan, count = "100"] = process.argv.slice(2);
 const switches = Number(count);
+if (!scan || !(switches > 0)) {
+  console.error("usage: endurance.mjs BIN_FOLDER MODEL [SWITCHES]");
+  process.exit(2);
+}
 
 const daemon = await Daemon.start(bin);
 const browser = await launch();

@@ -23,6 +23,8 @@ Bytes read_file(const fs::path& path) {
 std::vector<Model> read_models(std::size_t max_faces) {
   const char* folder = std::getenv("VITRINE_MODELS");
   const std::set<std::string> meshes = {".ply", ".obj", ".stl", ".off", ".glb"};
+  if (folder && !fs::is_directory(folder))
+    throw std::runtime_error(std::string("VITRINE_MODELS: there is no folder ") + folder);
   std::vector<Model> models;
   for (const auto& entry :
        fs::directory_iterator(folder ? folder : VITRINE_SOURCE_DIR "/tests/models")) {

@@ -87,6 +87,16 @@ TEST(Start, APortInUseIsOneLineWithTheNextStepAndExitCode1) {
               HasSubstr("cannot listen on " + address + ": Address already in use; "));
 }
 
+TEST(Start, AnAdministrationPortInUseIsNamed) {
+  const ServedFolder folder;
+  const Daemon daemon(folder.path());
+  const std::string address = "127.0.0.1:" + std::to_string(daemon.port());
+  const ProgramResult result = run_vitrined(
+      {"--listen", "127.0.0.1:0", "--admin-listen", address, "--data", folder.path().string()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, HasSubstr("--admin-listen: cannot listen on " + address));
+}
+
 TEST(Start, ADataFolderThatCannotBeUsedIsOneLineAndExitCode1) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "file").string();

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
 #include "vitrine_command.h"
 
 namespace vitrine::test {
 namespace {
 
 using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 TEST_F(VitrineCommand, build_reports_what_it_read_and_wrote) {
   const std::string in = write("in.ply", bumpy_ply(3'000));
@@ -36,6 +41,16 @@ TEST_F(VitrineCommand, info_prints_the_levels_that_build_printed) {
   EXPECT_EQ(info["levels"], built["levels"]);
   EXPECT_EQ(info["bytes"], built["bytes"]);
   EXPECT_EQ(info["bits"], built["bits"]);
+}
+
+TEST_F(VitrineCommand, info_says_how_much_of_a_file_is_there) {
+  const std::string whole = model();
+  EXPECT_THAT(vitrine({"info", whole}).output, Not(HasSubstr("cut off")));
+  const json levels = vitrine_json({"info", whole})["levels"];
+  const auto bytes = levels[1]["cumulative_bytes"].get<std::size_t>();
+  const std::string part = write("part.pmesh", read("model.pmesh").substr(0, bytes));
+  EXPECT_THAT(vitrine({"info", part}).output,
+              StartsWith("cut off at byte " + std::to_string(bytes) + ": up to level 1 is here\n"));
 }
 
 TEST_F(VitrineCommand, counts_and_bytes_rise_with_the_levels) {
