@@ -26,7 +26,7 @@ inline double exp(double x) {
       1 +
       f * (1 + f * (1.0 / 2 +
                     f * (1.0 / 6 + f * (1.0 / 24 + f * (1.0 / 120 + f * (1.0 / 720 + f / 5040))))));
-  const auto exponent = static_cast<std::uint64_t>(1023 + whole);
+  const auto exponent = static_cast<std::uint64_t>(std::int64_t{1023} + whole);
   return series * std::bit_cast<double>(exponent << 52);
 }
 

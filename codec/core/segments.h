@@ -13,7 +13,7 @@ namespace vitrine {
 template <class T>
 class Segments {
  public:
-  static constexpr std::size_t kBlock = 4096;  // elements
+  static constexpr std::size_t kBlock = 2048;  // elements
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }

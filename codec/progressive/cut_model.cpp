@@ -84,21 +84,16 @@ void CutModel::evaluate(const CutRing& ring) {
   const double inverse = 1.0 / ring.scale;
   count_ = 0;
   double best = -1e300;
-  std::array<double, kMaxPairs> score;
-  std::array<Vec3, kMaxSplitValence> spoke;
   std::array<double, kMaxSplitValence> reach;
-  for (std::uint32_t k = 0; k < n; ++k) {
-    spoke[k] = ring.at[k] * inverse;
-    reach[k] = length(spoke[k]);
-  }
+  for (std::uint32_t k = 0; k < n; ++k)
+    reach[k] = length(ring.at[k] * inverse);
   for (std::uint32_t i = 0; i + 1 < n; ++i) {
     for (std::uint32_t j = i + 1; j < n; ++j) {
       Candidate& c = candidates_[count_];
       c.cut = {i, j};
-      c.tried = false;
       const Arc near = arc(prefix, i, j), far = arc(prefix, j, i + n);
       const Vec3 d = (far.mean - near.mean) * (kArcToEdge * inverse);
-      const Vec3 &l = spoke[i], &r = spoke[j];
+      const Vec3 l = ring.at[i] * inverse, r = ring.at[j] * inverse;
       const Vec3 chord = r - l, centre = (l + r) * 0.5;
       const double edge = length(d), chord_length = length(chord);
       const double v_valence = static_cast<double>(n - (j - i) + 2) - 6;
@@ -122,17 +117,17 @@ void CutModel::evaluate(const CutRing& ring) {
       double s = 0;
       for (std::size_t k = 0; k < kFeatures; ++k)
         s += weights_[k] * c.features[k];
-      score[count_++] = s;
+      probability_[count_++] = s;
       best = std::max(best, s);
     }
   }
   double total = 0;
   for (std::uint32_t k = 0; k < count_; ++k) {
-    candidates_[k].probability = exact::exp(score[k] - best);
-    total += candidates_[k].probability;
+    probability_[k] = exact::exp(probability_[k] - best);
+    total += probability_[k];
   }
   for (std::uint32_t k = 0; k < count_; ++k)
-    candidates_[k].probability /= total;
+    probability_[k] /= total;
 }
 
 // One step of stochastic gradient ascent on the chosen candidate's log-probability.
@@ -141,10 +136,10 @@ void CutModel::learn(std::uint32_t chosen) {
   learned_ = std::min(learned_ + 1, 1u << 20);
   Features mean{};
   for (std::uint32_t k = 0; k < count_; ++k) {
-    const Candidate& c = candidates_[k];
-    if (c.probability < kNegligible) continue;
+    const double p = std::fabs(probability_[k]);
+    if (p < kNegligible) continue;
     for (std::size_t f = 0; f < kFeatures; ++f)
-      mean[f] += c.probability * c.features[f];
+      mean[f] += p * candidates_[k].features[f];
   }
   for (std::size_t f = 0; f < kFeatures; ++f) {
     const double step = rate * (candidates_[chosen].features[f] - mean[f]);

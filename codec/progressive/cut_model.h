@@ -61,8 +61,6 @@ class CutModel {
 
   struct Candidate {
     Cut cut;
-    double probability = 0;
-    bool tried = false;
     Features features{};
   };
 
@@ -75,8 +73,8 @@ class CutModel {
     for (std::uint32_t rank = 0;; ++rank) {
       const std::uint32_t best = likeliest();
       if (rank + 1 == count_) return best;
-      candidates_[best].tried = true;
-      const double p = candidates_[best].probability;
+      const double p = probability_[best];
+      probability_[best] = -p;
       const double others = std::max(left - p, 1e-9);
       left = others;
       const int odds = std::clamp(exact::log2_bucket<1>(p / others) + 14, 0, kOdds - 1);
@@ -87,11 +85,9 @@ class CutModel {
 
   std::uint32_t likeliest() const {
     std::uint32_t best = 0;
-    double p = -1;
+    double p = 0;
     for (std::uint32_t k = 0; k < count_; ++k) {
-      if (!candidates_[k].tried && candidates_[k].probability > p) {
-        best = k, p = candidates_[k].probability;
-      }
+      if (probability_[k] > p) best = k, p = probability_[k];
     }
     return best;
   }
@@ -100,6 +96,7 @@ class CutModel {
   std::uint32_t learned_ = 0;
   std::uint32_t count_ = 0;
   std::array<Candidate, kMaxPairs> candidates_;
+  std::array<double, kMaxPairs> probability_;  // of each; negative once it was asked for
   std::array<AdaptiveBit, kBits> bits_;
 };
 
