@@ -31,7 +31,6 @@ Manifest frame_of(const Hierarchy& hierarchy, const LatticeMesh& fine) {
   m.loops = hierarchy.loops;
   m.tree = hierarchy.tree;
   m.adjacency = region_adjacency(fine, hierarchy);
-  m.block = hierarchy.block;
   return m;
 }
 

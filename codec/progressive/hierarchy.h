@@ -42,7 +42,6 @@ struct Hierarchy {
   // [l]: all vertices of level l; empty where level l + 1 has the same lattice.
   std::vector<std::vector<Refined>> refined;
   RegionTree tree;
-  std::uint32_t block = 1;          // levels in a block (Manifest::block)
   std::vector<std::uint16_t> leaf;  // of the tree, per fine vertex
 };
 

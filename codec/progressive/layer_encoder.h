@@ -58,16 +58,14 @@ class LayerEncoder {
 template <class Coder, class Observer>
 Expected<void> LayerEncoder::code_chunk(Coder& coder, const EncodedChunk& chunk,
                                         const Observer& observe) {
-  const auto last = static_cast<std::uint32_t>(hierarchy_->levels.size());
   const ChunkFrame frame{
       .level = level_,
       .region = static_cast<std::uint16_t>(hierarchy_->tree.nodes[chunk.node].first),
       .splits = chunk.splits,
       .shift = hierarchy_->shift[level_],
       .shift_before = hierarchy_->shift[level_ - 1],
-      .shift_around = hierarchy_->shift[block_start(level_, last, hierarchy_->block)],
       .placement = hierarchy_->placement,
-      .parity = level_parity(level_, last)};
+      .parity = level_parity(level_, static_cast<std::uint32_t>(hierarchy_->levels.size()))};
   Replay replay(hierarchy_->levels[level_ - 1], collapse_of_, fine_, state_, loop_, cell_);
   const auto pass = std::make_unique<LayerPass<Coder, Replay>>(mesh_, frame, coder, replay);
   if (auto ok = pass->run(); !ok) return tl::unexpected(ok.error());

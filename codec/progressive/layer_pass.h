@@ -11,8 +11,8 @@
 // left), codes a split flag and the cut pair, and splits with an estimated D. Pass 2 codes the D.
 //
 // No context depends on the order in which regions are refined: other regions' vertices that are
-// next to a vertex which splits do not split in the same block of levels, and where a vertex does
-// not split, features of vertices next to another region (MeshState::border) are left out.
+// next to a vertex which splits do not split in the same level, and where a vertex does not split,
+// features of vertices next to another region (MeshState::border) are left out.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +45,6 @@ struct ChunkFrame {
   std::uint16_t region = 0;
   std::uint32_t splits = 0;                   // stated by the header
   std::uint32_t shift = 0, shift_before = 0;  // of this level's lattice and of the one before
-  std::uint32_t shift_around = 0;             // of the level that the neighbours have at least
   Placement placement = Placement::kMidpoint;
   std::int32_t parity = 0;  // level_parity()
 };
@@ -91,7 +90,7 @@ class LayerPass {
 
   // The low bits are as good as random, because a lattice is about as fine as its level is exact.
   void refine_lattice() {
-    mesh_.shift = frame_.shift, mesh_.foreign_shift = frame_.shift_around;
+    mesh_.shift = frame_.shift, mesh_.foreign_shift = frame_.shift_before;
     const auto bits = static_cast<int>(frame_.shift_before - frame_.shift);
     if (bits == 0) return;
     const auto refined = [&](std::int32_t coarse, std::int32_t told) {

@@ -111,7 +111,6 @@ void write_regions(ByteWriter& out, const Manifest& m) {
     for (std::uint32_t n : neighbours)
       out.varint(n - last), last = n;
   }
-  out.u8(static_cast<std::uint8_t>(m.block));
 }
 
 bool read_plane(ByteReader& in, RegionPlane& plane) {
@@ -145,8 +144,6 @@ Expected<void> read_adjacency(ByteReader& in, Manifest& m) {
       }
     }
   }
-  m.block = in.u8();
-  if (m.block == 0) return bad("impossible block of levels");
   return {};
 }
 

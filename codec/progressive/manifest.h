@@ -46,13 +46,6 @@ constexpr std::uint64_t most_splits(std::uint64_t length) {
   return 16 * (length + 16);
 }
 
-// The level that the block of `level` (1 to `last`) starts from, in blocks of `block` (at least 1)
-// levels that are counted from the finest, `last`.
-constexpr std::uint32_t block_start(std::uint32_t level, std::uint32_t last, std::uint32_t block) {
-  const std::uint32_t from_last = ((last - level) / block + 1) * block;
-  return from_last < last ? last - from_last : 0;
-}
-
 struct Manifest {
   Lattice lattice;
   std::string unit = "";  // of the model's coordinates: "mm", "m", … or empty where unknown
@@ -67,10 +60,6 @@ struct Manifest {
   // neighbours where leaves of theirs are, in every level.
   std::vector<std::vector<std::uint32_t>> adjacency = {{}};
 
-  // Levels come in blocks of this many, counted from the finest: a region may run to the end of a
-  // block while its neighbours are still at its start.
-  std::uint32_t block = 1;
-
   std::uint64_t base_offset = 0, base_length = 0;  // the base mesh: a Draco buffer
   Sha256 base_sha256{};
   std::vector<ChunkInfo> chunks;  // in file order: by level, then region
@@ -78,10 +67,6 @@ struct Manifest {
 
   const RegionNode& region(const ChunkInfo& chunk) const { return tree.nodes[chunk.node]; }
   std::uint64_t head_bytes() const { return base_offset + base_length; }  // header and base
-  // The level that the neighbours of a region need before its chunk of `level`, at least 1.
-  std::uint32_t level_around(std::uint32_t level) const {
-    return block_start(level, static_cast<std::uint32_t>(levels.size() - 1), block);
-  }
   // Bytes of the file up to and including `level`.
   std::uint64_t cumulative_bytes(std::uint32_t level) const;
   // The chunk of a level whose region holds a leaf: index into `chunks`, or chunks.size() where

@@ -51,7 +51,7 @@ struct MeshState {
   std::vector<std::uint32_t> born;             // per region: vertices so far
 
   // Of the chunk decoded last: positions of its region are middles of cells of 2^shift, those of
-  // other regions count as far as they are known at least, 2^foreign_shift.
+  // other regions count as far as they are known at the level before, 2^foreign_shift.
   std::uint32_t shift = 0, foreign_shift = 0;
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size()); }

@@ -35,7 +35,6 @@ ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
           .splits = chunk.splits,
           .shift = manifest.levels[chunk.level].shift,
           .shift_before = manifest.levels[chunk.level - 1].shift,
-          .shift_around = manifest.levels[manifest.level_around(chunk.level)].shift,
           .placement = manifest.placement,
           .parity = level_parity(chunk.level, last)};
 }
@@ -76,13 +75,14 @@ bool Refiner::applied(std::size_t chunk) const {
 bool Refiner::ready(std::size_t chunk) const {
   const ChunkInfo& info = state_->manifest.chunks[chunk];
   if (!state_->usable || state_->applied[chunk]) return false;
-  const std::uint32_t around = state_->manifest.level_around(info.level);
-  const auto is_around = [&](std::uint32_t leaf) { return state_->leaf_level[leaf] >= around; };
+  const auto has_level = [&](std::uint32_t leaf) {
+    return state_->leaf_level[leaf] + 1u >= info.level;
+  };
   const RegionNode& region = state_->manifest.region(info);
   for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
-    if (state_->leaf_level[leaf] + 1u != info.level) return false;
+    if (!has_level(leaf)) return false;
     const std::vector<std::uint32_t>& next = state_->manifest.adjacency[leaf];
-    if (!std::all_of(next.begin(), next.end(), is_around)) return false;
+    if (!std::all_of(next.begin(), next.end(), has_level)) return false;
   }
   return true;
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Applies enhancement layers to a base mesh. Chunk (level l, region k) can be applied once level
-// l-1 is present in k, and the level that the block of l starts from (Manifest::level_around) in
-// every region adjacent to k; every order that obeys this ends in the same mesh, and every state on
-// the way is a valid, crack-free manifold.
+// l-1 is present in k and in every region adjacent to k; every order that obeys this ends in the
+// same mesh, and every state on the way is a valid, crack-free manifold.
 //
 // Contract: safe on hostile bytes. A damaged chunk gives an error or a valid mesh, and after an
 // error the refiner is unusable (`apply` keeps failing with kState) but its memory is in order.

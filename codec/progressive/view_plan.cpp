@@ -46,9 +46,8 @@ std::vector<std::size_t> ViewPlan::missing_for(std::size_t chunk) {
 void ViewPlan::require(std::size_t index, std::vector<std::size_t>& missing) {
   required_[index] = call_;
   const ChunkInfo& chunk = manifest_.chunks[index];
-  const std::uint32_t around = manifest_.level_around(chunk.level);
   const auto need = [&](std::uint32_t leaf) {
-    for (std::uint32_t level = leaf_level_[leaf] + 1; level <= around; ++level) {
+    for (std::uint32_t level = leaf_level_[leaf] + 1; level < chunk.level; ++level) {
       const std::size_t coarser = manifest_.find_chunk(level, leaf);
       if (required_[coarser] != call_) require(coarser, missing);
     }

@@ -28,7 +28,6 @@ double displayed_error(const Quadric& q, const Vec3& target) {
 
 const std::vector<Pick>& Matcher::match(const LevelRules& rules) {
   taken_.assign(surface_.position.size(), 0);
-  if (rules.ends_block) resting_.assign(surface_.position.size(), 0);
   if (rules.placement == Placement::kPyramid) sum_rings();
   list_edges(rules);
   radix_sort(edges_, scratch_);
@@ -112,9 +111,7 @@ Vec3 Matcher::likely_target(const LevelRules& rules, Corner c) const {
 
 bool Matcher::choose(const LevelRules& rules, Corner c) {
   const Connectivity& mesh = surface_.mesh;
-  for (const VertexId v : {mesh.vertex(c), mesh.vertex(next(c))}) {
-    if (taken_[v] || (rules.by_region && resting_[v])) return false;
-  }
+  if (taken_[mesh.vertex(c)] || taken_[mesh.vertex(next(c))]) return false;
   const EdgeStar edge(mesh, c);
   if (!keeps_manifold(mesh, edge)) return false;
   const Vec3i target = merged_position(surface_, edge, rules.placement, rules.parity);
@@ -133,9 +130,7 @@ void Matcher::withhold_neighbours(const LevelRules& rules, const EdgeStar& edge)
   const std::uint16_t own = surface_.region[edge.v1];
   for (const Star* star : {&edge.star1, &edge.star2}) {
     for (VertexId v : star->neighbours()) {
-      if (is_virtual(v)) continue;
-      if (all) taken_[v] = 1;
-      if (surface_.region[v] != own) resting_[v] = 1;
+      if (!is_virtual(v) && (all || surface_.region[v] != own)) taken_[v] = 1;
     }
   }
 }

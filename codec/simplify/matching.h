@@ -17,7 +17,6 @@ struct LevelRules {
   Placement placement = Placement::kMidpoint;
   std::int32_t parity = 0;          // of the level, see placement.h
   bool by_region = false;           // collapses stay inside their region
-  bool ends_block = true;           // the finest level of its block (Manifest::block)
   double length_weight = 0;         // of the squared edge length, against the planes of the edge
   std::uint32_t most = 0xFFFFFFFF;  // collapses at most
   Vec3i low, high;                  // v~ stays in this box, inclusive
@@ -33,9 +32,8 @@ class Matcher {
   explicit Matcher(const Surface& surface) : surface_(surface) {}
 
   // In ascending lexicographic order of target, no two the same. Costs ascend in the order of
-  // choice, ties go to the smaller vertex ids. A chosen edge keeps all of its neighbours (pyramid
-  // placement) from collapsing in this level and those in other regions (by_region) from collapsing
-  // in this block.
+  // choice, ties go to the smaller vertex ids. A chosen edge keeps its neighbours in other regions
+  // (by_region) or all of its neighbours (pyramid placement) from collapsing in this level.
   const std::vector<Pick>& match(const LevelRules& rules);
 
  private:
@@ -47,8 +45,7 @@ class Matcher {
 
   const Surface& surface_;
   std::vector<KeyedIndex> edges_, scratch_;  // key: bits of the cost as float; index: a corner
-  std::vector<std::uint8_t> taken_;          // per vertex: in this level
-  std::vector<std::uint8_t> resting_;        // per vertex: in this block
+  std::vector<std::uint8_t> taken_;          // per vertex
   std::vector<Vec3> ring_sum_;               // per vertex: of its real neighbours
   std::vector<std::uint32_t> ring_size_;
   double reach_ = 0;  // of keeps_near()

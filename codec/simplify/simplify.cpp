@@ -19,9 +19,6 @@ namespace {
 
 constexpr std::uint32_t kRegularLevels = 3;  // finest levels that also prefer short edges
 constexpr double kLengthWeight = 5e-3;
-// A close-up needs the regions that are seen alone through this many levels; more rest the borders
-// for longer.
-constexpr std::uint32_t kBlock = 3;
 constexpr double kCellPerError = 1;  // side of a cell against the rms distance from the planes
 // A level that removes less than this share of the vertices is the last one: what is left is
 // locked by topology, and each level has its price.
@@ -128,15 +125,11 @@ class Simplifier {
     const bool join_all = in_one_region && from_finest > 0;
     regions_.join(surface_.live, join_all ? UINT32_MAX : region_capacity(from_finest),
                   surface_.region);
-    const bool ends_block = from_finest % kBlock == 0;
-    if (ends_block) splits_see_other_regions_ = false;
-    if (!regions_.is_whole() && options_.placement == Placement::kPyramid)
-      splits_see_other_regions_ = true;
+    splits_see_other_regions_ = !regions_.is_whole() && options_.placement == Placement::kPyramid;
     const auto live = static_cast<std::uint32_t>(surface_.live.size());
     return {.placement = options_.placement,
             .parity = static_cast<std::int32_t>(from_finest & 1),
             .by_region = !regions_.is_whole(),
-            .ends_block = ends_block,
             .length_weight = from_finest < kRegularLevels ? kLengthWeight : 0,
             .most = live - std::min(live, options_.target_vertices),
             .low = cell_of(low_, surface_.shift),
@@ -175,7 +168,7 @@ class Simplifier {
   Matcher matcher_;
   Vec3i low_, high_;
   RegionJoiner regions_;
-  bool splits_see_other_regions_ = false;  // v~ in the block depends on their exact places
+  bool splits_see_other_regions_ = false;  // v~ of the level depends on their exact places
   std::vector<std::uint32_t> shifts_{0};
   std::vector<std::vector<Refined>> refined_;
 };
@@ -218,7 +211,7 @@ Expected<std::optional<Hierarchy>> try_simplify(const LatticeMesh& fine,
   auto mesh = Connectivity::close(static_cast<std::uint32_t>(fine.positions.size()), fine.faces);
   if (!mesh) return tl::unexpected(mesh.error());
 
-  Hierarchy out{.placement = options.placement, .block = kBlock};
+  Hierarchy out{.placement = options.placement};
   out.loops = mesh->loop_count();
   const std::uint32_t capacity = options.region_vertices;
   RegionLabels labels = label_regions(fine.positions, capacity == 0 ? UINT32_MAX : capacity);

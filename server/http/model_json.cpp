@@ -122,7 +122,6 @@ std::string manifest_json(const PublishedModel& published) {
                {"levels", levels(manifest)},
                {"regions", manifest.tree.leaves()},
                {"adjacency", manifest.adjacency},
-               {"block", manifest.block},
                {"base",
                 {{"offset", manifest.base_offset},
                  {"length", manifest.base_length},

@@ -106,28 +106,18 @@ class LevelErrors {
   }
 
  private:
-  // The finest level that neighbours of a region of `level` may have reached.
-  static std::uint32_t level_ahead(std::uint32_t level, const Manifest& manifest) {
-    std::uint32_t ahead = level;
-    while (ahead + 1 < manifest.levels.size() && manifest.level_around(ahead + 1) <= level)
-      ++ahead;
-    return ahead;
-  }
-
-  // A face between a region and a finer one is in the mesh of a level between theirs, but for its
-  // own corners' low bits, which come with the region's next chunks.
+  // A face between a region and one that is a level finer is in the mesh of one of the levels, but
+  // for its own corners' low bits, which come with the region's next chunk.
   static void allow_for_finer_neighbours(ChunkInfo& chunk, const Manifest& manifest) {
-    const std::uint32_t ahead = level_ahead(chunk.level, manifest);
-    if (manifest.tree.regions_at(ahead).size() == 1) return;
+    const std::uint32_t finer = chunk.level + 1;
+    if (finer >= manifest.levels.size() || manifest.tree.regions_at(finer).size() == 1) return;
     const std::int32_t cells =
-        (1 << manifest.levels[chunk.level].shift) - (1 << manifest.levels[ahead].shift);
+        (1 << manifest.levels[chunk.level].shift) - (1 << manifest.levels[finer].shift);
     if (cells == 0) return;
     const RegionNode& region = manifest.region(chunk);
-    for (std::uint32_t finer = chunk.level + 1; finer <= ahead; ++finer) {
-      for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
-        const ChunkInfo& next = manifest.chunks[manifest.find_chunk(finer, leaf)];
-        chunk.max_error = std::max(chunk.max_error, next.max_error);
-      }
+    for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
+      const ChunkInfo& next = manifest.chunks[manifest.find_chunk(finer, leaf)];
+      chunk.max_error = std::max(chunk.max_error, next.max_error);
     }
     chunk.max_error += std::sqrt(0.75) * cells * manifest.lattice.step;
   }

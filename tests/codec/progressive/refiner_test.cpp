@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "codec/progressive/refine.h"
 #include "support/meshes.h"
 #include "support/stored_model.h"
@@ -108,33 +106,6 @@ TEST(Refiner, RegionsForkAtSeveralLevels) {
   }
   EXPECT_GT(tree.regions_at(last - 1).size(), 1u);
   EXPECT_LT(tree.regions_at(last - 1).size(), tree.leaves());
-}
-
-TEST(Refiner, ARegionRunsThroughABlockWithoutItsNeighbours) {
-  const StoredModel model = torus_model(100);
-  const Manifest& m = model.manifest;
-  const auto last = static_cast<std::uint32_t>(m.levels.size() - 1);
-  const std::uint32_t start = m.level_around(last);
-  ASSERT_EQ(start, last - m.block);
-  ASSERT_GT(m.block, 1u);
-  const std::size_t late = m.find_chunk(start + 1, 0) - 1;  // the last chunk before the block
-  const auto& around = m.adjacency[m.tree.leaves() - 1];
-  const auto beside = std::ranges::find_if(
-      around, [&](std::uint32_t leaf) { return m.find_chunk(start, leaf) != late; });
-  ASSERT_NE(beside, around.end());
-  Refiner refiner = test::start_refiner(model);
-  for (std::size_t i = 0; i < late; ++i)
-    test::apply_chunk(refiner, model, i);
-  EXPECT_FALSE(refiner.ready(m.find_chunk(start + 1, *beside))) << "a neighbour is behind";
-  test::apply_chunk(refiner, model, late);
-  EXPECT_TRUE(refiner.ready(m.find_chunk(start + 1, *beside)));
-  for (std::uint32_t level = start + 1; level <= last; ++level) {
-    const std::size_t chunk = m.find_chunk(level, 0);
-    ASSERT_TRUE(refiner.ready(chunk)) << "level " << level;
-    test::apply_chunk(refiner, model, chunk);
-  }
-  EXPECT_TRUE(Connectivity::close(refiner.vertex_count(), refiner.lattice_mesh().faces))
-      << "a crack";
 }
 
 TEST(Refiner, RefusesABaseThatIsNotTheOneOfTheHeader) {
