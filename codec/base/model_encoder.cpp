@@ -1,36 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/base/model_encoder.h"
 
-#include <set>
-
 #include "codec/base/base_encoder.h"
 #include "codec/progressive/layer_encoder.h"
 
 namespace vitrine {
 namespace {
 
-std::vector<std::vector<std::uint32_t>> region_adjacency(const LatticeMesh& fine,
-                                                         const Hierarchy& hierarchy) {
-  std::vector<std::set<std::uint32_t>> sets(hierarchy.tree.leaves());
-  for (const Triangle& t : fine.faces) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint16_t a = hierarchy.leaf[t[k]], b = hierarchy.leaf[t[(k + 1) % 3]];
-      if (a != b) sets[a].insert(b), sets[b].insert(a);
-    }
-  }
-  std::vector<std::vector<std::uint32_t>> adjacency;
-  adjacency.reserve(sets.size());
-  for (const auto& set : sets)
-    adjacency.emplace_back(set.begin(), set.end());
-  return adjacency;
-}
-
-Manifest frame_of(const Hierarchy& hierarchy, const LatticeMesh& fine) {
-  Manifest m{.lattice = fine.lattice, .placement = hierarchy.placement};
-  m.coloured = !fine.colours.empty();
+Manifest frame_of(const Hierarchy& hierarchy) {
+  Manifest m{.lattice = hierarchy.base.lattice, .placement = hierarchy.placement};
+  m.coloured = !hierarchy.base_colours.empty();
   m.loops = hierarchy.loops;
   m.tree = hierarchy.tree;
-  m.adjacency = region_adjacency(fine, hierarchy);
+  m.adjacency = hierarchy.adjacency;
   return m;
 }
 
@@ -84,9 +66,8 @@ Expected<LayerEncoder> start_with_base(const Hierarchy& hierarchy, EncodedModel&
 
 }  // namespace
 
-Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LatticeMesh& fine,
-                                    const LevelSink& on_level) {
-  EncodedModel model{.manifest = frame_of(hierarchy, fine), .body = {}};
+Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LevelSink& on_level) {
+  EncodedModel model{.manifest = frame_of(hierarchy), .body = {}};
   auto encoder = start_with_base(hierarchy, model);
   if (!encoder) return tl::unexpected(encoder.error());
   RegionTree& tree = model.manifest.tree;

@@ -21,10 +21,8 @@ struct EncodedModel {
 // Sees each level as every decoder will reach it, the base mesh first.
 using LevelSink = std::function<void(const MeshState& level)>;
 
-// Codes all levels of `hierarchy`, which `simplify` made of `fine`; gives the memory of each level
-// back before `on_level` sees what it led to. Fails (kBadInput)
-// where Draco cannot encode the base mesh.
-Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LatticeMesh& fine,
-                                    const LevelSink& on_level);
+// Codes all levels of `hierarchy`; gives the memory of each level back before `on_level` sees what
+// it led to. Fails (kBadInput) where Draco cannot encode the base mesh.
+Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LevelSink& on_level);
 
 }  // namespace vitrine

@@ -17,13 +17,15 @@ float round_up(double v) {
   return -round_down(-v);
 }
 
-double outside(double v, float low, float high) {
-  return std::max({static_cast<double>(low) - v, 0.0, v - static_cast<double>(high)});
+double outside(double v, float low, float high, double slack) {
+  const double beyond = std::max(static_cast<double>(low) - v, v - static_cast<double>(high));
+  return std::max(beyond - slack, 0.0);
 }
 
-double squared_distance(const TriangleBvh::Node& n, const Vec3& p) {
-  const double x = outside(p.x, n.low[0], n.high[0]), y = outside(p.y, n.low[1], n.high[1]),
-               z = outside(p.z, n.low[2], n.high[2]);
+double squared_distance(const TriangleBvh::Node& n, const Vec3& p, double slack) {
+  const double x = outside(p.x, n.low[0], n.high[0], slack),
+               y = outside(p.y, n.low[1], n.high[1], slack),
+               z = outside(p.z, n.low[2], n.high[2], slack);
   return x * x + y * y + z * z;
 }
 
@@ -77,65 +79,58 @@ std::vector<Centre> centres_of(const TriangleMesh& mesh) {
 
 TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
   if (mesh.faces.empty()) return;
-  std::vector<Centre> centres = centres_of(mesh);
-  order(centres);
-  faces_.reserve(centres.size());
-  face_.reserve(centres.size());
-  std::vector<std::uint32_t> renamed(mesh.positions.size(), kUnnamed);
-  for (const Centre& c : centres) {
-    add_face(mesh.faces[c.face], mesh, renamed);
-    face_.push_back(c.face);
-  }
-  nodes_.reserve(centres.size());
-  nodes_.resize(1);
-  build(0, 0, static_cast<std::uint32_t>(centres.size()));
+  add_faces(mesh);
+  own_nodes_.reserve(size());
+  own_nodes_.resize(1);
+  build(0, 0, size());
+  nodes_ = own_nodes_;
 }
 
-void TriangleBvh::add_face(const Triangle& face, const TriangleMesh& mesh,
-                           std::span<std::uint32_t> renamed) {
-  Triangle& out = faces_.emplace_back();
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::uint32_t& name = renamed[face[k]];
-    if (name == kUnnamed) {
-      name = static_cast<std::uint32_t>(positions_.size());
-      positions_.push_back(mesh.positions[face[k]]);
+void TriangleBvh::add_faces(const TriangleMesh& mesh) {
+  std::vector<Centre> centres = centres_of(mesh);
+  order(centres);
+  own_faces_.reserve(centres.size());
+  positions_.reserve(mesh.positions.size());
+  vertices_.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> renamed(mesh.positions.size(), kUnnamed);
+  for (const Centre& c : centres) {
+    Triangle& out = own_faces_.emplace_back(mesh.faces[c.face]);
+    for (std::uint32_t& v : out) {
+      std::uint32_t& name = renamed[v];
+      if (name == kUnnamed) {
+        name = static_cast<std::uint32_t>(positions_.size());
+        positions_.push_back(mesh.positions[v]);
+        vertices_.push_back(v);
+      }
+      v = name;
     }
-    out[k] = name;
   }
+  faces_ = own_faces_;
 }
 
 // Fills `node` for the triangles [first, first + count), children first: boxes come from below.
 void TriangleBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
   if (count <= kLeafSize) {
-    nodes_[node].first = first, nodes_[node].count = count;
-    bound_box(nodes_[node], first, count);
+    own_nodes_[node].first = first, own_nodes_[node].count = count;
+    bound_box(own_nodes_[node], first, count);
     return;
   }
-  const auto left = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(left + 2);
+  const auto left = static_cast<std::uint32_t>(own_nodes_.size());
+  own_nodes_.resize(left + 2);
   build(left, first, count / 2);
   build(left + 1, first + count / 2, count - count / 2);
-  nodes_[node].first = left, nodes_[node].count = 0;
-  bound_children(nodes_[node]);
+  own_nodes_[node].first = left, own_nodes_[node].count = 0;
+  bound_children(own_nodes_[node]);
 }
 
-TriangleBvh::TriangleBvh(const TriangleBvh& shape, const TriangleMesh& moved)
-    : nodes_(shape.nodes_),
-      faces_(shape.faces_),
-      positions_(shape.positions_.size()),
-      face_(shape.face_) {
-  for (std::uint32_t t = 0; t < size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k)
-      positions_[faces_[t][k]] = moved.positions[moved.faces[face_[t]][k]];
-  }
-  for (std::size_t i = nodes_.size(); i-- > 0;) {  // children stand behind their parent
-    Node& n = nodes_[i];
-    n.count > 0 ? bound_box(n, n.first, n.count) : bound_children(n);
-  }
+TriangleBvh::TriangleBvh(const TriangleBvh& shape, std::vector<Vec3> moved)
+    : nodes_(shape.nodes_), faces_(shape.faces_), positions_(std::move(moved)) {
+  for (std::size_t v = 0; v < positions_.size(); ++v)
+    slack_ = std::max(slack_, length(positions_[v] - shape.positions_[v]));
 }
 
 void TriangleBvh::bound_children(Node& node) const {
-  const Node &left = nodes_[node.first], &right = nodes_[node.first + 1];
+  const Node &left = own_nodes_[node.first], &right = own_nodes_[node.first + 1];
   for (std::size_t k = 0; k < 3; ++k) {
     node.low[k] = std::min(left.low[k], right.low[k]);
     node.high[k] = std::max(left.high[k], right.high[k]);
@@ -162,7 +157,7 @@ SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
   };
   std::array<Entry, 64> stack;  // one entry per level of a balanced tree
   std::size_t size = 0;
-  if (!empty()) stack[size++] = {0, squared_distance(nodes_[0], p)};
+  if (!empty()) stack[size++] = {0, squared_distance(nodes_[0], p, slack_)};
   while (size > 0) {
     const Entry top = stack[--size];
     if (top.squared >= best.squared) continue;
@@ -172,8 +167,8 @@ SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
       if (squared < best.squared) best = {squared, i};
     }
     if (node.count > 0) continue;
-    Entry near{node.first, squared_distance(nodes_[node.first], p)};
-    Entry far{node.first + 1, squared_distance(nodes_[node.first + 1], p)};
+    Entry near{node.first, squared_distance(nodes_[node.first], p, slack_)};
+    Entry far{node.first + 1, squared_distance(nodes_[node.first + 1], p, slack_)};
     if (far.squared < near.squared) std::swap(near, far);
     if (far.squared < best.squared) stack[size++] = far;
     if (near.squared < best.squared) stack[size++] = near;

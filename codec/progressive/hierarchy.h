@@ -42,7 +42,8 @@ struct Hierarchy {
   // [l]: all vertices of level l; empty where level l + 1 has the same lattice.
   std::vector<std::vector<Refined>> refined;
   RegionTree tree;
-  std::vector<std::uint16_t> leaf;  // of the tree, per fine vertex
+  std::vector<std::uint16_t> leaf;                    // of the tree, per fine vertex
+  std::vector<std::vector<std::uint32_t>> adjacency;  // per leaf: those next to it, ascending
 };
 
 }  // namespace vitrine

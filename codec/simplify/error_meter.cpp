@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -51,22 +52,30 @@ Sampled sample(std::span<const SurfaceSample> samples, const WitnessSurface& sur
 }
 
 // The worst samples tell where to look first: a large distance known early spares work later.
-void add_worst(HausdorffBound& bound, const Sampled& sampled, const TriangleBvh& source,
-               std::span<const CornerRegions> regions, const WitnessSurface& target) {
+void add_worst(HausdorffBound& bound, const Sampled& sampled, const RegionedSurface& source,
+               const WitnessSurface& target) {
   for (const Worst& w : sampled.worst) {
-    bound.choose(regions[w.triangle][0]);
+    bound.choose(source.regions(w.triangle)[0]);
     bound.know(std::sqrt(w.squared));
-    bound.add(source.triangle(w.triangle), target, w.nearest);
+    bound.add(source.bvh.triangle(w.triangle), target, w.nearest);
   }
 }
 
-// Of faces, in the order of the triangles of `bvh`.
-std::vector<CornerRegions> in_order(const TriangleBvh& bvh, std::span<const CornerRegions> faces) {
-  std::vector<CornerRegions> out;
-  out.reserve(faces.size());
-  for (std::uint32_t t = 0; t < faces.size(); ++t)
-    out.push_back(faces[bvh.face(t)]);
-  return out;
+// `regions` is per vertex of the mesh.
+RegionedSurface in_regions(const TriangleBvh& bvh, std::span<const std::uint16_t> regions) {
+  RegionedSurface surface{bvh, {}};
+  if (regions.empty()) return surface;
+  surface.region.reserve(bvh.vertices().size());
+  for (const std::uint32_t v : bvh.vertices())
+    surface.region.push_back(regions[v]);
+  return surface;
+}
+
+// So that the mesh goes once it is not needed any more.
+TriangleBvh consume(TriangleMesh mesh) {
+  TriangleBvh bvh(mesh);
+  mesh = {};
+  return bvh;
 }
 
 LevelError result(const HausdorffBound& bound, std::uint32_t regions, double rms) {
@@ -78,52 +87,44 @@ LevelError result(const HausdorffBound& bound, std::uint32_t regions, double rms
 
 }  // namespace
 
-struct ErrorMeter::Sides {
-  const TriangleBvh& level;
-  std::vector<CornerRegions> of_level, of_original;
-};
-
-ErrorMeter::ErrorMeter(const TriangleMesh& original)
-    : bvh_(original),
+ErrorMeter::ErrorMeter(TriangleMesh original)
+    : bvh_(consume(std::move(original))),
       surface_(bvh_),
       samples_(sample_surface(bvh_, kSamples, kSeed)),
       negligible_(kNegligible * diagonal(bvh_)) {}
 
-LevelRegions ErrorMeter::whole(const TriangleMesh& level) const {
-  LevelRegions one;
-  one.of_level.resize(level.faces.size());
-  one.of_original.resize(bvh_.size());
-  return one;
-}
-
-LevelError ErrorMeter::measure(const TriangleMesh& level, const LevelRegions& regions) const {
-  const TriangleBvh bvh(level);
+LevelError ErrorMeter::measure(TriangleMesh mesh, const LevelRegions& regions) const {
+  const TriangleBvh bvh = consume(std::move(mesh));
   const WitnessSurface surface(bvh);
-  const Sides sides{bvh, in_order(bvh, regions.of_level), in_order(bvh_, regions.of_original)};
+  const RegionedSurface level = in_regions(bvh, regions.of_level),
+                        original = in_regions(bvh_, regions.of_original);
   HausdorffBound bound(kTolerance, negligible_, regions.count);
-  const double rms = sample_both(sides, surface, bound);
-  const std::vector<std::uint16_t> settled = bound.add(bvh, sides.of_level, surface_);
-  bound.add(bvh_, sides.of_original, surface, settled);
+  const double rms = sample_both(level, original, surface, bound);
+  const std::vector<std::uint16_t> settled = bound.add(level, surface_);
+  bound.add(original, surface, settled);
   return result(bound, regions.count, rms);
 }
 
-LevelError ErrorMeter::measure_moved(const TriangleMesh& moved, const LevelRegions& regions) const {
-  const TriangleBvh bvh(bvh_, moved);
+LevelError ErrorMeter::measure_moved(const Move& move, const LevelRegions& regions) const {
+  std::vector<Vec3> moved;
+  moved.reserve(bvh_.positions().size());
+  std::ranges::transform(bvh_.positions(), std::back_inserter(moved), move);
+  const TriangleBvh bvh(bvh_, std::move(moved));
   const WitnessSurface surface(bvh, surface_);
-  const auto of_original = in_order(bvh_, regions.of_original);
-  const Sides sides{bvh, of_original, of_original};
+  const RegionedSurface original = in_regions(bvh_, regions.of_original),
+                        level{bvh, original.region};
   HausdorffBound bound(kTolerance, negligible_, regions.count);
-  const double rms = sample_both(sides, surface, bound);
-  bound.add_twins(surface_, surface, sides.of_original);
+  const double rms = sample_both(level, original, surface, bound);
+  bound.add_twins(surface_, surface, original);
   return result(bound, regions.count, rms);
 }
 
-double ErrorMeter::sample_both(const Sides& sides, const WitnessSurface& surface,
-                               HausdorffBound& bound) const {
-  const Sampled there = sample(sample_surface(sides.level, kSamples, kSeed), surface_);
+double ErrorMeter::sample_both(const RegionedSurface& level, const RegionedSurface& original,
+                               const WitnessSurface& surface, HausdorffBound& bound) const {
+  const Sampled there = sample(sample_surface(level.bvh, kSamples, kSeed), surface_);
   const Sampled back = sample(samples_, surface);
-  add_worst(bound, there, sides.level, sides.of_level, surface_);
-  add_worst(bound, back, bvh_, sides.of_original, surface);
+  add_worst(bound, there, level, surface_);
+  add_worst(bound, back, original, surface);
   return std::max(there.rms, back.rms);
 }
 

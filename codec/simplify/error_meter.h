@@ -2,6 +2,7 @@
 // How far each displayed level is from the original surface.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "codec/mesh/surface_sampler.h"
@@ -18,10 +19,10 @@ struct LevelError {
   std::vector<double> region_errors;  // max_error of each region; the largest is max_error
 };
 
-// The regions of a level, numbered from 0 on: per face of its own and of the original those of the
-// corners.
+// The regions of a level, numbered from 0 on: per vertex of its own and of the original. Empty:
+// there is one.
 struct LevelRegions {
-  std::vector<CornerRegions> of_level, of_original;
+  std::vector<std::uint16_t> of_level, of_original;
   std::uint32_t count = 1;
 };
 
@@ -29,27 +30,22 @@ struct LevelRegions {
 class ErrorMeter {
  public:
   // `original` is the unquantised input with at least one face, finite and with valid indices.
-  explicit ErrorMeter(const TriangleMesh& original);
+  explicit ErrorMeter(TriangleMesh original);
+  ErrorMeter(const ErrorMeter&) = delete;
 
-  // `level` is what is displayed: at least one face, model units. max_error is at most a sixth
+  // `mesh` is what a level displays: at least one face, model units. max_error is at most a sixth
   // above the true maximum (or 1e-6 of the diagonal), but for tangles (HausdorffBound).
-  LevelError measure(const TriangleMesh& level, const LevelRegions& regions) const;
-  LevelError measure(const TriangleMesh& level) const { return measure(level, whole(level)); }
+  LevelError measure(TriangleMesh mesh, const LevelRegions& regions = {}) const;
   // The same for the original with its vertices moved, by rounding say; fast for small moves.
-  LevelError measure_moved(const TriangleMesh& moved, const LevelRegions& regions) const;
-  LevelError measure_moved(const TriangleMesh& moved) const {
-    return measure_moved(moved, whole(moved));
-  }
+  using Move = std::function<Vec3(const Vec3&)>;
+  LevelError measure_moved(const Move& move, const LevelRegions& regions = {}) const;
 
   const TriangleBvh& original() const { return bvh_; }
 
  private:
   // Tells `bound` of the worst samples and what is around them; returns the rms distance.
-  struct Sides;
-  double sample_both(const Sides& sides, const WitnessSurface& surface,
-                     HausdorffBound& bound) const;
-  // One region.
-  LevelRegions whole(const TriangleMesh& level) const;
+  double sample_both(const RegionedSurface& level, const RegionedSurface& original,
+                     const WitnessSurface& surface, HausdorffBound& bound) const;
 
   TriangleBvh bvh_;
   WitnessSurface surface_;

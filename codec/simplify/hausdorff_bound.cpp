@@ -21,28 +21,35 @@ double squared_area(const Corners& t) {  // of the parallelogram
   return dot(normal, normal);
 }
 
-constexpr std::uint32_t kSeveral = 0xFFFF'FFFFu;
+constexpr std::uint16_t kSeveral = 0xFFFF;
 
 // How many of them are different; these come first.
-std::size_t kinds(const CornerRegions& r) {
+std::size_t kinds(const std::array<std::uint16_t, 3>& r) {
   return r[0] == r[1] ? 1 : r[1] == r[2] ? 2 : 3;
 }
 
+// The region of all triangles of a leaf, or kSeveral.
+std::uint16_t leaf_region(const RegionedSurface& surface, const TriangleBvh::Node& leaf) {
+  const std::uint16_t first = surface.regions(leaf.first)[0];
+  for (std::uint32_t t = leaf.first; t < leaf.first + leaf.count; ++t) {
+    const auto regions = surface.regions(t);
+    if (kinds(regions) > 1 || regions[0] != first) return kSeveral;
+  }
+  return first;
+}
+
 // Children come behind their parents.
-std::vector<std::uint32_t> node_regions(const TriangleBvh& bvh,
-                                        std::span<const CornerRegions> regions) {
-  std::vector<std::uint32_t> out(bvh.nodes().size(), kSeveral);
+std::vector<std::uint16_t> node_regions(const RegionedSurface& surface) {
+  const std::span<const TriangleBvh::Node> nodes = surface.bvh.nodes();
+  std::vector<std::uint16_t> out(nodes.size(), 0);
+  if (surface.region.empty()) return out;
   for (std::size_t i = out.size(); i-- > 0;) {
-    const TriangleBvh::Node& node = bvh.nodes()[i];
-    if (node.count == 0) {
-      if (out[node.first] == out[node.first + 1]) out[i] = out[node.first];
-      continue;
+    const TriangleBvh::Node& node = nodes[i];
+    if (node.count > 0) {
+      out[i] = leaf_region(surface, node);
+    } else {
+      out[i] = out[node.first] == out[node.first + 1] ? out[node.first] : kSeveral;
     }
-    const std::uint32_t first = regions[node.first][0];
-    const auto leaf = regions.subspan(node.first, node.count);
-    const bool same = std::ranges::all_of(
-        leaf, [&](const CornerRegions& r) { return kinds(r) == 1 && r[0] == first; });
-    if (same) out[i] = first;
   }
   return out;
 }
@@ -87,12 +94,13 @@ double HausdorffBound::bound() const {
 
 // Points at the same place of twin triangles are no farther apart than the farthest corners are.
 void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& other,
-                               std::span<const CornerRegions> regions) {
+                               const RegionedSurface& surface) {
   for (std::uint32_t t = 0; t < one.size(); ++t) {
     const Corners a = one.triangle(t), b = other.triangle(t);
     const double apart = std::max({length(a.a - b.a), length(a.b - b.b), length(a.c - b.c)});
-    for (std::size_t k = 0; k < kinds(regions[t]); ++k) {
-      region_ = regions[t][k];
+    const auto regions = surface.regions(t);
+    for (std::size_t k = 0; k < kinds(regions); ++k) {
+      region_ = regions[k];
       if (apart <= limit()) {
         raise(apart);
       } else {
@@ -104,28 +112,26 @@ void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& 
 }
 
 struct HausdorffBound::Visit {
-  const TriangleBvh& source;
-  std::span<const CornerRegions> regions;
+  const RegionedSurface& source;
   std::span<const std::uint16_t> settled;
-  std::vector<std::uint32_t> node_regions;  // per node: the region of all below it, or kSeveral
+  std::vector<std::uint16_t> node_regions;  // per node: the region of all below it, or kSeveral
   PatchCover patches;
 };
 
-std::vector<std::uint16_t> HausdorffBound::add(const TriangleBvh& source,
-                                               std::span<const CornerRegions> regions,
+std::vector<std::uint16_t> HausdorffBound::add(const RegionedSurface& source,
                                                const WitnessSurface& target,
                                                std::span<const std::uint16_t> settled) {
   target_ = &target;
   last_ = 0;
-  Visit all{source, regions, settled, node_regions(source, regions), PatchCover(target)};
+  Visit all{source, settled, node_regions(source), PatchCover(target)};
   visit(all, 0);
   return std::move(all.patches).marks();
 }
 
 void HausdorffBound::visit(Visit& all, std::uint32_t index) {
-  const TriangleBvh::Node& node = all.source.nodes()[index];
+  const TriangleBvh::Node& node = all.source.bvh.nodes()[index];
   if (all.node_regions[index] != kSeveral) {
-    region_ = static_cast<std::uint16_t>(all.node_regions[index]);
+    region_ = all.node_regions[index];
     if (settle_box(node)) return;
   }
   if (node.count != 0) return visit_leaf(all, node);
@@ -136,9 +142,10 @@ void HausdorffBound::visit(Visit& all, std::uint32_t index) {
 void HausdorffBound::visit_leaf(Visit& all, const TriangleBvh::Node& node) {
   bool near = false;
   for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-    const Corners triangle = all.source.triangle(t);
-    for (std::size_t k = 0; k < kinds(all.regions[t]); ++k) {
-      region_ = all.regions[t][k];
+    const Corners triangle = all.source.bvh.triangle(t);
+    const auto regions = all.source.regions(t);
+    for (std::size_t k = 0; k < kinds(regions); ++k) {
+      region_ = regions[k];
       if (!all.settled.empty() && all.settled[t] == region_ + 1) continue;
       if (!near) approach(centre_of(triangle));
       near = true;

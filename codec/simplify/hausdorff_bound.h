@@ -24,12 +24,21 @@
 
 namespace vitrine {
 
-// The regions of a triangle's corners: first those that differ, then repetitions of the last.
-using CornerRegions = std::array<std::uint16_t, 3>;
+// A surface in regions. A triangle counts for the regions of its corners.
+struct RegionedSurface {
+  const TriangleBvh& bvh;
+  std::vector<std::uint16_t> region;  // per vertex of `bvh`, from 0 on; empty: all are in region 0
 
-constexpr CornerRegions corner_regions(std::uint16_t a, std::uint16_t b, std::uint16_t c) {
-  return a == b ? CornerRegions{a, c, c} : a == c ? CornerRegions{a, b, b} : CornerRegions{a, b, c};
-}
+  // Of a triangle's corners: first those that differ, then repetitions of the last.
+  std::array<std::uint16_t, 3> regions(std::uint32_t triangle) const {
+    if (region.empty()) return {};
+    const Triangle& f = bvh.faces()[triangle];
+    const std::uint16_t a = region[f[0]], b = region[f[1]], c = region[f[2]];
+    if (a == b) return {a, c, c};
+    if (a == c) return {a, b, b};
+    return {a, b, c};
+  }
+};
 
 class HausdorffBound {
  public:
@@ -51,17 +60,16 @@ class HausdorffBound {
   // `near`: a triangle of it near by.
   void add(const Corners& triangle, const WitnessSurface& target, std::uint32_t near);
 
-  // Adds the distances between two surfaces of the same faces in the same order, both ways. A
-  // triangle counts for the regions of its corners, here and below.
+  // Adds the distances between two surfaces of the same faces in the same order, both ways.
+  // `surface` tells the regions of both.
   void add_twins(const WitnessSurface& one, const WitnessSurface& other,
-                 std::span<const CornerRegions> regions);
+                 const RegionedSurface& surface);
 
   // Adds the distances from every point of `source` to `target`, save for the triangles marked in
   // `settled` (empty: none). Returns marks for the triangles of `target`: 1 more than a region
   // within whose bound their distance to `source` is found to be on the way, or 0; for the call in
   // the other direction.
-  std::vector<std::uint16_t> add(const TriangleBvh& source, std::span<const CornerRegions> regions,
-                                 const WitnessSurface& target,
+  std::vector<std::uint16_t> add(const RegionedSurface& source, const WitnessSurface& target,
                                  std::span<const std::uint16_t> settled = {});
 
   // No distance added so far is larger. At most tolerance * the largest one, or `negligible`, or,

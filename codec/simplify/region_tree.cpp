@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace vitrine {
 namespace {
@@ -77,6 +78,22 @@ RegionLabels label_regions(std::span<const Vec3i> positions, std::uint32_t capac
   Builder(positions, std::max(capacity, count / (kMostLeaves / 2)), labels).build(vertices);
   labels.tree.link();
   return labels;
+}
+
+std::vector<std::vector<std::uint32_t>> leaf_adjacency(std::span<const Triangle> faces,
+                                                       const RegionLabels& labels) {
+  std::vector<std::set<std::uint32_t>> sets(labels.tree.leaves());
+  for (const Triangle& t : faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint16_t a = labels.leaf[t[k]], b = labels.leaf[t[(k + 1) % 3]];
+      if (a != b) sets[a].insert(b), sets[b].insert(a);
+    }
+  }
+  std::vector<std::vector<std::uint32_t>> adjacency;
+  adjacency.reserve(sets.size());
+  for (const auto& set : sets)
+    adjacency.emplace_back(set.begin(), set.end());
+  return adjacency;
 }
 
 void RegionJoiner::join(std::span<const VertexId> live, std::uint32_t most,

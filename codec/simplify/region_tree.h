@@ -23,6 +23,10 @@ struct RegionLabels {
 // larger one is taken.
 RegionLabels label_regions(std::span<const Vec3i> positions, std::uint32_t capacity);
 
+// Per leaf those that it shares an edge with, ascending.
+std::vector<std::vector<std::uint32_t>> leaf_adjacency(std::span<const Triangle> faces,
+                                                       const RegionLabels& labels);
+
 // Follows the levels from fine to coarse.
 class RegionJoiner {
  public:

@@ -216,6 +216,7 @@ Expected<std::optional<Hierarchy>> try_simplify(const LatticeMesh& fine,
   const std::uint32_t capacity = options.region_vertices;
   RegionLabels labels = label_regions(fine.positions, capacity == 0 ? UINT32_MAX : capacity);
   out.leaf = labels.leaf;
+  out.adjacency = leaf_adjacency(fine.faces, labels);
 
   Surface surface = make_surface(fine, std::move(*mesh));
   surface.region = std::move(labels.leaf);

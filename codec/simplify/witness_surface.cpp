@@ -30,7 +30,9 @@ Vec3 unit_inward(const Corners& t, std::uint32_t k) {
 }  // namespace
 
 WitnessSurface::WitnessSurface(const TriangleBvh& bvh)
-    : bvh_(&bvh), across_(face_neighbours(bvh.faces(), bvh.vertex_count())) {}
+    : bvh_(&bvh),
+      own_across_(face_neighbours(bvh.faces(), bvh.positions().size())),
+      across_(own_across_) {}
 
 WitnessSurface::WitnessSurface(const TriangleBvh& bvh, const WitnessSurface& shape)
     : bvh_(&bvh), across_(shape.across_) {}

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/mesh/triangle_bvh.h"
@@ -14,8 +15,9 @@ class WitnessSurface {
  public:
   // `bvh` outlives this.
   explicit WitnessSurface(const TriangleBvh& bvh);
-  // `bvh` was made from that of `shape` for moved vertices, and outlives this.
+  // `bvh` was made from that of `shape` for moved vertices; both outlive this.
   WitnessSurface(const TriangleBvh& bvh, const WitnessSurface& shape);
+  WitnessSurface(WitnessSurface&&) = default;
 
   std::size_t size() const { return across_.size(); }
   Corners triangle(std::uint32_t t) const { return bvh_->triangle(t); }
@@ -50,7 +52,8 @@ class WitnessSurface {
 
  private:
   const TriangleBvh* bvh_;
-  std::vector<std::array<std::uint32_t, 3>> across_;  // half-edges
+  std::vector<std::array<std::uint32_t, 3>> own_across_;
+  std::span<const std::array<std::uint32_t, 3>> across_;  // half-edges; own, or the shape's
 };
 
 }  // namespace vitrine

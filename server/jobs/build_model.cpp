@@ -9,7 +9,6 @@
 #include <cmath>
 #include <deque>
 #include <future>
-#include <memory>
 
 #include "codec/base/model_encoder.h"
 #include "codec/import/repair.h"
@@ -59,34 +58,34 @@ int automatic_bits(const TriangleMesh& mesh) {
 // Measures levels, `threads` at a time, while the next ones are being coded.
 class LevelErrors {
  public:
-  // `fine` is `original` rounded to the lattice.
-  LevelErrors(const TriangleMesh& original, const LatticeMesh& fine, const Hierarchy& hierarchy,
-              unsigned threads)
-      : meter_(original),
-        fine_(fine),
-        lattice_(fine.lattice),
+  LevelErrors(TriangleMesh original, const Hierarchy& hierarchy, unsigned threads)
+      : meter_(std::move(original)),
+        lattice_(hierarchy.base.lattice),
         tree_(hierarchy.tree),
         leaf_(hierarchy.leaf),
         threads_(threads) {}
 
-  // `last`: full resolution is shown as it is, which is `fine`.
+  // `last`: full resolution is shown as it is, the original rounded to the lattice.
   void add(const MeshState& level, bool last) {
-    while (pending_.size() + 1 >= threads_ && !pending_.empty())
-      settle();
+    const std::size_t weight = make_room(last ? 0 : level.connectivity.face_count());
     double filter = last ? 0 : fit_display_filter(level, lattice_, meter_.original());
     filter = static_cast<float>(filter);  // as the header stores it
     filters_.push_back(filter);
     const auto how = threads_ > 1 ? std::launch::async : std::launch::deferred;
     if (last) {
-      pending_.push_back(std::async(how, [this, regions = regions_of_fine()] {
-        return meter_.measure_moved(to_model(fine_), regions);
-      }));
+      const auto measure = [this, regions = regions_of({})] {
+        return meter_.measure_moved(
+            [this](const Vec3& p) { return lattice_.to_model(lattice_.to_lattice(p)); }, regions);
+      };
+      pending_.push_back({std::async(how, measure), weight});
     } else {
-      auto mesh = displayed(level, filter);
-      pending_.push_back(std::async(how, [this, mesh, regions = regions_of(level, mesh->faces)] {
-        return meter_.measure(*mesh, regions);
-      }));
+      auto measure = [this, mesh = displayed(level, filter),
+                      regions = regions_of(leaves_of(level))]() mutable {
+        return meter_.measure(std::move(mesh), regions);
+      };
+      pending_.push_back({std::async(how, std::move(measure)), weight});
     }
+    if (threads_ == 1) settle();
   }
 
   // Waits for all levels and enters what they showed.
@@ -122,14 +121,23 @@ class LevelErrors {
     chunk.max_error += std::sqrt(0.75) * cells * manifest.lattice.step;
   }
 
-  std::shared_ptr<const TriangleMesh> displayed(const MeshState& level, double filter) const {
-    auto mesh = std::make_shared<TriangleMesh>();
+  // Returns what a level of so many faces weighs. Levels that are measured at the same time take
+  // about as much memory as the original does.
+  std::size_t make_room(std::size_t faces) {
+    const std::size_t original = meter_.original().size(), weight = faces + original / kAtOnce;
+    while (!pending_.empty() && (pending_.size() + 1 >= threads_ || weight_ + weight > original))
+      settle();
+    weight_ += weight;
+    return weight;
+  }
+
+  TriangleMesh displayed(const MeshState& level, double filter) const {
+    TriangleMesh mesh;
     const LevelInfo shown{.display_filter = filter, .shift = level.shift};
-    mesh->positions.reserve(level.vertex_count());
+    mesh.positions.reserve(level.vertex_count());
     for (VertexId v = 0; v < level.vertex_count(); ++v)
-      mesh->positions.push_back(lattice_.origin +
-                                display_position(level, v, shown) * lattice_.step);
-    mesh->faces = level.real_faces();
+      mesh.positions.push_back(lattice_.origin + display_position(level, v, shown) * lattice_.step);
+    mesh.faces = level.real_faces();
     return mesh;
   }
 
@@ -145,45 +153,46 @@ class LevelErrors {
     return of_leaf;
   }
 
-  LevelRegions regions_of_fine() const {
-    LevelRegions out{.of_level = {}, .of_original = {}, .count = 0};
+  static std::vector<std::uint16_t> leaves_of(const MeshState& level) {
+    std::vector<std::uint16_t> leaves;
+    leaves.reserve(level.vertex_count());
+    for (VertexId v = 0; v < level.vertex_count(); ++v)
+      leaves.push_back(level.vertex[v].region);
+    return leaves;
+  }
+
+  // `leaves` is per vertex of the level.
+  LevelRegions regions_of(std::vector<std::uint16_t> leaves) const {
+    LevelRegions out{.of_level = std::move(leaves), .of_original = leaf_, .count = 0};
     const auto of_leaf = number_regions(out.count);
-    const auto region = [&](VertexId v) { return of_leaf[leaf_[v]]; };
-    out.of_original = corners_of(fine_.faces, region);
-    return out;
-  }
-
-  LevelRegions regions_of(const MeshState& level, const std::vector<Triangle>& faces) const {
-    LevelRegions out = regions_of_fine();
-    std::uint32_t count = 0;
-    const auto of_leaf = number_regions(count);
-    const auto region = [&](VertexId v) { return of_leaf[level.vertex[v].region]; };
-    out.of_level = corners_of(faces, region);
-    return out;
-  }
-
-  template <class Region>
-  static std::vector<CornerRegions> corners_of(const std::vector<Triangle>& faces,
-                                               const Region& region) {
-    std::vector<CornerRegions> out;
-    out.reserve(faces.size());
-    for (const Triangle& f : faces)
-      out.push_back(corner_regions(region(f[0]), region(f[1]), region(f[2])));
+    if (out.count == 1) return {};
+    for (auto* regions : {&out.of_level, &out.of_original}) {
+      for (std::uint16_t& region : *regions)
+        region = of_leaf[region];
+    }
     return out;
   }
 
   void settle() {
-    errors_.push_back(pending_.front().get());
+    errors_.push_back(pending_.front().error.get());
+    weight_ -= pending_.front().weight;
     pending_.pop_front();
   }
 
+  static constexpr std::size_t kAtOnce = 8;  // levels at most
+
+  struct Pending {
+    std::future<LevelError> error;
+    std::size_t weight;
+  };
+
   ErrorMeter meter_;
-  const LatticeMesh& fine_;
   Lattice lattice_;
   RegionTree tree_;
-  std::vector<std::uint16_t> leaf_;  // per vertex of `fine`
+  std::vector<std::uint16_t> leaf_;  // per vertex of the original
   unsigned threads_;
-  std::deque<std::future<LevelError>> pending_;
+  std::deque<Pending> pending_;
+  std::size_t weight_ = 0;          // of all pending
   std::vector<double> filters_;     // per level
   std::vector<LevelError> errors_;  // per settled level
 };
@@ -199,15 +208,15 @@ SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& op
   return how;
 }
 
-Expected<EncodedModel> encode(Hierarchy hierarchy, const LatticeMesh& fine, LevelErrors& errors,
+Expected<EncodedModel> encode(Hierarchy hierarchy, LevelErrors& errors,
                               const BuildProgress& progress) {
   const std::size_t levels = hierarchy.levels.size();
+  const auto vertices = static_cast<double>(hierarchy.leaf.size());
   std::size_t level = 0;
-  auto model = encode_model(std::move(hierarchy), fine, [&](const MeshState& mesh) {
+  auto model = encode_model(std::move(hierarchy), [&](const MeshState& mesh) {
     errors.add(mesh, level == levels);
     if (level++ == 0 || !progress) return;
-    const double share =
-        static_cast<double>(mesh.vertex_count()) / static_cast<double>(fine.positions.size());
+    const double share = static_cast<double>(mesh.vertex_count()) / vertices;
     progress("encode", 0.5 + 0.4 * share);
   });
   if (model) errors.finish(model->manifest);
@@ -245,14 +254,16 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
   if (progress) progress("read", 0.1);
 
   const int bits = options.bits != 0 ? options.bits : automatic_bits(mesh);
-  const LatticeMesh fine = quantise(mesh, fit_lattice(mesh.positions, bits));
+  LatticeMesh fine = quantise(mesh, fit_lattice(mesh.positions, bits));
+  mesh.faces = {};
   auto hierarchy = simplify(fine, simplify_options(fine, options, progress));
   if (!hierarchy) return tl::unexpected(hierarchy.error());
   report.seconds.simplify = watch.lap();
 
-  LevelErrors errors(mesh, fine, *hierarchy, options.threads);
-  mesh = {};  // the error bounds have their own copy
-  auto model = encode(std::move(*hierarchy), fine, errors, progress);
+  mesh.faces = std::move(fine.faces);
+  fine = {};
+  LevelErrors errors(std::move(mesh), *hierarchy, options.threads);
+  auto model = encode(std::move(*hierarchy), errors, progress);
   if (!model) return tl::unexpected(model.error());
   report.manifest = std::move(model->manifest);
   report.manifest.unit = unit;

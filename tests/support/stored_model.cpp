@@ -21,7 +21,7 @@ T value_of(Expected<T> result, const char* step) {
 StoredModel store_model(const LatticeMesh& fine, const SimplifyOptions& options) {
   Hierarchy hierarchy = value_of(simplify(fine, options), "simplify");
   EncodedModel encoded =
-      value_of(encode_model(std::move(hierarchy), fine, [](const MeshState&) {}), "encoder");
+      value_of(encode_model(std::move(hierarchy), [](const MeshState&) {}), "encoder");
   StoredModel model{.manifest = {}, .base = {}, .file = write_header(encoded.manifest)};
   model.manifest = value_of(parse_header(model.file), "header");
   model.file.insert(model.file.end(), encoded.body.begin(), encoded.body.end());

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "codec/mesh/rigid_alignment.h"
@@ -80,11 +81,28 @@ TEST(TriangleBvh, FindsTheSameDistanceAsATestOfEveryTriangle) {
 TEST(TriangleBvh, HoldsEveryFaceOnce) {
   const TriangleMesh mesh = random_soup(5, 333);
   const TriangleBvh bvh(mesh);
-  std::vector<bool> seen(mesh.faces.size(), false);
-  for (std::uint32_t t = 0; t < mesh.faces.size(); ++t) {
-    EXPECT_FALSE(seen[bvh.face(t)]);
-    seen[bvh.face(t)] = true;
-    EXPECT_EQ(bvh.triangle(t).a, mesh.positions[mesh.faces[bvh.face(t)][0]]);
+  std::vector<Triangle> held;
+  for (const Triangle& f : bvh.faces())
+    held.push_back({bvh.vertices()[f[0]], bvh.vertices()[f[1]], bvh.vertices()[f[2]]});
+  EXPECT_TRUE(std::ranges::is_permutation(held, mesh.faces));
+  for (std::uint32_t t = 0; t < bvh.size(); ++t)
+    EXPECT_EQ(bvh.triangle(t).a, mesh.positions[held[t][0]]);
+}
+
+TEST(TriangleBvh, FindsTheSameDistanceAfterItsVerticesMoved) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1, 2);
+  const TriangleBvh shape(random_soup(4, 300));
+  std::vector<Vec3> places(shape.positions().begin(), shape.positions().end());
+  for (Vec3& p : places)
+    p += Vec3{unit(random), unit(random), unit(random)} * 0.1;
+  const TriangleBvh moved(shape, places);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p{unit(random), unit(random), unit(random)};
+    double best = 1e300;
+    for (std::uint32_t t = 0; t < moved.size(); ++t)
+      best = std::min(best, squared_distance(moved.triangle(t), p));
+    EXPECT_EQ(moved.closest(p).squared, best);
   }
 }
 

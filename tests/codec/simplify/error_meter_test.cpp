@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 #include "codec/mesh/surface_distance.h"
@@ -67,13 +68,15 @@ TEST(ErrorMeter, BoundIsTrueAndTightAfterQuantisationAlone) {
 TEST(ErrorMeter, BoundIsTrueAndTightForMovedVerticesOfKnownOrigin) {
   const TriangleMesh scan = shipped_model("demosthenes.obj");
   for (int bits : {8, 12}) {
-    const TriangleMesh rounded = to_model(quantise(scan, fit_lattice(scan.positions, bits)));
-    expect_tight(ErrorMeter(scan).measure_moved(rounded), rounded, scan);
+    const Lattice lattice = fit_lattice(scan.positions, bits);
+    const auto round = [&](const Vec3& p) { return lattice.to_model(lattice.to_lattice(p)); };
+    expect_tight(ErrorMeter(scan).measure_moved(round), to_model(quantise(scan, lattice)), scan);
   }
-  TriangleMesh slid = sheet(60, 50);  // along itself: vertices move much, the surface hardly
-  for (Vec3& p : slid.positions)
-    p.x += 0.4;
-  expect_tight(ErrorMeter(sheet(60, 50)).measure_moved(slid), slid, sheet(60, 50));
+  // Along itself: vertices move much, the surface hardly.
+  const auto slide = [](const Vec3& p) { return p + Vec3{0.4, 0, 0}; };
+  TriangleMesh slid = sheet(60, 50);
+  std::ranges::transform(slid.positions, slid.positions.begin(), slide);
+  expect_tight(ErrorMeter(sheet(60, 50)).measure_moved(slide), slid, sheet(60, 50));
 }
 
 TEST(ErrorMeter, BoundIsTrueAndTightWithBoundariesAndHandles) {
@@ -83,23 +86,19 @@ TEST(ErrorMeter, BoundIsTrueAndTightWithBoundariesAndHandles) {
 }
 
 // The faces with a corner in a region.
-TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<CornerRegions>& regions,
+TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::uint16_t>& regions,
                      std::uint16_t which) {
   TriangleMesh part{.positions = mesh.positions, .faces = {}, .colours = {}};
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (std::ranges::count(regions[f], which) > 0) part.faces.push_back(mesh.faces[f]);
-  }
+  const auto is_in = [&](VertexId v) { return regions[v] == which; };
+  std::ranges::copy_if(mesh.faces, std::back_inserter(part.faces),
+                       [&](const Triangle& f) { return std::ranges::any_of(f, is_in); });
   return part;
 }
 
-std::vector<CornerRegions> in_quadrants(const TriangleMesh& mesh) {
-  const auto quadrant = [&](VertexId v) {
-    const Vec3& p = mesh.positions[v];
-    return static_cast<std::uint16_t>((p.x > 0 ? 1 : 0) + (p.y > 0 ? 2 : 0));
-  };
-  std::vector<CornerRegions> regions;
-  for (const Triangle& f : mesh.faces)
-    regions.push_back(corner_regions(quadrant(f[0]), quadrant(f[1]), quadrant(f[2])));
+std::vector<std::uint16_t> in_quadrants(const TriangleMesh& mesh) {
+  std::vector<std::uint16_t> regions;
+  for (const Vec3& p : mesh.positions)
+    regions.push_back(static_cast<std::uint16_t>((p.x > 0 ? 1 : 0) + (p.y > 0 ? 2 : 0)));
   return regions;
 }
 
