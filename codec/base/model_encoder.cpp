@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/base/model_encoder.h"
 
+#include <algorithm>
+
 #include "codec/base/base_encoder.h"
 #include "codec/progressive/layer_encoder.h"
 
@@ -10,6 +12,8 @@ namespace {
 Manifest frame_of(const Hierarchy& hierarchy) {
   Manifest m{.lattice = hierarchy.base.lattice, .placement = hierarchy.placement};
   m.coloured = !hierarchy.base_colours.empty();
+  m.births =
+      std::ranges::any_of(hierarchy.births, [](const auto& level) { return !level.empty(); });
   m.loops = hierarchy.loops;
   m.tree = hierarchy.tree;
   m.adjacency = hierarchy.adjacency;
@@ -45,6 +49,7 @@ void add_chunk(const EncodedChunk& chunk, std::uint32_t level, EncodedModel& mod
                                    .node = chunk.node,
                                    .length = chunk.bytes.size(),
                                    .splits = chunk.splits,
+                                   .newborn = chunk.newborn,
                                    .sha256 = sha256(chunk.bytes)});
   model.body.insert(model.body.end(), chunk.bytes.begin(), chunk.bytes.end());
 }
@@ -82,6 +87,7 @@ Expected<EncodedModel> encode_model(Hierarchy hierarchy, const LevelSink& on_lev
     for (const EncodedChunk& chunk : *chunks)
       add_chunk(chunk, level, model);
     hierarchy.levels[level - 1] = {};
+    hierarchy.births[level - 1] = {};
     add_to_boxes(encoder->mesh(), level + 1, tree);
     add_level(encoder->mesh(), model.manifest);
     on_level(encoder->mesh());

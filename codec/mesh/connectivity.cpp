@@ -243,4 +243,43 @@ void Connectivity::unsplit(VertexId v) {
   corner_at_.pop_back();
 }
 
+void Connectivity::append(Connectivity part) {
+  if (face_count() == 0) {
+    *this = std::move(part);
+    return;
+  }
+  const VertexId first = vertex_count(), first_loop = loop_count();
+  const auto shift = static_cast<Corner>(vertex_.size());
+  for (Corner c = 0; c < part.vertex_.size(); ++c) {
+    const VertexId v = part.vertex_[c];
+    vertex_.push_back(v + (is_virtual(v) ? first_loop : first));
+    swing_.push_back(part.swing_[c] + shift);
+  }
+  for (VertexId v = 0; v < part.vertex_count(); ++v)
+    corner_at_.push_back(part.corner_at_[v] + shift);
+  loop_length_.insert(loop_length_.end(), part.loop_length_.begin(), part.loop_length_.end());
+}
+
+void Connectivity::drop(std::uint32_t vertices, std::uint32_t faces, std::uint32_t loops) {
+  vertex_.resize(vertex_.size() - 3 * std::size_t{faces}, kNoCorner);
+  swing_.resize(vertex_.size(), kNoCorner);
+  corner_at_.resize(corner_at_.size() - vertices, kNoCorner);
+  loop_length_.resize(loop_length_.size() - loops);
+}
+
+void Connectivity::erase(VertexId v) {
+  const Corner first = corner_at_[v];
+  Corner c = first;
+  do {
+    const Corner corner = c;
+    c = swing(c);
+    for (const Corner k : {corner, next(corner), prev(corner)}) {
+      if (vertex_[k] == kNoCorner) break;  // it went with another of its vertices
+      add_valence(vertex_[k], -1);
+      vertex_[k] = kNoCorner;
+    }
+  } while (c != first);
+  corner_at_[v] = kNoCorner;
+}
+
 }  // namespace vitrine

@@ -86,6 +86,14 @@ class Connectivity {
   // Takes back the newest split; v is the vertex that was split. O(valence).
   void unsplit(VertexId v);
 
+  // Adds the components of `part`, of which no face is dead: its vertices, faces and loops are
+  // numbered behind those that are there.
+  void append(Connectivity part);
+  // Takes back the newest vertices, faces and loops, which are whole components.
+  void drop(std::uint32_t vertices, std::uint32_t faces, std::uint32_t loops);
+  // The faces of `v` die, and v with them; its component is valid again once all of it is gone.
+  void erase(VertexId v);
+
  private:
   bool corner_at_face_dead(std::uint32_t face) const { return vertex_[3 * face] == kNoCorner; }
   // Makes a and b opposite.

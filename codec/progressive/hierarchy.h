@@ -8,6 +8,7 @@
 
 #include "codec/mesh/connectivity.h"
 #include "codec/mesh/triangle_mesh.h"
+#include "codec/progressive/base_mesh.h"
 #include "codec/progressive/manifest.h"
 
 namespace vitrine {
@@ -30,15 +31,21 @@ struct Refined {
   Vec3i cell;
 };
 
+// A small component as it is when a level brings it.
+struct Component {
+  BaseMesh mesh;              // cells of that level
+  std::vector<VertexId> ids;  // fine id of each vertex
+};
+
 struct Hierarchy {
   Placement placement = Placement::kMidpoint;
-  LatticeMesh base;                 // compacted: real faces, cells of level 0, no colours
-  std::vector<Vec3i> base_colours;  // YCoCg-R per base vertex; empty where there are none
-  std::vector<VertexId> base_ids;   // fine id of each base vertex
-  std::uint32_t loops = 0;          // boundary loops; apexes name them in the fine mesh's order
-  std::vector<std::uint32_t> loop_member;  // per loop: a base vertex on it
-  std::vector<CollapseLevel> levels;       // [0] leads from the base to level 1 (coarse to fine)
-  std::vector<std::uint32_t> shift;        // of each level's lattice (cell.h); the base first
+  LatticeMesh base;                   // compacted: real faces, cells of level 0, no colours
+  std::vector<Vec3i> base_colours;    // YCoCg-R per base vertex; empty where there are none
+  std::vector<VertexId> base_ids;     // fine id of each base vertex
+  std::uint32_t loops = 0;            // boundary loops of the fine mesh
+  std::vector<CollapseLevel> levels;  // [0] leads from the base to level 1 (coarse to fine)
+  std::vector<std::vector<Component>> births;  // [l]: what level l + 1 has and level l has not
+  std::vector<std::uint32_t> shift;            // of each level's lattice (cell.h); the base first
   // [l]: all vertices of level l; empty where level l + 1 has the same lattice.
   std::vector<std::vector<Refined>> refined;
   RegionTree tree;

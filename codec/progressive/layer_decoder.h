@@ -11,11 +11,16 @@
 
 namespace vitrine {
 
-// Decodes one chunk into `mesh` and returns the splits it applied, in coded order. `node` is the
-// chunk's region in `tree`; where that forks in the next level, the chunk says which child each
-// vertex goes to.
+// What a chunk did, in coded order.
+struct LayerChange {
+  ChunkSplits splits;
+  std::vector<Newborn> components;  // behind the splits
+};
+
+// Decodes one chunk into `mesh`. `node` is the chunk's region in `tree`; where that forks in the
+// next level, the chunk says which child each vertex goes to.
 // Safe on hostile bytes; after an error `mesh` is a manifold in memory, but of no use.
-Expected<ChunkSplits> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
+Expected<LayerChange> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
                                    std::uint32_t node,
                                    std::span<const std::uint8_t> bytes) noexcept;
 

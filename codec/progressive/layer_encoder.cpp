@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/progressive/layer_encoder.h"
 
+#include <algorithm>
+#include <functional>
+#include <utility>
+
 namespace vitrine {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
-VertexId virtual_neighbour(const Connectivity& mesh, VertexId v) {
-  Corner c = mesh.corner_at(v);
-  while (!is_virtual(mesh.vertex(next(c))))
-    c = mesh.swing(c);
-  return mesh.vertex(next(c));
+// Components come in the order of where they begin, so that each is near the one before.
+void put_births_in_order(std::vector<const Component*>& births) {
+  const auto begin = [](const Component* c) {
+    const std::uint32_t v = BirthReplay::first_vertex(*c);
+    return std::pair(c->mesh.positions[v], c->ids[v]);
+  };
+  std::ranges::sort(births, std::less<>(), begin);
 }
 
 }  // namespace
@@ -26,10 +32,6 @@ Expected<LayerEncoder> LayerEncoder::start(const Hierarchy& hierarchy, const Bas
   encoder.collapse_of_.assign(hierarchy.leaf.size(), kNone);
   for (VertexId v = 0; v < encoder.fine_.size(); ++v)
     encoder.state_[encoder.fine_[v]] = v;
-  for (const std::uint32_t member : hierarchy.loop_member) {
-    const VertexId v = encoder.state_[hierarchy.base_ids[member]];
-    encoder.loop_.push_back(virtual_neighbour(encoder.mesh_.connectivity, v));
-  }
   return encoder;
 }
 
@@ -41,12 +43,19 @@ std::vector<EncodedChunk> LayerEncoder::begin_level() {
     const RegionNode& region = hierarchy_->tree.nodes[node];
     for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf)
       chunk_of[leaf] = chunks.size();
-    chunks.push_back({.node = node, .splits = 0, .bytes = {}});
+    chunks.push_back({.node = node, .births = {}, .bytes = {}});
   }
   for (std::uint32_t k = 0; k < collapses.size(); ++k) {
     collapse_of_[collapses[k].v1] = k;
     ++chunks[chunk_of[hierarchy_->leaf[collapses[k].v1]]].splits;
   }
+  for (const Component& component : hierarchy_->births[level_ - 1]) {
+    EncodedChunk& chunk = chunks[chunk_of[hierarchy_->leaf[component.ids[0]]]];
+    chunk.births.push_back(&component);
+    chunk.newborn += static_cast<std::uint32_t>(component.ids.size());
+  }
+  for (EncodedChunk& chunk : chunks)
+    put_births_in_order(chunk.births);
   cell_.resize(hierarchy_->refined[level_ - 1].empty() ? 0 : hierarchy_->leaf.size());
   for (const Refined& r : hierarchy_->refined[level_ - 1])
     cell_[r.vertex] = r.cell;
@@ -66,7 +75,7 @@ Expected<std::vector<EncodedChunk>> LayerEncoder::encode_level() {
       return tl::unexpected(ok.error());
     }
     chunk.bytes = coder.finish();
-    while (chunk.splits > most_splits(chunk.bytes.size()))
+    while (chunk.splits + chunk.newborn > most_born(chunk.bytes.size()))
       chunk.bytes.push_back(0);
   }
   end_level();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "codec/progressive/birth_replay.h"
 #include "codec/progressive/hierarchy.h"
 #include "codec/progressive/mesh_state.h"
 #include "codec/progressive/region_fork.h"
@@ -15,7 +16,8 @@ namespace vitrine {
 
 struct EncodedChunk {
   std::uint32_t node = 0;  // of the tree: the region
-  std::uint32_t splits = 0;
+  std::uint32_t splits = 0, newborn = 0;
+  std::vector<const Component*> births;  // of the hierarchy, in coded order
   std::vector<std::uint8_t> bytes;
 };
 
@@ -45,11 +47,13 @@ class LayerEncoder {
   LayerEncoder(const Hierarchy& hierarchy, MeshState mesh)
       : hierarchy_(&hierarchy), mesh_(std::move(mesh)) {}
 
+  template <class Coder>
+  Expected<void> code_births(Coder& coder, const ChunkFrame& frame, const EncodedChunk& chunk);
+
   const Hierarchy* hierarchy_;
   MeshState mesh_;
   std::vector<VertexId> fine_;              // fine id of each vertex of the state
   std::vector<VertexId> state_;             // and back; kNoCorner where not born yet
-  std::vector<VertexId> loop_;              // virtual vertex of the state per loop of the hierarchy
   std::vector<std::uint32_t> collapse_of_;  // per fine id: its collapse in the level being coded
   std::vector<Vec3i> cell_;                 // per fine id, where the level refines the lattice
   std::uint32_t level_ = 0;
@@ -62,17 +66,29 @@ Expected<void> LayerEncoder::code_chunk(Coder& coder, const EncodedChunk& chunk,
       .level = level_,
       .region = static_cast<std::uint16_t>(hierarchy_->tree.nodes[chunk.node].first),
       .splits = chunk.splits,
+      .newborn = chunk.newborn,
       .shift = hierarchy_->shift[level_],
       .shift_before = hierarchy_->shift[level_ - 1],
       .placement = hierarchy_->placement,
       .parity = level_parity(level_, static_cast<std::uint32_t>(hierarchy_->levels.size()))};
-  Replay replay(hierarchy_->levels[level_ - 1], collapse_of_, fine_, state_, loop_, cell_);
+  Replay replay(hierarchy_->levels[level_ - 1], collapse_of_, fine_, state_, cell_);
   const auto pass = std::make_unique<LayerPass<Coder, Replay>>(mesh_, frame, coder, replay);
   if (auto ok = pass->run(); !ok) return tl::unexpected(ok.error());
   observe(*pass);
+  if (auto ok = code_births(coder, frame, chunk); !ok) return ok;
   if (!hierarchy_->tree.nodes[chunk.node].forks_by(level_ + 1)) return {};
   const auto leaf = [&](VertexId v) { return hierarchy_->leaf[fine_[v]]; };
   code_fork(mesh_, coder, hierarchy_->tree, chunk.node, level_ + 1, leaf);
+  return {};
+}
+
+template <class Coder>
+Expected<void> LayerEncoder::code_births(Coder& coder, const ChunkFrame& frame,
+                                         const EncodedChunk& chunk) {
+  if (chunk.births.empty()) return {};
+  BirthReplay replay(chunk.births, fine_, state_);
+  const auto pass = std::make_unique<BirthPass<Coder, BirthReplay>>(mesh_, frame, coder, replay);
+  if (auto ok = pass->run(); !ok) return tl::unexpected(ok.error());
   return {};
 }
 

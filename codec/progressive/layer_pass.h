@@ -21,11 +21,11 @@
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "codec/progressive/chunk_frame.h"
 #include "codec/progressive/colour_model.h"
 #include "codec/progressive/cut_model.h"
 #include "codec/progressive/displacement_model.h"
 #include "codec/progressive/flag_model.h"
-#include "codec/progressive/manifest.h"
 #include "codec/progressive/mesh_state.h"
 #include "codec/progressive/placement.h"
 #include "codec/progressive/surroundings.h"
@@ -35,18 +35,9 @@ namespace vitrine {
 
 // What the encoder knows about a vertex that splits, in the ids of the state.
 struct SplitTruth {
-  VertexId qi = 0, qj = 0;  // the new vertex takes the faces from q_i round to q_j
+  VertexId qi = 0, qj = 0;  // the new vertex takes the faces from q_i round to q_j; any virtual one
   Vec3i d;                  // cell of v minus cell of the new vertex
   Vec3i colour_d;           // the same for YCoCg-R
-};
-
-struct ChunkFrame {
-  std::uint32_t level = 1;
-  std::uint16_t region = 0;
-  std::uint32_t splits = 0;                   // stated by the header
-  std::uint32_t shift = 0, shift_before = 0;  // of this level's lattice and of the one before
-  Placement placement = Placement::kMidpoint;
-  std::int32_t parity = 0;  // level_parity()
 };
 
 // `Truth` tells an encoder what happens; a decoder passes NoTruth.
@@ -82,11 +73,7 @@ class LayerPass {
   const DisplacementModel& displacements() const { return displacements_; }
 
  private:
-  Unexpected damaged(const char* what) const {
-    return fail(ErrorCode::kBadInput, "damaged chunk (level " + std::to_string(frame_.level) +
-                                          ", region " + std::to_string(frame_.region) +
-                                          "): " + what);
-  }
+  Unexpected damaged(const char* what) const { return damaged_chunk(frame_, what); }
 
   // The low bits are as good as random, because a lattice is about as fine as its level is exact.
   void refine_lattice() {
@@ -148,10 +135,11 @@ class LayerPass {
     Cut cut;
     bool swapped = false;
     if constexpr (Coder::kEncodes) {
-      const auto at = [&](VertexId q) {
-        return static_cast<std::uint32_t>(
-            std::find(ring.vertices.begin(), ring.vertices.begin() + ring.size, q) -
-            ring.vertices.begin());
+      const auto at = [&](VertexId q) {  // no vertex is on two boundary loops
+        std::uint32_t k = 0;
+        while (ring.vertices[k] != q && !(is_virtual(ring.vertices[k]) && is_virtual(q)))
+          ++k;
+        return k;
       };
       cut = {at(told.qi), at(told.qj)};
       swapped = cut.i > cut.j;

@@ -15,7 +15,8 @@ constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'P', 'M', 'E', 'S', 'H', 0
 // Required feature flags: a reader that does not know one refuses the file by name.
 constexpr std::uint64_t kFeaturePyramid = 1u << 0;
 constexpr std::uint64_t kFeatureColours = 1u << 1;
-constexpr std::uint64_t kKnownFeatures = kFeaturePyramid | kFeatureColours;
+constexpr std::uint64_t kFeatureBirths = 1u << 2;
+constexpr std::uint64_t kKnownFeatures = kFeaturePyramid | kFeatureColours | kFeatureBirths;
 
 constexpr std::size_t kMaxUnitBytes = 16;
 constexpr std::size_t kHashBytes = 32;
@@ -84,9 +85,10 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
     const LevelInfo &fine = m.levels[l], &coarse = m.levels[l - 1];
     if (fine.vertices < coarse.vertices) return bad("levels lose vertices");
     if (fine.shift > coarse.shift) return bad("a finer level has a coarser lattice");
-    // A split adds two faces, at a boundary one.
+    // A split adds two faces, at a boundary one; a triangle born whole has three vertices.
     const std::uint64_t born = fine.vertices - coarse.vertices;
-    if (fine.faces < coarse.faces + born || fine.faces > coarse.faces + 2 * born) {
+    const std::uint64_t least = m.births ? (born + 2) / 3 : born;
+    if (fine.faces < coarse.faces + least || fine.faces > coarse.faces + 2 * born) {
       return bad("the faces of level " + std::to_string(l) + " do not fit its vertices");
     }
   }
@@ -187,6 +189,7 @@ void write_chunks(ByteWriter& out, const Manifest& m) {
   for (const ChunkInfo& chunk : m.chunks) {
     out.varint(chunk.length);
     out.varint(chunk.splits);
+    if (m.births) out.varint(chunk.newborn);
     if (m.tree.leaves() > 1) write_float(out, round_up(chunk.max_error));
     out.bytes(chunk.sha256);
   }
@@ -196,26 +199,29 @@ Expected<void> read_level_chunks(ByteReader& in, std::uint32_t level, Manifest& 
   const std::vector<std::uint32_t> regions = m.tree.regions_at(level);
   if (regions.size() > in.left() / kChunkBytes) return bad("it ends inside the chunk index");
   const std::uint64_t born = m.levels[level].vertices - m.levels[level - 1].vertices;
-  std::uint64_t splits = 0;
+  std::uint64_t sum = 0;
   for (const std::uint32_t node : regions) {
     ChunkInfo chunk{.level = level, .region = m.tree.nodes[node].first, .node = node};
     chunk.offset = m.file_bytes;
     chunk.length = in.varint();
-    const std::uint64_t own = in.varint();
+    const std::uint64_t splits = in.varint();
+    const std::uint64_t newborn = m.births ? in.varint() : 0;
     chunk.max_error = m.tree.leaves() > 1 ? read_float(in) : m.levels[level].max_error;
     const auto digest = in.bytes(kHashBytes);
     if (!in.ok() || !is_sane_error(chunk.max_error) || chunk.length > (1ull << 40) ||
-        own > born - splits || own > most_splits(chunk.length)) {
+        splits > born - sum || newborn > born - sum - splits ||
+        splits + newborn > most_born(chunk.length)) {
       return bad("impossible chunk of level " + std::to_string(level));
     }
-    splits += own;
-    chunk.splits = static_cast<std::uint32_t>(own);
+    sum += splits + newborn;
+    chunk.splits = static_cast<std::uint32_t>(splits);
+    chunk.newborn = static_cast<std::uint32_t>(newborn);
     std::copy(digest.begin(), digest.end(), chunk.sha256.begin());
     m.file_bytes += chunk.length;
     m.chunks.push_back(chunk);
   }
-  if (splits == born) return {};
-  return bad("the splits of level " + std::to_string(level) + " do not make up its vertices");
+  if (sum == born) return {};
+  return bad("the chunks of level " + std::to_string(level) + " do not make up its vertices");
 }
 
 Expected<void> read_chunks(ByteReader& in, Manifest& m) {
@@ -333,6 +339,7 @@ Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes,
   }
   m.placement = (features & kFeaturePyramid) != 0 ? Placement::kPyramid : Placement::kMidpoint;
   m.coloured = (features & kFeatureColours) != 0;
+  m.births = (features & kFeatureBirths) != 0;
   m.base_offset = *length;
   if (auto ok = read_body(in, limits, m); !ok) return tl::unexpected(ok.error());
   if (in.left() != 0) return bad("it holds bytes that belong to nothing");
@@ -342,7 +349,7 @@ Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes,
 std::vector<std::uint8_t> write_header(Manifest& m) {
   ByteWriter body;
   body.varint((m.placement == Placement::kPyramid ? kFeaturePyramid : 0) |
-              (m.coloured ? kFeatureColours : 0));
+              (m.coloured ? kFeatureColours : 0) | (m.births ? kFeatureBirths : 0));
   write_frame(body, m);
   write_levels(body, m);
   write_regions(body, m);

@@ -36,13 +36,15 @@ struct ChunkInfo {
   std::uint64_t offset = 0;  // from the start of the file
   std::uint64_t length = 0;
   std::uint32_t splits = 0;
-  double max_error = 0;  // as of the level, of what the region then displays
+  std::uint32_t newborn = 0;  // vertices of components that are born whole
+  double max_error = 0;       // as of the level, of what the region then displays
   Sha256 sha256{};
 };
 
-// A chunk of `length` bytes holds at most this many splits, so that what a decoder allocates is
-// bounded by what it was sent. An encoder that does better appends zero bytes.
-constexpr std::uint64_t most_splits(std::uint64_t length) {
+// A chunk of `length` bytes brings at most this many vertices, by splits and in components that are
+// born whole, so that what a decoder allocates is bounded by what it was sent. An encoder that does
+// better appends zero bytes.
+constexpr std::uint64_t most_born(std::uint64_t length) {
   return 16 * (length + 16);
 }
 
@@ -51,7 +53,8 @@ struct Manifest {
   std::string unit = "";  // of the model's coordinates: "mm", "m", … or empty where unknown
   Placement placement = Placement::kMidpoint;
   bool coloured = false;
-  std::uint32_t loops = 0;  // boundary loops, the same at every level
+  bool births = false;      // small components are born whole in chunks
+  std::uint32_t loops = 0;  // boundary loops at full resolution; without births at every level
 
   std::vector<LevelInfo> levels;  // [0] is the base mesh
 

@@ -2,6 +2,7 @@
 #include "codec/progressive/mesh_state.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "codec/progressive/colour.h"
 
@@ -9,32 +10,46 @@ namespace vitrine {
 
 Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shift,
                                          std::uint32_t leaves) {
-  const auto n = static_cast<std::uint32_t>(base.positions.size());
-  auto closed = Connectivity::close(n, base.faces);
-  if (!closed) return tl::unexpected(closed.error());
-  if (!std::all_of(base.positions.begin(), base.positions.end(), in_coordinate_bound) ||
-      !std::all_of(base.colours.begin(), base.colours.end(), in_coordinate_bound)) {
-    return fail(ErrorCode::kBadInput, "the base mesh leaves the lattice or the range of colours");
-  }
   MeshState mesh;
-  mesh.connectivity = std::move(*closed);
   mesh.shift = mesh.foreign_shift = shift;
-  for (const Vec3i& cell : base.positions) {
-    mesh.positions.push_back(middle_of(cell, shift));
-    if (!in_coordinate_bound(mesh.positions[mesh.vertex_count() - 1]))
-      return fail(ErrorCode::kBadInput, "the base mesh leaves the lattice");
-  }
-  for (const Vec3i& colour : base.colours)
-    mesh.colours.push_back(colour);
   mesh.members.resize(leaves);
   mesh.born.assign(leaves, 0);
-  mesh.born[0] = n;
-  for (VertexId v = 0; v < n; ++v) {
-    mesh.vertex.push_back({.birth = v});
-    mesh.members[0].push_back(v);
-    mesh.count_valence(v);
-  }
+  if (auto ok = mesh.add(base, 0, 0); !ok) return tl::unexpected(ok.error());
   return mesh;
+}
+
+Expected<void> MeshState::add(const BaseMesh& part, std::uint16_t k, std::uint8_t level) {
+  const auto n = static_cast<std::uint32_t>(part.positions.size());
+  auto closed = Connectivity::close(n, part.faces);
+  if (!closed) return tl::unexpected(closed.error());
+  const auto is_inside = [&](const Vec3i& cell) {
+    return in_coordinate_bound(cell) && in_coordinate_bound(middle_of(cell, shift));
+  };
+  if (!std::all_of(part.positions.begin(), part.positions.end(), is_inside) ||
+      !std::all_of(part.colours.begin(), part.colours.end(), in_coordinate_bound)) {
+    return fail(ErrorCode::kBadInput, "a vertex leaves the lattice or the range of colours");
+  }
+  connectivity.append(std::move(*closed));
+  for (const Vec3i& colour : part.colours)
+    colours.push_back(colour);
+  for (const Vec3i& cell : part.positions) {
+    const VertexId v = vertex_count();
+    positions.push_back(middle_of(cell, shift));
+    vertex.push_back({.birth = born[k]++,
+                      .born_in = k,
+                      .region = k,
+                      .split_level = level,
+                      .visited_level = level});
+    members[k].push_back(v);
+    count_valence(v);
+  }
+  return {};
+}
+
+void MeshState::remove(const Newborn& newest) {
+  connectivity.drop(newest.vertices, newest.faces, newest.loops);
+  for (std::uint32_t i = 0; i < newest.vertices; ++i)
+    disinherit();
 }
 
 void MeshState::count_valence(VertexId v) {

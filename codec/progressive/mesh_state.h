@@ -36,6 +36,16 @@ struct VertexRecord {
 };
 static_assert(sizeof(VertexRecord) == 16, "there is one for each vertex of a model");
 
+// A component that was born whole in a chunk: at most kMostNewborn vertices.
+struct Newborn {
+  std::uint8_t vertices = 0;
+  std::uint8_t faces = 0;  // those that close its boundary loops included
+  std::uint8_t real_faces = 0;
+  std::uint8_t loops = 0;
+};
+
+inline constexpr std::uint32_t kMostNewborn = 64;
+
 struct MeshState {
   // One region of `leaves` leaves, level 0. `base` holds the cells (cell.h) of a level with
   // `shift`. Fails where the base is not a manifold or leaves the bound.
@@ -66,6 +76,12 @@ struct MeshState {
     if (is_virtual(v)) return std::uint64_t{v} << 32 | v;
     return std::uint64_t{vertex[v].born_in} << 32 | vertex[v].birth;
   }
+
+  // Appends whole components of region k that are new in `level`: real faces, cells of 2^shift, and
+  // colours where the mesh has them. Fails as from_base() does, and then changes nothing.
+  Expected<void> add(const BaseMesh& part, std::uint16_t k, std::uint8_t level);
+  // Takes back what add() brought last and nothing has changed since.
+  void remove(const Newborn& newest);
 
   void count_valence(VertexId v);
   // Appends what the vertex that was split off `v` inherits from it.

@@ -25,20 +25,23 @@ std::uint64_t Planner::bytes_held() const {
 }
 
 std::uint64_t Planner::faces_held() const {
-  // A split adds two faces, or one at a boundary; a level's own average is exact once it is whole.
+  // A split adds two faces, or one at a boundary, and what is born whole has its own number; a
+  // level's average is exact once it is whole.
   double faces = manifest_->levels[0].faces;
   for (std::size_t i = 0; i < have_.size(); ++i) {
-    if (have_[i])
-      faces += manifest_->chunks[i].splits * faces_per_split(manifest_->chunks[i].level);
+    if (!have_[i]) continue;
+    const ChunkInfo& chunk = manifest_->chunks[i];
+    const double born = static_cast<double>(chunk.splits) + chunk.newborn;
+    faces += born * faces_per_vertex(chunk.level);
   }
   return static_cast<std::uint64_t>(faces + 0.5);
 }
 
-double Planner::faces_per_split(std::uint32_t level) const {
+double Planner::faces_per_vertex(std::uint32_t level) const {
   const LevelInfo &fine = manifest_->levels[level], &coarse = manifest_->levels[level - 1];
-  const double splits = static_cast<double>(fine.vertices - coarse.vertices);
-  return splits > 0 ? (static_cast<double>(fine.faces) - static_cast<double>(coarse.faces)) / splits
-                    : 0.0;
+  const double born = static_cast<double>(fine.vertices - coarse.vertices);
+  return born > 0 ? (static_cast<double>(fine.faces) - static_cast<double>(coarse.faces)) / born
+                  : 0.0;
 }
 
 std::optional<std::size_t> Planner::next() const {

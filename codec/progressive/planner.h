@@ -46,7 +46,7 @@ class Planner {
 
  private:
   bool is_wanted(std::size_t chunk) const;
-  double faces_per_split(std::uint32_t level) const;
+  double faces_per_vertex(std::uint32_t level) const;
 
   const Manifest* manifest_;
   Want want_;

@@ -15,17 +15,18 @@ struct Refiner::State {
   MeshState mesh;
   std::vector<bool> applied;
   std::vector<std::uint8_t> leaf_level;  // per leaf of the region tree: the level it has reached
-  ChunkSplits newest;                    // of the chunk applied last
+  LayerChange newest;                    // by the chunk applied last
   std::uint32_t faces = 0;               // real ones
   bool usable = true;
 
   ChunkFrame frame(const ChunkInfo& chunk) const;
   // Of the two that a split of `newest` brought.
   std::uint32_t real_faces_of(std::size_t split) const {
-    const std::uint32_t face = newest.face(split);
+    const std::uint32_t face = newest.splits.face(split);
     return (mesh.connectivity.is_real(face) ? 1 : 0) +
            (mesh.connectivity.is_real(face + 1) ? 1 : 0);
   }
+  bool undo_one();  // false where nothing is left of `newest`
 };
 
 ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
@@ -33,10 +34,30 @@ ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
   return {.level = chunk.level,
           .region = static_cast<std::uint16_t>(chunk.region),
           .splits = chunk.splits,
+          .newborn = chunk.newborn,
           .shift = manifest.levels[chunk.level].shift,
           .shift_before = manifest.levels[chunk.level - 1].shift,
           .placement = manifest.placement,
           .parity = level_parity(chunk.level, last)};
+}
+
+bool Refiner::State::undo_one() {
+  if (!newest.components.empty()) {
+    faces -= newest.components.back().real_faces;
+    mesh.remove(newest.components.back());
+    newest.components.pop_back();
+    return true;
+  }
+  if (newest.splits.size() == 0) return false;
+  const std::size_t last = newest.splits.size() - 1;
+  const Split split = newest.splits.splits[last];
+  faces -= real_faces_of(last);
+  mesh.connectivity.unsplit(split.v);
+  mesh.disinherit();
+  mesh.positions[split.v] = split.merged;
+  if (!mesh.colours.empty()) mesh.colours[split.v] = newest.splits.merged_colours[last];
+  newest.splits.splits.pop_back();
+  return true;
 }
 
 Refiner::Refiner(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -53,7 +74,9 @@ Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) noexce
   }
   auto mesh = MeshState::from_base(base, level.shift, manifest.tree.leaves());
   if (!mesh) return tl::unexpected(mesh.error());
-  if (mesh->connectivity.loop_count() != manifest.loops) {
+  // What is born whole may bring more.
+  const std::uint32_t loops = mesh->connectivity.loop_count();
+  if (loops > manifest.loops || (loops < manifest.loops && !manifest.births)) {
     return fail(ErrorCode::kBadInput, "the base mesh does not have the loops of the header");
   }
   auto state = std::make_unique<State>();
@@ -100,11 +123,16 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
   }
   s.usable = false;
   s.newest = {};
-  auto splits = decode_layer(s.mesh, s.frame(info), s.manifest.tree, info.node, bytes);
-  if (!splits) return tl::unexpected(splits.error());
-  s.newest = std::move(*splits);
-  for (std::size_t i = 0; i < s.newest.size(); ++i)
+  auto change = decode_layer(s.mesh, s.frame(info), s.manifest.tree, info.node, bytes);
+  if (!change) return tl::unexpected(change.error());
+  if (s.mesh.connectivity.loop_count() > s.manifest.loops) {
+    return fail(ErrorCode::kBadInput, "a chunk brings more boundary loops than the header says");
+  }
+  s.newest = std::move(*change);
+  for (std::size_t i = 0; i < s.newest.splits.size(); ++i)
     s.faces += s.real_faces_of(i);
+  for (const Newborn& component : s.newest.components)
+    s.faces += component.real_faces;
   const RegionNode& region = s.manifest.region(info);
   std::fill_n(s.leaf_level.begin() + region.first, region.leaves,
               static_cast<std::uint8_t>(info.level));
@@ -115,17 +143,8 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
 
 void Refiner::undo_to_faces(std::uint32_t faces) noexcept {
   State& s = *state_;
-  while (s.faces > faces && s.newest.size() > 0) {
-    const std::size_t last = s.newest.size() - 1;
-    const Split split = s.newest.splits[last];
-    s.faces -= s.real_faces_of(last);
-    s.mesh.connectivity.unsplit(split.v);
-    s.mesh.disinherit();
-    s.mesh.positions[split.v] = split.merged;
-    if (!s.mesh.colours.empty()) s.mesh.colours[split.v] = s.newest.merged_colours[last];
-    s.newest.splits.pop_back();
+  while (s.faces > faces && s.undo_one())
     s.usable = false;
-  }
 }
 
 std::uint32_t Refiner::vertex_count() const {

@@ -6,8 +6,9 @@
 // Contract: safe on hostile bytes. A damaged chunk gives an error or a valid mesh, and after an
 // error the refiner is unusable (`apply` keeps failing with kState) but its memory is in order.
 // It holds, at every moment, at most 60 bytes per triangle of the closed mesh at hand (64 with
-// colours), 1 KiB per region and 512 KiB; a chunk brings at most one vertex per vertex that was
-// there, and 16 per byte and 256 more (most_splits). Nothing is allocated per split.
+// colours), 1 KiB per region and 512 KiB; a chunk brings at most 16 vertices per byte and 256 more
+// (most_born), by splits at most one per vertex that was there, and a component that is born whole
+// has at most two faces per vertex. Nothing is allocated per split.
 #pragma once
 
 #include <cstdint>
@@ -40,9 +41,9 @@ class Refiner {
   // bytes come from outside.
   Expected<void> apply(std::size_t chunk, std::span<const std::uint8_t> bytes) noexcept;
 
-  // Takes back splits of the chunk applied last, newest first, until at most `faces` real faces
-  // are left or all are undone: a level can so be shown in part. No chunk can be applied
-  // afterwards.
+  // Takes back components born in the chunk applied last and then its splits, newest first, until
+  // at most `faces` real faces are left or all are undone: a level can so be shown in part. No
+  // chunk can be applied afterwards.
   void undo_to_faces(std::uint32_t faces) noexcept;
 
   std::uint32_t vertex_count() const;         // real vertices

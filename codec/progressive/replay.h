@@ -15,14 +15,8 @@ class Replay {
   static constexpr std::uint32_t kNoCollapse = 0xFFFF'FFFFu;
 
   Replay(const CollapseLevel& collapses, const std::vector<std::uint32_t>& collapse_of,
-         std::vector<VertexId>& fine, std::vector<VertexId>& state,
-         const std::vector<VertexId>& loop, const std::vector<Vec3i>& cell)
-      : collapses_(collapses),
-        collapse_of_(collapse_of),
-        fine_(fine),
-        state_(state),
-        loop_(loop),
-        cell_(cell) {}
+         std::vector<VertexId>& fine, std::vector<VertexId>& state, const std::vector<Vec3i>& cell)
+      : collapses_(collapses), collapse_of_(collapse_of), fine_(fine), state_(state), cell_(cell) {}
 
   Vec3i cell(VertexId v) const { return cell_[fine_[v]]; }
 
@@ -44,15 +38,12 @@ class Replay {
   }
 
  private:
-  VertexId to_state(VertexId fine) const {
-    return is_virtual(fine) ? loop_[fine & ~kVirtualBit] : state_[fine];
-  }
+  VertexId to_state(VertexId fine) const { return is_virtual(fine) ? fine : state_[fine]; }
 
   const CollapseLevel& collapses_;
   const std::vector<std::uint32_t>& collapse_of_;
   std::vector<VertexId>& fine_;
   std::vector<VertexId>& state_;
-  const std::vector<VertexId>& loop_;
   const std::vector<Vec3i>& cell_;
 };
 

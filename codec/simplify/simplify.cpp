@@ -12,6 +12,7 @@
 #include "codec/simplify/heap_order.h"
 #include "codec/simplify/matching.h"
 #include "codec/simplify/region_tree.h"
+#include "codec/simplify/small_components.h"
 #include "codec/simplify/surface.h"
 
 namespace vitrine {
@@ -39,7 +40,7 @@ class Simplifier {
  public:
   Simplifier(Surface& surface, const Lattice& lattice, const SimplifyOptions& options,
              RegionTree& tree)
-      : surface_(surface), options_(options), matcher_(surface), regions_(tree) {
+      : surface_(surface), options_(options), matcher_(surface), regions_(tree), small_(surface) {
     const std::int32_t side = 1 << lattice.bits, margin = side / 4;
     low_ = {-margin, -margin, -margin};
     high_ = {side - 1 + margin, side - 1 + margin, side - 1 + margin};
@@ -49,9 +50,12 @@ class Simplifier {
   // one region.
   bool run(Hierarchy& out) {
     out.levels = options_.order == CollapseOrder::kHeap ? run_heap() : run_batches();
+    births_.resize(out.levels.size());
+    out.births = std::move(births_);
     out.shift = std::move(shifts_);
     out.refined = std::move(refined_);
     std::ranges::reverse(out.levels);
+    std::ranges::reverse(out.births);
     std::ranges::reverse(out.shift);
     std::ranges::reverse(out.refined);
     return regions_.finish(static_cast<std::uint32_t>(out.levels.size()));
@@ -66,23 +70,39 @@ class Simplifier {
   std::vector<CollapseLevel> run_batches() {
     std::vector<CollapseLevel> levels;
     // The format wants the model whole in the coarsest level, which may so be empty.
-    bool enough = is_small();
+    bool enough = is_small(), shedding = false;
     while (levels.size() + 1 < Limits{}.levels && !(enough && regions_.is_whole())) {
       const std::size_t before = surface_.live.size();
-      const bool was_whole = regions_.is_whole();
-      CollapseLevel level =
-          collapse_level(rules(static_cast<std::uint32_t>(levels.size()), enough));
-      if (level.empty() && was_whole) break;
-      levels.push_back(std::move(level));
-      coarsen_lattice();
-      report();
-      enough = is_small() || (before - surface_.live.size()) * kLeastShare < before;
+      const bool was_whole = regions_.is_whole(), was_shedding = shedding;
+      const auto from_finest = static_cast<std::uint32_t>(levels.size());
+      join_regions(from_finest, enough);
+      std::vector<Component> births = shed_components(shedding);
+      CollapseLevel level = collapse_level(rules(from_finest));
+      if (!level.empty() || !births.empty() || !was_whole) {
+        levels.push_back(std::move(level));
+        births_.push_back(std::move(births));
+        coarsen_lattice();
+        report();
+      }
+      // Where collapses get no further, the smallest components go.
+      const bool stuck = (before - surface_.live.size()) * kLeastShare < before;
+      shedding |= stuck && small_.vertices() * kLeastShare >= surface_.live.size();
+      enough = is_small() || (stuck && (was_shedding || !shedding));
     }
     return levels;
   }
 
+  // `many`: collapses alone get no further.
+  std::vector<Component> shed_components(bool many) {
+    if (small_.vertices() == 0) return {};
+    const std::size_t now = surface_.live.size();
+    const std::size_t fewer = std::max<std::size_t>(options_.target_vertices, now / 2);
+    return small_.leave(surface_, {rms_error(), many ? fewer : now});
+  }
+
   std::vector<CollapseLevel> run_heap() {
-    auto levels = collapse_by_heap(surface_, rules(kRegularLevels, true), options_.target_vertices,
+    join_regions(kRegularLevels, true);
+    auto levels = collapse_by_heap(surface_, rules(kRegularLevels), options_.target_vertices,
                                    Limits{}.levels - 1);
     shifts_.resize(levels.size() + 1);
     refined_.resize(levels.size());
@@ -107,24 +127,32 @@ class Simplifier {
     refined_.push_back(std::move(refined));
   }
 
-  std::uint32_t coarsest_shift() const {
+  // From the planes of the fine mesh, lattice units.
+  double rms_error() const {
     double error = 0, weight = 0;
     for (VertexId v : surface_.live) {
       error += surface_.quadric[v].at(surface_.point(v));
       weight += surface_.quadric[v].weight();
     }
-    const double step = kCellPerError * std::sqrt(std::max(error, 0.0) / std::max(weight, 1e-9));
+    return std::sqrt(std::max(error, 0.0) / std::max(weight, 1e-9));
+  }
+
+  std::uint32_t coarsest_shift() const {
+    const double step = kCellPerError * rms_error();
     std::uint32_t shift = surface_.shift;
     while (shift < kMaxShift && static_cast<double>(2u << shift) <= step)
       ++shift;
     return shift;
   }
 
-  LevelRules rules(std::uint32_t from_finest, bool in_one_region) {
+  void join_regions(std::uint32_t from_finest, bool in_one) {
     // The leaves are the regions of the finest level.
-    const bool join_all = in_one_region && from_finest > 0;
+    const bool join_all = in_one && from_finest > 0;
     regions_.join(surface_.live, join_all ? UINT32_MAX : region_capacity(from_finest),
                   surface_.region);
+  }
+
+  LevelRules rules(std::uint32_t from_finest) {
     splits_see_other_regions_ = !regions_.is_whole() && options_.placement == Placement::kPyramid;
     const auto live = static_cast<std::uint32_t>(surface_.live.size());
     return {.placement = options_.placement,
@@ -168,19 +196,12 @@ class Simplifier {
   Matcher matcher_;
   Vec3i low_, high_;
   RegionJoiner regions_;
+  SmallComponents small_;
   bool splits_see_other_regions_ = false;  // v~ of the level depends on their exact places
   std::vector<std::uint32_t> shifts_{0};
   std::vector<std::vector<Refined>> refined_;
+  std::vector<std::vector<Component>> births_;
 };
-
-// Remembers a base vertex of the boundary loop that `face` closes.
-void note_loop(const Connectivity& mesh, std::uint32_t face,
-               const std::vector<std::uint32_t>& index, std::vector<std::uint32_t>& loop_member) {
-  for (Corner c = 3 * face; c < 3 * face + 3; ++c) {
-    const VertexId v = mesh.vertex(c);
-    if (is_virtual(v)) loop_member[v & ~kVirtualBit] = index[mesh.vertex(next(c))];
-  }
-}
 
 void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out) {
   out.base.lattice = lattice;
@@ -193,13 +214,8 @@ void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out
     if (!surface.colour.empty()) out.base_colours.push_back(surface.colour[v]);
   }
   const Connectivity& mesh = surface.mesh;
-  out.loop_member.resize(out.loops);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.is_dead(f)) continue;
-    if (!mesh.is_real(f)) {
-      note_loop(mesh, f, index, out.loop_member);
-      continue;
-    }
+    if (mesh.is_dead(f) || !mesh.is_real(f)) continue;
     out.base.faces.push_back(
         {index[mesh.vertex(3 * f)], index[mesh.vertex(3 * f + 1)], index[mesh.vertex(3 * f + 2)]});
   }

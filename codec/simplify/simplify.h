@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a fine mesh to a base mesh by levels of edge collapses, recorded so that vertex splits undo
-// them exactly (DESIGN section 2, "Levels").
+// them exactly, and without the components that are too small for a level (DESIGN section 2,
+// "Levels").
 #pragma once
 
 #include <cstdint>
@@ -28,10 +29,10 @@ struct SimplifyOptions {
 };
 
 // Fails (kBadInput) where Connectivity::close refuses the faces. The base stays larger than asked
-// where no legal collapse is left (high genus, many components) or the format's number of levels is
-// reached. Where the coarsest level is more than one region, the model is simplified as one. v~
-// lies within a quarter of the lattice's side of the lattice; with the midpoint placement within
-// it. The same input gives the same hierarchy on every machine.
+// where no legal collapse is left (high genus; by heap, many components) or the format's number of
+// levels is reached. Where the coarsest level is more than one region, the model is simplified as
+// one. v~ lies within a quarter of the lattice's side of the lattice; with the midpoint placement
+// within it. The same input gives the same hierarchy on every machine.
 Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options);
 
 }  // namespace vitrine

@@ -11,6 +11,13 @@ namespace {
 
 using nlohmann::json;
 
+std::uint64_t born_whole(const Manifest& m) {
+  std::uint64_t vertices = 0;
+  for (const ChunkInfo& chunk : m.chunks)
+    vertices += chunk.newborn;
+  return vertices;
+}
+
 json describe(const Manifest& m) {
   return {{"bits", m.lattice.bits},
           {"step", m.lattice.step},
@@ -19,6 +26,7 @@ json describe(const Manifest& m) {
           {"placement", m.placement == Placement::kPyramid ? "pyramid" : "midpoint"},
           {"coloured", m.coloured},
           {"boundary_loops", m.loops},
+          {"born_whole", born_whole(m)},
           {"regions", m.tree.leaves()},
           {"chunks", m.chunks.size()},
           {"bytes", bytes_json(m)},
@@ -26,13 +34,15 @@ json describe(const Manifest& m) {
 }
 
 std::string as_text(const json& info, const Manifest& m) {
+  const std::string births =
+      m.births ? fmt::format(", {} vertices born whole", born_whole(m)) : std::string();
   return fmt::format(
       "{} bytes: header {}, base mesh {}, {} chunks {}\n"
-      "{} bits, step {:.6g} {}, {} placement, {} region(s), {} boundary loop(s){}\n\n{}",
+      "{} bits, step {:.6g} {}, {} placement, {} region(s), {} boundary loop(s){}{}\n\n{}",
       m.file_bytes, m.base_offset, m.base_length, m.chunks.size(),
       info["bytes"]["layers"].get<std::uint64_t>(), m.lattice.bits, m.lattice.step,
       m.unit.empty() ? "units" : m.unit, info["placement"].get<std::string>(), m.tree.leaves(),
-      m.loops, m.coloured ? ", coloured" : "", levels_text(m));
+      m.loops, births, m.coloured ? ", coloured" : "", levels_text(m));
 }
 
 // A prefix of a file is a coarser model.

@@ -87,6 +87,7 @@ Json chunks(const Manifest& manifest) {
                    {"offset", chunk.offset},
                    {"length", chunk.length},
                    {"splits", chunk.splits},
+                   {"newborn", chunk.newborn},
                    {"max_error", chunk.max_error},
                    {"sha256", to_hex(chunk.sha256)}});
   }

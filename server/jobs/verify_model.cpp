@@ -32,10 +32,17 @@ Expected<void> check_manifold(const Refiner& refiner, const std::string& where) 
   const auto closed =
       Connectivity::close(static_cast<std::uint32_t>(mesh.positions.size()), mesh.faces);
   if (!closed) return bad(fmt::format("{} is not a manifold: {}", where, closed.error().message));
-  const std::uint32_t loops = refiner.manifest().loops;
+  const std::uint32_t loops = refiner.connectivity().loop_count();
   if (closed->loop_count() == loops) return {};
-  return bad(fmt::format("{} has {} boundary loops and the header says {}", where,
+  return bad(fmt::format("{} has {} boundary loops and its splits keep {}", where,
                          closed->loop_count(), loops));
+}
+
+Expected<void> check_loops(const Refiner& refiner) {
+  const std::uint32_t loops = refiner.connectivity().loop_count();
+  if (loops == refiner.manifest().loops) return {};
+  return bad(fmt::format("full resolution has {} boundary loops and the header says {}", loops,
+                         refiner.manifest().loops));
 }
 
 // Where vertices are is what a planner goes by.
@@ -161,6 +168,7 @@ Expected<Verification> verify_model(Bytes pmesh, const std::optional<OriginalFil
   const Manifest& manifest = refiner->manifest();
   if (auto ok = check_size(manifest, pmesh.size()); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_errors(manifest); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_loops(*refiner); !ok) return tl::unexpected(ok.error());
 
   const auto faces = face_set(refiner->lattice_mesh());
   const auto orders = check_orders(pmesh, manifest, faces, progress);

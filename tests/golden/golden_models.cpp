@@ -36,6 +36,11 @@ LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool closed) {
   return mesh;
 }
 
+LatticeMesh with_specks(LatticeMesh mesh) {
+  add_specks(mesh, 80, 1);
+  return mesh;
+}
+
 }  // namespace
 
 std::vector<GoldenModel> golden_models() {
@@ -50,6 +55,9 @@ std::vector<GoldenModel> golden_models() {
       {"parts_regions_coloured",
        random_mesh(4, 200),
        {.target_vertices = 12, .region_vertices = 40}},
+      {"specks_regions_coloured",
+       with_specks(hills(20, 12, true, false)),
+       {.target_vertices = 60, .region_vertices = 150}},
       {"triangle",
        {.lattice = {},
         .positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 1}},

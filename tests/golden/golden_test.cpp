@@ -36,8 +36,8 @@ TEST(Golden, TheSameInputIsCodedToTheSameBytes) {
   }
 }
 
-TEST(Golden, TheModelsCoverPlacementsColoursBoundariesAndRegions) {
-  bool pyramid = false, colours = false, loops = false, regions = false;
+TEST(Golden, TheModelsCoverPlacementsColoursBoundariesRegionsAndBirths) {
+  bool pyramid = false, colours = false, loops = false, regions = false, births = false;
   for (const GoldenModel& golden : golden_models()) {
     const auto manifest = parse_header(golden_file(golden.name + ".pmesh"));
     ASSERT_TRUE(manifest);
@@ -45,8 +45,9 @@ TEST(Golden, TheModelsCoverPlacementsColoursBoundariesAndRegions) {
     colours |= manifest->coloured;
     loops |= manifest->loops > 1;
     regions |= manifest->tree.leaves() > 1;
+    births |= manifest->births && manifest->coloured && manifest->tree.leaves() > 1;
   }
-  EXPECT_TRUE(pyramid && colours && loops && regions);
+  EXPECT_TRUE(pyramid && colours && loops && regions && births);
 }
 
 }  // namespace

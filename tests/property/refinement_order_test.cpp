@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "codec/progressive/birth_pass.h"
 #include "codec/progressive/cell.h"
 #include "support/property.h"
 #include "support/random_mesh.h"
@@ -19,10 +20,11 @@ constexpr std::uint32_t kOrders = 4;
 
 StoredModel random_model(std::uint64_t seed) {
   Dice dice(~seed);
-  return store_model(random_mesh(seed, 400),
-                     {.placement = seed % 2 == 0 ? Placement::kMidpoint : Placement::kPyramid,
-                      .target_vertices = 6,
-                      .region_vertices = 16 + dice.below(60)});
+  LatticeMesh fine = random_mesh(seed, 400);
+  if (dice.one_in(2)) add_specks(fine, dice.below(60), seed);
+  return store_model(fine, {.placement = seed % 2 == 0 ? Placement::kMidpoint : Placement::kPyramid,
+                            .target_vertices = 6,
+                            .region_vertices = 16 + dice.below(60)});
 }
 
 void expect_manifold(const Refiner& refiner) {
@@ -30,7 +32,7 @@ void expect_manifold(const Refiner& refiner) {
   ASSERT_EQ(mesh.faces.size(), refiner.face_count());
   const auto closed = Connectivity::close(refiner.vertex_count(), mesh.faces);
   ASSERT_TRUE(closed) << closed.error().message;
-  ASSERT_EQ(closed->loop_count(), refiner.manifest().loops);
+  ASSERT_EQ(closed->loop_count(), refiner.connectivity().loop_count());
 }
 
 // Refines in a random order; every state must be the one that its set of chunks had before.
@@ -61,16 +63,21 @@ void expect_same_in_every_order(std::uint64_t seed) {
   }
 }
 
-TEST(RefinementOrder, ManyRandomModelsFork) {
-  std::uint32_t forked = 0, forked_again = 0;
+TEST(RefinementOrder, ManyRandomModelsForkAndBringComponentsWhole) {
+  std::uint32_t forked = 0, forked_again = 0, with_births = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const RegionTree tree = random_model(seed).manifest.tree;
+    const Manifest manifest = random_model(seed).manifest;
+    const RegionTree& tree = manifest.tree;
+    with_births += std::ranges::any_of(manifest.chunks, [](const ChunkInfo& chunk) {
+      return chunk.level > 1 && chunk.newborn > 0;
+    });
     forked += tree.leaves() > 1 ? 1 : 0;
     forked_again += std::ranges::any_of(
         tree.nodes, [&](const RegionNode& node) { return node.fork > tree.nodes[0].fork; });
   }
   EXPECT_GE(forked, 20u);
   EXPECT_GE(forked_again, 10u) << "regions fork at several levels";
+  EXPECT_GE(with_births, 10u);
 }
 
 TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
@@ -102,7 +109,9 @@ void expect_undo(const StoredModel& model, Dice& dice, std::size_t chunks) {
   const std::uint32_t wanted = coarse + dice.below(refiner.face_count() - coarse + 1);
   refiner.undo_to_faces(wanted);
   ASSERT_LE(refiner.face_count(), wanted);
-  ASSERT_GE(refiner.face_count() + 1, wanted);  // a split has at most two faces
+  // A split has at most two faces, a component that is born whole two per vertex.
+  const std::uint32_t most = model.manifest.chunks[chunks - 1].newborn > 0 ? 2 * kMostNewborn : 2;
+  ASSERT_GT(refiner.face_count() + most, wanted);
   expect_manifold(refiner);
   refiner.undo_to_faces(0);
   ASSERT_EQ(surface_in_cells(refiner, level), before);

@@ -23,8 +23,9 @@ void expect_counts(const Refiner& refiner, std::uint32_t level) {
 }
 
 void expect_round_trip(std::uint64_t seed) {
-  const LatticeMesh fine = random_mesh(seed);
+  LatticeMesh fine = random_mesh(seed);
   Dice dice(~seed);
+  if (dice.one_in(3)) add_specks(fine, dice.below(40), seed);
   const StoredModel model = store_model(fine, random_options(dice));
   Refiner refiner = start_refiner(model);
   expect_counts(refiner, 0);

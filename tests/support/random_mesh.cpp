@@ -227,7 +227,46 @@ void colour(Dice& dice, LatticeMesh& mesh) {
   }
 }
 
+Part random_speck(Dice& dice) {
+  switch (dice.below(8)) {
+    case 0:
+      return few_triangles(1);
+    case 1:
+      return few_triangles(2);
+    case 2:
+      return fan(static_cast<std::uint32_t>(dice.between(3, 9)), false);
+    case 3:
+      return fan(static_cast<std::uint32_t>(dice.between(4, 9)), true);
+    case 4:
+      return grid(3, static_cast<std::uint32_t>(dice.between(2, 5)), true, false);
+    case 5:
+      return grid(3, static_cast<std::uint32_t>(dice.between(3, 5)), true, true);
+    default:
+      return fan(3, true);
+  }
+}
+
 }  // namespace
+
+void add_specks(LatticeMesh& mesh, std::uint32_t count, std::uint64_t seed) {
+  Dice dice(seed);
+  const std::int32_t top = (1 << mesh.lattice.bits) - 1;
+  const bool coloured = !mesh.colours.empty();
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Part part = random_speck(dice);
+    const std::int32_t half = dice.between(top / 400 + 1, top / 40);
+    const Vec3i middle = {dice.between(half, top - half), dice.between(half, top - half),
+                          dice.between(half, top - half)};
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto grid = [&](double c) { return static_cast<std::int32_t>(std::floor(c * half)); };
+    for (const Vec3& p : part.positions) {
+      mesh.positions.push_back(middle + Vec3i{grid(p.x), grid(p.y), grid(p.z)});
+      if (coloured) mesh.colours.push_back({static_cast<std::uint8_t>(k), 90, 17});
+    }
+    for (const auto& [a, b, c] : part.faces)
+      mesh.faces.push_back({first + a, first + b, first + c});
+  }
+}
 
 LatticeMesh random_mesh(std::uint64_t seed, std::uint32_t size) {
   Dice dice(seed);

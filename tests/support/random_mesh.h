@@ -31,4 +31,9 @@ class Dice {
 // Connectivity::close accepts the faces. At most about `size` vertices a component.
 LatticeMesh random_mesh(std::uint64_t seed, std::uint32_t size = 120);
 
+// Adds `count` small components all over the lattice: triangles, pairs, tetrahedra, bipyramids,
+// fans, little tubes and rings, each about 1/200 to 1/20 of the lattice wide; coloured where the
+// mesh is.
+void add_specks(LatticeMesh& mesh, std::uint32_t count, std::uint64_t seed);
+
 }  // namespace vitrine::test

@@ -160,5 +160,33 @@ TEST(Connectivity, SplitIsTheInverseOfCollapse) {
   }
 }
 
+TEST(Connectivity, ComponentsAreAppendedAndDropped) {
+  Connectivity mesh = close(tube(6, 4));
+  const auto before = live_faces(mesh);
+  const Connectivity part = close(sheet(3, 3));
+  mesh.append(close(sheet(3, 3)));
+  ASSERT_NO_FATAL_FAILURE(expect_valid(mesh));
+  EXPECT_EQ(mesh.vertex_count(), 24u + 9);
+  EXPECT_EQ(mesh.loop_count(), 3u);
+  mesh.append(close(sheet(3, 3)));
+  ASSERT_NO_FATAL_FAILURE(expect_valid(mesh));
+  EXPECT_EQ(mesh.loop_count(), 4u);
+  for (int k = 0; k < 2; ++k)
+    mesh.drop(part.vertex_count(), part.face_count(), part.loop_count());
+  ASSERT_NO_FATAL_FAILURE(expect_valid(mesh));
+  EXPECT_EQ(live_faces(mesh), before);
+}
+
+TEST(Connectivity, AComponentIsErasedVertexByVertex) {
+  Connectivity mesh = close(tube(6, 4));
+  const auto before = live_faces(mesh);
+  mesh.append(close(sheet(3, 3)));
+  for (VertexId v = 24; v < 33; ++v)
+    mesh.erase(v);
+  ASSERT_NO_FATAL_FAILURE(expect_valid(mesh));
+  EXPECT_EQ(live_faces(mesh), before);
+  EXPECT_EQ(mesh.loop_length(kVirtualBit + 2), 0u);
+}
+
 }  // namespace
 }  // namespace vitrine::test

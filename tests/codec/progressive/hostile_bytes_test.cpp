@@ -24,6 +24,7 @@ LatticeMesh small_mesh(bool coloured) {
   mesh.colours.assign(coloured ? mesh.positions.size() : 0, Colour{200, 90, 17});
   for (std::size_t v = 0; v < mesh.colours.size(); ++v)
     mesh.colours[v][v % 3] = static_cast<std::uint8_t>(v);
+  test::add_specks(mesh, 8, 1);
   return mesh;
 }
 
@@ -78,6 +79,7 @@ class HostileBytes : public ::testing::TestWithParam<Placement> {
 TEST_P(HostileBytes, TheFileItselfIsWhole) {
   EXPECT_EQ(model_.manifest.tree.leaves() > 1, GetParam() == Placement::kPyramid);
   EXPECT_GT(model_.manifest.chunks.size(), 3u);
+  EXPECT_TRUE(model_.manifest.births);
   EXPECT_TRUE(survives(model_.file, model_.base));
 }
 
@@ -123,6 +125,7 @@ TEST(RefinerMemory, StaysWithinItsBytesPerTriangle) {
     const TriangleMesh torus = test::torus(300, 200);
     LatticeMesh mesh = quantise(torus, fit_lattice(torus.positions, 12));
     mesh.colours.assign(coloured ? mesh.positions.size() : 0, Colour{9, 8, 7});
+    test::add_specks(mesh, 10'000, 1);
     const StoredModel model = test::store_model(mesh, {.region_vertices = coloured ? 4000u : 0u});
     Manifest manifest = model.manifest;
     test::start_peak();
@@ -131,7 +134,8 @@ TEST(RefinerMemory, StaysWithinItsBytesPerTriangle) {
     ASSERT_TRUE(refiner);
     for (std::size_t i = 0; i < model.manifest.chunks.size(); ++i)
       test::apply_chunk(*refiner, model, i);
-    EXPECT_LE(test::peak_heap_bytes() - before, bytes * refiner->face_count() + (512u << 10));
+    EXPECT_LE(test::peak_heap_bytes() - before,
+              bytes * refiner->connectivity().face_count() + (512u << 10));
   }
 }
 
@@ -140,9 +144,11 @@ TEST(HostileHeader, StatesAHundredMillionVerticesAndGetsNoMemory) {
   const StoredModel model = small_model(Placement::kMidpoint, 0, false);
   Manifest m = model.manifest;
   m.levels.resize(2);
+  m.levels[1].shift = 0;
   m.levels[1].vertices = 100'000'000;
   m.levels[1].faces = 150'000'000;
   m.chunks.resize(1);
+  m.chunks[0].newborn = 0;
   m.chunks[0].splits = m.levels[1].vertices - m.levels[0].vertices;
   m.chunks[0].length = 1ull << 30;
   const auto bytes = write_header(m);

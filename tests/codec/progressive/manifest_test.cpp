@@ -67,12 +67,14 @@ void add_chunks(Dice& dice, Manifest& m) {
     const std::vector<std::uint32_t> regions = m.tree.regions_at(level);
     for (const std::uint32_t node : regions) {
       const std::uint32_t own = node == regions.back() ? left : dice.below(left + 1);
+      const std::uint32_t newborn = m.births ? dice.below(own + 1) : 0;
       left -= own;
       m.chunks.push_back({.level = level,
                           .region = m.tree.nodes[node].first,
                           .node = node,
                           .length = own / 16 + dice.below(50'000),
-                          .splits = own,
+                          .splits = own - newborn,
+                          .newborn = newborn,
                           .max_error = m.tree.leaves() == 1
                                            ? m.levels[level].max_error
                                            : static_cast<float>(dice.below(1000)) / 7.0f,
@@ -90,6 +92,7 @@ Manifest random_manifest(std::uint64_t seed) {
   m.unit = dice.one_in(2) ? "" : "mm";
   m.placement = dice.one_in(2) ? Placement::kPyramid : Placement::kMidpoint;
   m.coloured = dice.one_in(2);
+  m.births = dice.one_in(2);
   m.loops = dice.below(50);
   add_levels(dice, m);
   add_regions(dice, m);
@@ -104,6 +107,7 @@ void expect_equal(const Manifest& a, const Manifest& b) {
   EXPECT_EQ(a.unit, b.unit);
   EXPECT_EQ(a.placement, b.placement);
   EXPECT_EQ(a.coloured, b.coloured);
+  EXPECT_EQ(a.births, b.births);
   EXPECT_EQ(a.loops, b.loops);
   EXPECT_EQ(a.adjacency, b.adjacency);
   EXPECT_EQ(a.base_offset, b.base_offset);
@@ -134,6 +138,7 @@ void expect_equal(const Manifest& a, const Manifest& b) {
     EXPECT_EQ(a.chunks[i].offset, b.chunks[i].offset);
     EXPECT_EQ(a.chunks[i].length, b.chunks[i].length);
     EXPECT_EQ(a.chunks[i].splits, b.chunks[i].splits);
+    EXPECT_EQ(a.chunks[i].newborn, b.chunks[i].newborn);
     EXPECT_EQ(a.chunks[i].max_error, b.chunks[i].max_error);
     EXPECT_EQ(a.chunks[i].sha256, b.chunks[i].sha256);
   }
@@ -204,6 +209,18 @@ TEST(Manifest, RefusesWhatCannotBe) {
   contains(refusal([](Manifest& m) { m.levels[1].shift = 1; }), "lattice");
   contains(refusal([](Manifest& m) { m.chunks[1].splits = 2; }), "level 2");
   contains(refusal([](Manifest& m) { m.chunks[1].splits = 0; }), "do not make up");
+  const auto with_births = [](std::uint32_t faces, std::uint32_t newborn) {
+    return refusal([=](Manifest& m) {
+      m.births = true;
+      m.levels[2] = {.vertices = 11, .faces = faces};
+      m.chunks[2].newborn = newborn;
+    });
+  };
+  EXPECT_EQ(with_births(10, 3), "accepted");
+  contains(with_births(9, 3), "faces of level 2");
+  contains(with_births(19, 3), "faces of level 2");
+  contains(with_births(10, 2), "do not make up");
+  contains(with_births(10, 4), "chunk of level 2");
   contains(refusal([](Manifest& m) { m.adjacency = {{1}, {}}; }), "symmetric");
   contains(refusal([](Manifest& m) { m.adjacency = {{0}, {0}}; }), "adjacency");
   contains(refusal([](Manifest& m) { m.tree.nodes[0].plane.axis = 3; }), "plane");
@@ -227,18 +244,24 @@ TEST(Manifest, RefusesATreeWhoseChildForksBeforeItsParent) {
 }
 
 // An empty chunk may not stand for a million splits: what a reader allocates follows the bytes.
-TEST(Manifest, RefusesMoreSplitsThanAChunkOfItsLengthHolds) {
-  const auto with = [](std::uint32_t splits, std::uint64_t length) {
+TEST(Manifest, RefusesMoreVerticesThanAChunkOfItsLengthBrings) {
+  const auto with = [](std::uint32_t splits, std::uint64_t length, std::uint32_t newborn = 0) {
     return refusal([=](Manifest& m) {
-      m.levels[1] = {.vertices = 4 + splits, .faces = 4 + splits};
-      m.levels[2] = {.vertices = 6 + splits, .faces = 6 + splits};
+      const std::uint32_t born = splits + newborn;
+      m.births = newborn > 0;
+      m.levels[1] = {.vertices = 4 + born, .faces = 4 + born};
+      m.levels[2] = {.vertices = 6 + born, .faces = 6 + born};
       m.chunks[0].splits = splits;
+      m.chunks[0].newborn = newborn;
       m.chunks[0].length = length;
     });
   };
   EXPECT_EQ(with(256, 0), "accepted");
   EXPECT_NE(with(257, 0), "accepted");
   EXPECT_EQ(with(257, 1), "accepted");
+  EXPECT_EQ(with(246, 0, 10), "accepted");
+  EXPECT_NE(with(247, 0, 10), "accepted");
+  EXPECT_NE(with(0, 0, 257), "accepted");
 }
 
 TEST(Manifest, NamesTheVersionAndTheFeaturesItDoesNotKnow) {

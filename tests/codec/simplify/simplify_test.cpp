@@ -10,6 +10,7 @@
 #include "codec/progressive/colour.h"
 #include "codec/progressive/placement.h"
 #include "support/meshes.h"
+#include "support/random_mesh.h"
 #include "support/validate.h"
 
 namespace vitrine::test {
@@ -23,7 +24,10 @@ LatticeMesh on_lattice(const TriangleMesh& mesh) {
 class Replay {
  public:
   Replay(const LatticeMesh& fine, const Hierarchy& hierarchy)
-      : hierarchy_(hierarchy), faces_(fine.faces), positions_(fine.positions) {
+      : hierarchy_(hierarchy),
+        faces_(fine.faces),
+        positions_(fine.positions),
+        loops_(hierarchy.loops) {
     link();
   }
 
@@ -31,6 +35,8 @@ class Replay {
   void collapse_level(std::uint32_t level) {
     std::set<VertexId> ends;
     const Vec3i* last = nullptr;
+    for (const Component& c : hierarchy_.births[level - 1])
+      ASSERT_NO_FATAL_FAILURE(take_out(c, level));
     for (const Collapse& c : hierarchy_.levels[level - 1]) {
       ASSERT_TRUE(ends.insert(c.v1).second && ends.insert(c.v2).second) << "a shared end point";
     }
@@ -56,7 +62,7 @@ class Replay {
     }
     const auto mesh = Connectivity::close(static_cast<std::uint32_t>(index.size()), faces);
     ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
-    ASSERT_EQ(mesh->loop_count(), hierarchy_.loops);
+    ASSERT_EQ(mesh->loop_count(), loops_);
     ASSERT_NO_FATAL_FAILURE(expect_valid(*mesh));
   }
 
@@ -73,6 +79,31 @@ class Replay {
         neighbours_[faces_[f][k]].insert({faces_[f][(k + 1) % 3], faces_[f][(k + 2) % 3]});
       }
     }
+  }
+
+  // A component is recorded as it is, and whole.
+  void take_out(const Component& component, std::uint32_t level) {
+    const std::set<VertexId> ids(component.ids.begin(), component.ids.end());
+    std::vector<Triangle> recorded, found;
+    for (const Triangle& f : component.mesh.faces)
+      recorded.push_back({component.ids[f[0]], component.ids[f[1]], component.ids[f[2]]});
+    std::erase_if(faces_, [&](const Triangle& f) {
+      const auto inside = std::ranges::count_if(f, [&](VertexId v) { return ids.contains(v); });
+      if (inside == 3) found.push_back(f);
+      EXPECT_TRUE(inside == 0 || inside == 3) << "a part of a component";
+      return inside > 0;
+    });
+    ASSERT_EQ(canonical(recorded), canonical(found));
+    const std::vector<std::uint32_t> region = regions_at(level);
+    for (std::size_t i = 0; i < component.ids.size(); ++i) {
+      ASSERT_EQ(component.mesh.positions[i], positions_[component.ids[i]]);
+      ASSERT_EQ(region[component.ids[i]], region[component.ids[0]]);
+    }
+    const auto mesh =
+        Connectivity::close(static_cast<std::uint32_t>(ids.size()), component.mesh.faces);
+    ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+    loops_ -= mesh->loop_count();
+    link();
   }
 
   // What is cut off must be on record, for every vertex that is left.
@@ -163,12 +194,14 @@ class Replay {
   std::vector<Vec3i> positions_;
   std::vector<std::set<VertexId>> neighbours_;
   std::vector<std::vector<std::size_t>> faces_at_;
+  std::uint32_t loops_;  // of the components that are left
 };
 
 struct Case {
   const char* name;
   TriangleMesh mesh;
   SimplifyOptions options;
+  std::uint32_t specks = 0;
 };
 
 std::vector<Case> cases() {
@@ -180,6 +213,7 @@ std::vector<Case> cases() {
       all.push_back({"sheet", sheet(24, 20), options});
       all.push_back({"tube", tube(24, 18), options});
       all.push_back({"torus", torus(30, 16), options});
+      all.push_back({"sheet with specks", sheet(24, 20), options, 60});
     }
     all.push_back({"heap",
                    tube(24, 18),
@@ -193,10 +227,14 @@ TEST(Simplify, EveryLevelIsAManifoldThatObeysTheRulesDownToTheBase) {
     SCOPED_TRACE(std::string(c.name) + " pyramid " +
                  std::to_string(c.options.placement == Placement::kPyramid) + " regions " +
                  std::to_string(c.options.region_vertices));
-    const LatticeMesh fine = on_lattice(c.mesh);
+    LatticeMesh fine = on_lattice(c.mesh);
+    add_specks(fine, c.specks, 1);
     const auto hierarchy = simplify(fine, c.options);
     ASSERT_TRUE(hierarchy.has_value());
     ASSERT_GE(hierarchy->levels.size(), 3u);
+    EXPECT_EQ(c.specks > 0, std::ranges::any_of(hierarchy->births, [](const auto& components) {
+                return !components.empty();
+              }));
     Replay replay(fine, *hierarchy);
     for (std::size_t level = hierarchy->levels.size(); level >= 1; --level) {
       SCOPED_TRACE("level " + std::to_string(level));

@@ -28,7 +28,8 @@ void check(const Refiner& refiner) {
   const LatticeMesh mesh = refiner.lattice_mesh();
   require(mesh.positions.size() == refiner.vertex_count());
   require(mesh.faces.size() == refiner.face_count());
-  require(Connectivity::close(refiner.vertex_count(), mesh.faces).has_value());
+  const auto closed = Connectivity::close(refiner.vertex_count(), mesh.faces);
+  require(closed && closed->loop_count() == refiner.connectivity().loop_count());
   const TriangleMesh shown = refiner.display_mesh();
   require(shown.positions.size() >= refiner.vertex_count());
   require(shown.faces.size() == refiner.face_count());

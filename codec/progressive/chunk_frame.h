@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is known of a chunk before its bytes are looked at.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "codec/core/expected.h"
+#include "codec/progressive/manifest.h"
+
+namespace vitrine {
+
+struct ChunkFrame {
+  std::uint32_t level = 1;
+  std::uint16_t region = 0;
+  std::uint32_t splits = 0, newborn = 0;      // stated by the header
+  std::uint32_t shift = 0, shift_before = 0;  // of this level's lattice and of the one before
+  Placement placement = Placement::kMidpoint;
+  std::int32_t parity = 0;  // level_parity()
+};
+
+inline Unexpected damaged_chunk(const ChunkFrame& frame, const std::string& what) {
+  return fail(ErrorCode::kBadInput, "damaged chunk (level " + std::to_string(frame.level) +
+                                        ", region " + std::to_string(frame.region) + "): " + what);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/simplify/small_components.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "codec/simplify/simplify.h"
+#include "support/meshes.h"
+#include "support/random_mesh.h"
+
+namespace vitrine::test {
+namespace {
+
+LatticeMesh on_lattice(const TriangleMesh& mesh) {
+  return quantise(mesh, fit_lattice(mesh.positions, 12));
+}
+
+std::size_t born_whole(const Hierarchy& hierarchy) {
+  std::size_t vertices = 0;
+  for (const auto& level : hierarchy.births) {
+    for (const Component& component : level)
+      vertices += component.ids.size();
+  }
+  return vertices;
+}
+
+std::int32_t width(const std::vector<Vec3i>& positions) {
+  const auto by_x = [](const Vec3i& a, const Vec3i& b) { return a.x < b.x; };
+  const auto [low, high] = std::ranges::minmax_element(positions, by_x);
+  return high->x - low->x;
+}
+
+TEST(SmallComponents, TenThousandSpecksDoNotGrowTheBase) {
+  LatticeMesh scan = on_lattice(shipped_model("demosthenes.obj"));
+  const std::size_t without = scan.positions.size();
+  add_specks(scan, 10'000, 1);
+  for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
+    const auto hierarchy = simplify(scan, {.placement = placement, .region_vertices = 1500});
+    ASSERT_TRUE(hierarchy.has_value());
+    EXPECT_GE(hierarchy->base.positions.size(), 150u);
+    EXPECT_LE(hierarchy->base.positions.size(), 375u);
+    std::size_t vertices = hierarchy->base.positions.size() + born_whole(*hierarchy);
+    for (const CollapseLevel& level : hierarchy->levels)
+      vertices += level.size();
+    EXPECT_EQ(vertices, scan.positions.size());
+    EXPECT_GT(born_whole(*hierarchy), (scan.positions.size() - without) / 2);
+  }
+}
+
+TEST(SmallComponents, OfAModelOfSpecksAloneTheLargestAreTheBase) {
+  LatticeMesh specks{.lattice = {.bits = 12}, .positions = {}, .faces = {}, .colours = {}};
+  add_specks(specks, 3000, 2);
+  const auto hierarchy = simplify(specks, {});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_GE(hierarchy->base.positions.size(), 150u);
+  EXPECT_LE(hierarchy->base.positions.size(), 375u);
+  ASSERT_FALSE(hierarchy->births[0].empty());
+  for (const Component& component : hierarchy->births[0])
+    EXPECT_LE(width(component.mesh.positions), width(hierarchy->base.positions));
+}
+
+// Seven vertices, each next to each: no torus has fewer, and none has more faces per vertex.
+TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
+  LatticeMesh mesh = on_lattice(sheet(30, 30));
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::int32_t k = 0; k < 7; ++k)
+    mesh.positions.push_back({100 + k, 5 * k % 7, 3 * k % 7});
+  for (std::uint32_t k = 0; k < 7; ++k) {
+    mesh.faces.push_back({first + k, first + (k + 1) % 7, first + (k + 3) % 7});
+    mesh.faces.push_back({first + k, first + (k + 3) % 7, first + (k + 2) % 7});
+  }
+  const auto hierarchy = simplify(mesh, {.target_vertices = 60});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_EQ(born_whole(*hierarchy), 7u);
+}
+
+TEST(SmallComponents, WhatIsAsLargeAsTheModelStays) {
+  LatticeMesh mesh = on_lattice(torus(40, 24));
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto faces = mesh.faces;
+  for (std::uint32_t v = 0; v < first; ++v)
+    mesh.positions.push_back(
+        {4095 - mesh.positions[v].x, mesh.positions[v].y, mesh.positions[v].z});
+  for (const Triangle& f : faces)
+    mesh.faces.push_back({first + f[0], first + f[2], first + f[1]});
+  const auto hierarchy = simplify(mesh, {});
+  ASSERT_TRUE(hierarchy.has_value());
+  EXPECT_EQ(born_whole(*hierarchy), 0u);
+}
+
+}  // namespace
+}  // namespace vitrine::test
