@@ -157,7 +157,7 @@ SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
   };
   std::array<Entry, 64> stack;  // one entry per level of a balanced tree
   std::size_t size = 0;
-  if (!empty()) stack[size++] = {0, squared_distance(nodes_[0], p, slack_)};
+  if (!empty()) stack[size++] = {0, 0};
   while (size > 0) {
     const Entry top = stack[--size];
     if (top.squared >= best.squared) continue;
@@ -167,8 +167,10 @@ SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
       if (squared < best.squared) best = {squared, i};
     }
     if (node.count > 0) continue;
-    Entry near{node.first, squared_distance(nodes_[node.first], p, slack_)};
-    Entry far{node.first + 1, squared_distance(nodes_[node.first + 1], p, slack_)};
+    std::array<Entry, 2> child;
+    for (std::uint32_t k = 0; k < 2; ++k)
+      child[k] = {node.first + k, squared_distance(nodes_[node.first + k], p, slack_)};
+    auto& [near, far] = child;
     if (far.squared < near.squared) std::swap(near, far);
     if (far.squared < best.squared) stack[size++] = far;
     if (near.squared < best.squared) stack[size++] = near;

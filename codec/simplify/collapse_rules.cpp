@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simplify/collapse_rules.h"
 
-#include <algorithm>
-
 #include "codec/mesh/closest_point.h"
 #include "codec/progressive/placement.h"
 
@@ -47,18 +45,18 @@ bool fan_survives(const Surface& surface, const Star& star, VertexId centre, Ver
   return true;
 }
 
-// Squared distance of p to the faces that a fan keeps once its edge to `other` has collapsed.
-double distance_to_fan(const Surface& surface, const Star& star, VertexId other, const Vec3& target,
-                       const Vec3& p) {
-  double least = dot(p - target, p - target);
+// True if a face that a fan keeps, once its edge to `other` has collapsed, is within the root of
+// `squared` of p.
+bool fan_is_near(const Surface& surface, const Star& star, VertexId other, const Vec3& target,
+                 const Vec3& p, double squared) {
   VertexId a = star.vertex[star.valence - 1];
   for (VertexId b : star.neighbours()) {
     const bool stays = a != other && b != other && !is_virtual(a) && !is_virtual(b);
-    if (stays)
-      least = std::min(least, squared_distance({target, surface.point(a), surface.point(b)}, p));
+    if (stays && squared_distance({target, surface.point(a), surface.point(b)}, p) <= squared)
+      return true;
     a = b;
   }
-  return least;
+  return false;
 }
 
 }  // namespace
@@ -126,10 +124,10 @@ bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& targe
   const double most = reach * reach;
   for (const VertexId v : {edge.v1, edge.v2}) {
     const Vec3 p = surface.point(v);
-    if (dot(p - to, p - to) <= most) continue;
-    const double least = std::min(distance_to_fan(surface, edge.star1, edge.v2, to, p),
-                                  distance_to_fan(surface, edge.star2, edge.v1, to, p));
-    if (least > most) return false;
+    const bool near = dot(p - to, p - to) <= most ||
+                      fan_is_near(surface, edge.star1, edge.v2, to, p, most) ||
+                      fan_is_near(surface, edge.star2, edge.v1, to, p, most);
+    if (!near) return false;
   }
   return true;
 }

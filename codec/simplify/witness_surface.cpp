@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simplify/witness_surface.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -62,10 +61,16 @@ WitnessSurface::Plane WitnessSurface::bisector(std::uint32_t t, std::uint32_t ed
 std::uint32_t WitnessSurface::stroll(const Vec3& p, std::uint32_t start) const {
   std::uint32_t at = start, before = start;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const std::array<double, 3> beyond = overhang(p, at);
-    const auto most = std::max_element(beyond.begin(), beyond.end());
-    if (!(*most > 0)) break;
-    const std::uint32_t next = across(at, static_cast<std::uint32_t>(most - beyond.begin()));
+    const Corners s = triangle(at);
+    const Vec3 normal = normal_of(s);
+    std::uint32_t next = at;
+    double most = 0;  // squared
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Vec3 in = inward(s, normal, k);
+      const double beyond = -dot(in, p - corner(s, k)), size = dot(in, in);
+      if (!(beyond > 0) || beyond * beyond <= most * size) continue;
+      most = beyond * beyond / size, next = across(at, k);
+    }
     if (next == before || next == at) break;
     before = at, at = next;
   }
