@@ -25,7 +25,10 @@ void variants(Report& report, const Model& model);
 // What regions cost, and what a close-up needs of the whole; of models with several of them.
 void regions(Report& report, const Model& model);
 
-// Build time against meshoptimizer's, decode time against Draco's, WebAssembly against native.
+// Decode time against Draco's, WebAssembly against native.
 void speeds(Report& report, const Model& model);
+
+// Build times against meshoptimizer's, and how time and memory grow up to the largest model.
+void builds(Report& report, const Model& model, const Model& largest);
 
 }  // namespace vitrine::bench

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "sections.h"
 #include "subject.h"
@@ -13,10 +17,13 @@ namespace vitrine::bench {
 namespace {
 
 constexpr int kRounds = 5;
-constexpr double kMaxBuild = 20;  // times one meshopt_simplify
-constexpr double kMaxDecode = 8;  // times Draco's decoder
-constexpr double kMaxWasm = 2;    // times the native decoder
-constexpr double kMaxBytes = 60;  // of the WebAssembly decoder's memory per triangle
+constexpr double kMaxBuild = 20;        // times one meshopt_simplify
+constexpr double kMaxLargeBuild = 15;   // the same, of the largest model
+constexpr double kMaxDecode = 8;        // times Draco's decoder
+constexpr double kMaxWasm = 2;          // times the native decoder
+constexpr double kMaxBytes = 60;        // of the WebAssembly decoder's memory per triangle
+constexpr double kMaxBuildBytes = 250;  // of a build's memory per triangle
+constexpr double kMaxGrowth = 1.5;      // of a build's time per triangle, to a model of common size
 
 // Of processor time: all that is compared runs on one thread, and machines are shared.
 double seconds(const std::function<void()>& work) {
@@ -43,7 +50,8 @@ Medians interleave(const std::function<double()>& ours, const std::function<doub
   return {median(a), median(b)};
 }
 
-void compare(Report& report, const char* what, const char* key, const Medians& m, double limit) {
+void compare(Report& report, const std::string& what, const char* key, const Medians& m,
+             double limit) {
   report.add({what, key, m.ours, m.peer, m.ours / m.peer, limit});
 }
 
@@ -51,19 +59,41 @@ struct WasmDecode {
   double seconds = 0, bytes = 0;
 };
 
+std::string output_of(const std::string& command) {
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  std::string output;
+  std::array<char, 4096> part{};
+  while (pipe != nullptr && std::feof(pipe) == 0)
+    output.append(part.data(), std::fread(part.data(), 1, part.size(), pipe));
+  if (pipe == nullptr || ::pclose(pipe) != 0)
+    throw std::runtime_error("this did not run: " + command);
+  return output;
+}
+
 // What the browser's decoder takes in Node for the same file: processor time and memory.
 WasmDecode decode_in_wasm(const char* pmesh) {
-  const std::string command = std::string("node '" VITRINE_SOURCE_DIR
-                                          "/tests/bench/codec/decode_wasm.mjs' '" VITRINE_BIN_DIR
-                                          "/../wasm/progressive-mesh.wasm' '") +
-                              pmesh + "'";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
   WasmDecode took;
-  const bool read =
-      pipe != nullptr && std::fscanf(pipe, "%lf %lf", &took.seconds, &took.bytes) == 2;
-  if (pipe == nullptr || ::pclose(pipe) != 0 || !read)
-    throw std::runtime_error("the WebAssembly decoder did not run: " + command);
+  std::istringstream(output_of(std::string("node '" VITRINE_SOURCE_DIR
+                                           "/tests/bench/codec/decode_wasm.mjs' '" VITRINE_BIN_DIR
+                                           "/../wasm/progressive-mesh.wasm' '") +
+                               pmesh + "'")) >>
+      took.seconds >> took.bytes;
   return took;
+}
+
+Medians build_and_simplify(const Model& model) {
+  const MeshoptInput flat = meshopt_input(model.clean);
+  return interleave([&] { return seconds([&] { build(model.file, kBits); }); },
+                    [&] { return seconds([&] { meshopt_simplify_to_one_percent(flat); }); });
+}
+
+// The most memory that `vitrine build` holds at a time, with a thread for each core.
+double peak_bytes(const Model& model, const std::string& placement) {
+  const TemporaryFile mesh(model.file), pmesh({});
+  const std::string output = output_of(std::string("'" VITRINE_BIN_DIR "/vitrine' build '") +
+                                       mesh.path() + "' -o '" + pmesh.path() + "' --bits " +
+                                       std::to_string(kBits) + " --json --placement " + placement);
+  return nlohmann::json::parse(output)["peak_rss_bytes"].get<double>();
 }
 
 }  // namespace
@@ -71,15 +101,10 @@ WasmDecode decode_in_wasm(const char* pmesh) {
 void speeds(Report& report, const Model& model) {
   const Bytes pmesh = build(model.file, kBits);
   const Bytes draco = draco_encode(model.clean, kBits);
-  const MeshoptInput flat = meshopt_input(model.clean);
   const auto faces = model.clean.faces.size();
   if (decode(pmesh) != faces) throw std::runtime_error(model.name + " does not decode whole");
 
   const auto native = [&] { return seconds([&] { decode(pmesh); }); };
-  compare(report, "build", "ratio_to_meshopt_simplify",
-          interleave([&] { return seconds([&] { build(model.file, kBits); }); },
-                     [&] { return seconds([&] { meshopt_simplify_to_one_percent(flat); }); }),
-          kMaxBuild);
   compare(report, "decode", "ratio_to_draco",
           interleave(native, [&] { return seconds([&] { draco_decode(draco); }); }), kMaxDecode);
   const TemporaryFile file(pmesh);
@@ -88,6 +113,25 @@ void speeds(Report& report, const Model& model) {
   const double bytes = decode_in_wasm(file.path()).bytes;
   const auto triangles = static_cast<double>(faces);
   report.add({"wasm", "bytes_per_triangle", bytes, triangles, bytes / triangles, kMaxBytes});
+}
+
+void builds(Report& report, const Model& model, const Model& largest) {
+  const Medians common = build_and_simplify(model);
+  compare(report, "build", "ratio_to_meshopt_simplify", common, kMaxBuild);
+  if (&largest == &model) return;
+  const Medians large = build_and_simplify(largest);
+  const std::string what = "build." + largest.name;
+  compare(report, what, "ratio_to_meshopt_simplify", large, kMaxLargeBuild);
+  const auto triangles = static_cast<double>(largest.clean.faces.size());
+  const double own = large.ours / triangles,
+               other = common.ours / static_cast<double>(model.clean.faces.size());
+  report.add(
+      {what, "time_per_triangle_ratio_to_" + model.name, own, other, own / other, kMaxGrowth});
+  for (const char* placement : {"midpoint", "pyramid"}) {
+    const double bytes = peak_bytes(largest, placement);
+    report.add({what, std::string(placement) + "_bytes_per_triangle", bytes, triangles,
+                bytes / triangles, kMaxBuildBytes});
+  }
 }
 
 }  // namespace vitrine::bench
