@@ -73,7 +73,7 @@ class HostileBytes : public ::testing::TestWithParam<Placement> {
 
   const StoredModel model_ = GetParam() == Placement::kMidpoint
                                  ? small_model(Placement::kMidpoint, 0, true)
-                                 : small_model(Placement::kPyramid, 30, false);
+                                 : small_model(Placement::kPyramid, 80, false);
 };
 
 TEST_P(HostileBytes, TheFileItselfIsWhole) {
