@@ -10,7 +10,7 @@ namespace {
 constexpr double kLifted = 0.9;
 // Shares of the edges, cheapest first, that a level may take: fewer follow the surface closer,
 // more need fewer levels. Measured on the rate-distortion curve.
-constexpr double kCheapRegular = 0.6, kCheap = 0.5;
+constexpr double kCheapRegular = 0.7, kCheap = 0.6;
 constexpr double kReach = 0.25;  // share of the mean edge
 
 // Costs are not negative, so that their bits ascend with them.
