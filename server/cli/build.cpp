@@ -146,9 +146,13 @@ Outcome build(const Arguments& arguments) {
 
   std::optional<std::string> report_of;
   if (arguments.has("--report")) report_of = std::filesystem::path(path).filename().string();
-  auto product = isolate(path, [&](const ProgressReport& progress) {
-    return make(file->bytes(), *options, report_of, progress);
-  });
+  const SpillOptions spill{.folder = folder_of(out), .input = file->bytes()};
+  auto product = isolate(
+      path,
+      [&](const ProgressReport& progress) {
+        return make(file->bytes(), *options, report_of, progress);
+      },
+      spill);
   if (!product) return tl::unexpected(product.error());
   const auto start = Clock::now();
   if (auto written = write_outputs(arguments, *product); !written) return written;

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 namespace vitrine::cli {
 namespace {
@@ -37,6 +39,16 @@ void print_fault(std::string_view message) {
   std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw on a full disk
 }
 
+std::string time_left(double seconds, double fraction) {
+  constexpr double kSomething = 0.02;
+  if (!(fraction >= kSomething && fraction < 1)) return {};
+  const double left = seconds * (1 - fraction) / fraction;
+  const auto [unit, length] = left < 100        ? std::pair("s", 1)
+                              : left < 100 * 60 ? std::pair("min", 60)
+                                                : std::pair("h", 3600);
+  return fmt::format("about {:.0f} {} left", std::ceil(left / length), unit);
+}
+
 ProgressBar::ProgressBar() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
@@ -52,8 +64,9 @@ void ProgressBar::show(std::string_view stage, double fraction) {
   constexpr int kWidth = 30;
   const double share = fraction >= 0 && fraction <= 1 ? fraction : 0;
   const int filled = static_cast<int>(share * kWidth);
-  fmt::print(stderr, "\r\x1b[K[{:#<{}}{:.<{}}] {:3.0f} % {}", "", filled, "", kWidth - filled,
-             100 * share, stage);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  fmt::print(stderr, "\r\x1b[K[{:#<{}}{:.<{}}] {:3.0f} % {}  {}", "", filled, "", kWidth - filled,
+             100 * share, stage, time_left(elapsed.count(), share));
   std::fflush(stderr);
 }
 

@@ -2,7 +2,9 @@
 // Results go to stdout, progress and faults to stderr.
 #pragma once
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 
 #include "server/cli/outcome.h"
@@ -17,7 +19,11 @@ Outcome print_json(const nlohmann::json& object);  // what is not UTF-8 in it is
 // Prints "vitrine: …" to stderr, where that takes it.
 void print_fault(std::string_view message);
 
-// A bar on stderr where that is a terminal, else nothing. Gone when destroyed.
+// How long the rest of a work takes of which `fraction` (0..1) took `seconds`, in words: "about 40
+// s left". Empty where that cannot be told yet, or nothing is left.
+std::string time_left(double seconds, double fraction);
+
+// A bar with the time left on stderr where that is a terminal, else nothing. Gone when destroyed.
 class ProgressBar {
  public:
   ProgressBar();
@@ -31,6 +37,7 @@ class ProgressBar {
   void show(std::string_view stage, double fraction);
 
   const bool is_terminal_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace vitrine::cli

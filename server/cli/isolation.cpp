@@ -17,7 +17,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 // People wait for their own commands and may stop them: what the machine has is the limit.
-SandboxLimits limits() {
+SandboxLimits limits(const SpillOptions& spill) {
   const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
   const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   SandboxLimits limits;
@@ -25,6 +25,7 @@ SandboxLimits limits() {
   limits.answer_bytes = limits.memory_bytes;
   limits.cpu_seconds = 24 * 3600;
   limits.wall = std::chrono::hours(24);
+  limits.spill = spill;
   return limits;
 }
 
@@ -76,11 +77,11 @@ tl::expected<Product, Fault> unpack(std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 tl::expected<Product, Fault> isolate(
-    const std::string& subject,
-    const std::function<Expected<Product>(const ProgressReport&)>& task) {
+    const std::string& subject, const std::function<Expected<Product>(const ProgressReport&)>& task,
+    const SpillOptions& spill) {
   ProgressBar bar;
   const auto answer = run_sandboxed(
-      limits(),
+      limits(spill),
       [&](const ProgressReport& progress) -> Expected<Bytes> {
         const auto product = task(progress);
         if (!product) return tl::unexpected(product.error());

@@ -19,7 +19,7 @@ struct Product {
 
 // `subject` names the input at the start of the error message.
 tl::expected<Product, Fault> isolate(
-    const std::string& subject,
-    const std::function<Expected<Product>(const ProgressReport&)>& task);
+    const std::string& subject, const std::function<Expected<Product>(const ProgressReport&)>& task,
+    const SpillOptions& spill = {});
 
 }  // namespace vitrine::cli

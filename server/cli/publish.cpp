@@ -13,6 +13,7 @@
 #include "server/cli/reading.h"
 #include "server/jobs/build_model.h"
 #include "server/jobs/verify_model.h"
+#include "server/store/atomic_file.h"
 #include "server/store/installation.h"
 
 namespace vitrine::cli {
@@ -22,8 +23,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 // A mesh is built; a .pmesh from elsewhere is decoded from end to end before anybody is served it.
 tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& path,
-                                      const ReadOptions& reading) {
-  const auto product = isolate(path, [&](const ProgressReport& progress) -> Expected<Product> {
+                                      const ReadOptions& reading, const SpillOptions& spill) {
+  const auto task = [&](const ProgressReport& progress) -> Expected<Product> {
     if (file.is_pmesh()) {
       const auto verified = verify_model(file.bytes(), std::nullopt, progress);
       if (!verified) return tl::unexpected(verified.error());
@@ -32,9 +33,17 @@ tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& 
     auto built = build_model(file.bytes(), {.reading = reading}, progress);
     if (!built) return tl::unexpected(built.error());
     return Product{nlohmann::json::object(), std::move(built->file)};
-  });
+  };
+  const auto product = isolate(path, task, spill);
   if (!product) return tl::unexpected(product.error());
   return product->file;
+}
+
+// The folder, or the one that it will be made in.
+std::filesystem::path existing(std::filesystem::path folder) {
+  while (!std::filesystem::is_directory(folder) && folder != folder_of(folder))
+    folder = folder_of(folder);
+  return folder;
 }
 
 Outcome publish_file(const Arguments& arguments) {
@@ -54,7 +63,8 @@ Outcome publish_file(const Arguments& arguments) {
   }
   const CompanionFiles companions(path, file->bytes());
   reading->beside = companions.contents();
-  const auto pmesh = make_pmesh(*file, path, *reading);
+  const SpillOptions spill{.folder = existing(arguments.text("--data")), .input = file->bytes()};
+  const auto pmesh = make_pmesh(*file, path, *reading, spill);
   if (!pmesh) return tl::unexpected(pmesh.error());
 
   const auto installation = open_installation(arguments.text("--data"));

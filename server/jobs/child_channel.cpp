@@ -64,7 +64,9 @@ void send_answer(int fd, const Expected<Bytes>& answer) {
 }
 
 Expected<Bytes> run_confined(int fd, const SandboxLimits& limits, const SandboxedTask& task) {
+  if (auto opened = open_spill(limits.spill); !opened) return tl::unexpected(opened.error());
   if (auto confined = confine(limits); !confined) return tl::unexpected(confined.error());
+  start_trimming();
   return task([fd](std::string_view stage, double fraction) {
     send_text(fd, {.kind = Kind::kProgress, .fraction = fraction}, stage);
   });
@@ -102,6 +104,10 @@ Unexpected cause_of_death(int status, const SandboxLimits& limits) {
   switch (WTERMSIG(status)) {
     case SIGXCPU:
       return too_much_time("processor", limits.cpu_seconds);
+    case SIGBUS:
+      return fail(ErrorCode::kIo,
+                  "the disk of the working file is full, or the input was cut meanwhile; free some "
+                  "space and try again");
     case SIGSYS:
       return crashed("was stopped at a forbidden system call");
     default:

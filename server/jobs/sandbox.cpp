@@ -140,7 +140,7 @@ Expected<void> set_limits(const SandboxLimits& limits) {
   const auto limit = [&](int which, rlim_t value, rlim_t grace = 0) {
     if (error == 0) error = set_limit(which, value, value + grace);
   };
-  if (kLimitMemory) limit(RLIMIT_AS, limits.memory_bytes);
+  if (kLimitMemory) limit(RLIMIT_AS, limits.memory_bytes + spill_capacity());
   limit(RLIMIT_CPU, limits.cpu_seconds, 1);  // SIGXCPU says why, SIGKILL comes a second later
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);

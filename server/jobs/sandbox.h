@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "server/jobs/spill.h"
 
 namespace vitrine {
 
@@ -19,6 +20,7 @@ struct SandboxLimits {
   std::uint32_t cpu_seconds = 1'800;        // over all threads
   std::chrono::milliseconds wall = std::chrono::minutes(30);
   std::uint64_t answer_bytes = 4ull << 30;
+  SpillOptions spill = {};  // what lies in its file does not count as memory
 };
 
 // `stage` says what is being done, `fraction` in [0, 1] how far that is.

@@ -38,10 +38,6 @@ Unexpected refused(const char* what, const fs::path& path, int error) {
                                           std::strerror(error), next_step(error)));
 }
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
 fs::path temporary_name(const fs::path& path) {
   static thread_local std::mt19937_64 random{std::random_device{}()};
   return folder_of(path) / fmt::format(".{}.{:016x}.part", path.filename().string(), random());
@@ -59,6 +55,10 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
 }
 
 }  // namespace
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 Expected<void> sync_folder(const fs::path& folder) {
   const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

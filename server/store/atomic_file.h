@@ -19,6 +19,9 @@ Expected<void> check_writable(const std::filesystem::path& path);
 Expected<void> write_file_atomically(const std::filesystem::path& path,
                                      std::span<const std::uint8_t> bytes);
 
+// Where a file of that name is; `.` for a bare name.
+std::filesystem::path folder_of(const std::filesystem::path& path);
+
 // Makes the names in `folder` durable.
 Expected<void> sync_folder(const std::filesystem::path& folder);
 

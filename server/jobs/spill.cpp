@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/spill.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <malloc.h>
+#include <sys/mman.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <string>
+#include <thread>
+
+#include "server/jobs/page_ranges.h"
+#include "server/store/file_descriptor.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::size_t kLarge = 8192;         // blocks from here on may spill; a block of Segments
+constexpr std::size_t kWorthHole = 1 << 20;  // freed ranges from here on go back to the disk
+constexpr std::uint64_t kHeldShare = 4;  // large blocks take a quarter of memory before any spills
+// The rest of what may be resident is for what comes in until the next look.
+constexpr double kTrimShare = 0.625;
+constexpr auto kLook = std::chrono::milliseconds(1);
+
+// One per process, and for as long as that.
+class Spill {
+ public:
+  Spill(const SpillOptions& options, std::byte* base, std::size_t capacity, int statm)
+      : base_(base),
+        capacity_(capacity),
+        statm_(statm),
+        most_held_(static_cast<std::int64_t>(options.resident_bytes / kHeldShare)),
+        most_resident_(
+            static_cast<std::uint64_t>(kTrimShare * static_cast<double>(options.resident_bytes))),
+        input_(options.input),
+        ranges_(capacity) {}
+
+  std::size_t capacity() const { return capacity_; }
+  bool owns(const void* p) const {
+    return p >= static_cast<const void*>(base_) && p < static_cast<const void*>(base_ + capacity_);
+  }
+
+  bool is_full(std::size_t size) const {
+    return held_ + static_cast<std::int64_t>(size) > most_held_;
+  }
+  void hold(void* p) {
+    if (const std::size_t size = ::malloc_usable_size(p); size >= kLarge)
+      held_ += static_cast<std::int64_t>(size);
+  }
+  void let_go(void* p) {
+    if (const std::size_t size = ::malloc_usable_size(p); size >= kLarge)
+      held_ -= static_cast<std::int64_t>(size);
+  }
+
+  void* take(std::size_t size) {
+    const std::lock_guard lock(mutex_);
+    const auto offset = ranges_.take(size);
+    return offset ? base_ + *offset : nullptr;
+  }
+
+  void give_back(void* p) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t size =
+        ranges_.give_back(static_cast<std::size_t>(static_cast<std::byte*>(p) - base_));
+    if (size >= kWorthHole) ::madvise(p, size, MADV_REMOVE);
+  }
+
+  std::size_t spilled() {
+    const std::lock_guard lock(mutex_);
+    return ranges_.taken();
+  }
+
+  // Pages of a shared file leave the process, not the file: the kernel keeps or writes them.
+  void trim() {
+    if (resident_bytes() <= most_resident_) return;
+    ::madvise(base_, used(), MADV_DONTNEED);
+    drop_input();
+  }
+
+  std::uint64_t resident_bytes() const {
+    std::array<char, 64> text{};
+    const ssize_t length = ::pread(statm_, text.data(), text.size(), 0);
+    const char* const end = text.data() + std::max<ssize_t>(length, 0);
+    const char* const second = std::find<const char*>(text.data(), end, ' ');
+    std::uint64_t pages = 0;
+    if (second != end) std::from_chars(second + 1, end, pages);
+    return pages * PageRanges::kPage;
+  }
+
+ private:
+  std::size_t used() {
+    const std::lock_guard lock(mutex_);
+    return ranges_.end();
+  }
+
+  void drop_input() const {
+    const auto begin =
+        reinterpret_cast<std::uintptr_t>(input_.data()) / PageRanges::kPage * PageRanges::kPage;
+    const auto end = reinterpret_cast<std::uintptr_t>(input_.data() + input_.size());
+    ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_PAGEOUT);
+  }
+
+  std::byte* base_;
+  std::size_t capacity_;
+  int statm_;
+  std::int64_t most_held_;
+  std::uint64_t most_resident_;
+  std::span<const std::uint8_t> input_;
+  // By large blocks that are not in the file, since the spill was opened.
+  std::atomic<std::int64_t> held_ = 0;
+  std::mutex mutex_;
+  PageRanges ranges_;
+};
+
+std::atomic<Spill*> spill = nullptr;
+
+Unexpected refused(const std::filesystem::path& folder, int error) {
+  return fail(
+      ErrorCode::kIo,
+      fmt::format("cannot make a working file in {}: {}; choose a folder on a disk with room",
+                  folder.string(), std::strerror(error)));
+}
+
+// Never has a name, or has lost it before a byte is in it.
+FileDescriptor nameless_file(const std::filesystem::path& folder) {
+  FileDescriptor fd(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  if (fd) return fd;
+  std::string name = (folder / ".vitrine.XXXXXX").string();
+  fd = FileDescriptor(::mkostemp(name.data(), O_CLOEXEC));
+  if (fd) ::unlink(name.c_str());
+  return fd;
+}
+
+}  // namespace
+
+Expected<void> open_spill(const SpillOptions& options) {
+  if (options.folder.empty()) return {};
+  const FileDescriptor file = nameless_file(options.folder);
+  struct statvfs disk {};
+  if (!file || ::fstatvfs(file.get(), &disk) != 0) return refused(options.folder, errno);
+  const std::size_t capacity =
+      disk.f_bavail * disk.f_frsize / 2 / PageRanges::kPage * PageRanges::kPage;
+  if (capacity == 0) return {};
+  if (::ftruncate(file.get(), static_cast<off_t>(capacity)) != 0)
+    return refused(options.folder, errno);
+  void* base = ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
+  if (base == MAP_FAILED) return refused(options.folder, errno);
+  const int statm =
+      ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);  // open as long as the process
+  if (statm < 0) return refused("/proc", errno);
+  spill = new Spill(options, static_cast<std::byte*>(base), capacity, statm);
+  return {};
+}
+
+void start_trimming() {
+  if (spill == nullptr) return;
+  std::thread([] {
+    for (;;) {
+      spill.load()->trim();
+      std::this_thread::sleep_for(kLook);
+    }
+  }).detach();
+}
+
+std::uint64_t spill_capacity() {
+  return spill != nullptr ? spill.load()->capacity() : 0;
+}
+
+std::uint64_t resident_bytes() {
+  return spill != nullptr ? spill.load()->resident_bytes() : 0;
+}
+
+std::uint64_t spilled_bytes() {
+  return spill != nullptr ? spill.load()->spilled() : 0;
+}
+
+namespace {
+
+void* take(std::size_t size) noexcept {
+  Spill* const here = spill;
+  const bool is_large = here != nullptr && size >= kLarge;
+  if (is_large && here->is_full(size)) {
+    if (void* p = here->take(size)) return p;
+  }
+  void* p = std::malloc(std::max<std::size_t>(size, 1));
+  if (here != nullptr && p != nullptr) here->hold(p);
+  return p;
+}
+
+void* take_or_throw(std::size_t size) {
+  for (;;) {
+    if (void* p = take(size)) return p;
+    const std::new_handler handler = std::get_new_handler();
+    if (handler == nullptr) throw std::bad_alloc();
+    handler();
+  }
+}
+
+void give_back(void* p) noexcept {
+  Spill* const here = spill;
+  if (here != nullptr && here->owns(p)) return here->give_back(p);
+  if (here != nullptr && p != nullptr) here->let_go(p);
+  std::free(p);
+}
+
+}  // namespace
+}  // namespace vitrine
+
+// All forms: the sanitisers' own do not call each other.
+void* operator new(std::size_t size) {
+  return vitrine::take_or_throw(size);
+}
+void* operator new[](std::size_t size) {
+  return vitrine::take_or_throw(size);
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return vitrine::take(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return vitrine::take(size);
+}
+void operator delete(void* p) noexcept {
+  vitrine::give_back(p);
+}
+void operator delete[](void* p) noexcept {
+  vitrine::give_back(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  vitrine::give_back(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+  vitrine::give_back(p);
+}
