@@ -12,7 +12,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -27,11 +26,13 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kLarge = 8192;         // blocks from here on may spill; a block of Segments
-constexpr std::size_t kWorthHole = 1 << 20;  // freed ranges from here on go back to the disk
+constexpr std::size_t kLarge = 8192;          // blocks from here on may spill; a block of Segments
+constexpr std::size_t kWorthHole = 1 << 20;   // freed ranges from here on go back to the disk
+constexpr std::size_t kLargestPage = 65'536;  // of any kernel that this runs on
 constexpr std::uint64_t kHeldShare = 4;  // large blocks take a quarter of memory before any spills
 // The rest of what may be resident is for what comes in until the next look.
 constexpr double kTrimShare = 0.625;
+constexpr std::uint64_t kFew = 8;
 constexpr auto kLook = std::chrono::milliseconds(1);
 
 // One per process, and for as long as that.
@@ -72,9 +73,9 @@ class Spill {
 
   void give_back(void* p) {
     const std::lock_guard lock(mutex_);
-    const std::size_t size =
-        ranges_.give_back(static_cast<std::size_t>(static_cast<std::byte*>(p) - base_));
-    if (size >= kWorthHole) ::madvise(p, size, MADV_REMOVE);
+    const auto begin = static_cast<std::size_t>(static_cast<std::byte*>(p) - base_);
+    const std::size_t size = ranges_.give_back(begin);
+    if (size >= kWorthHole) punch_hole(begin, begin + size);
   }
 
   std::size_t spilled() {
@@ -82,21 +83,26 @@ class Spill {
     return ranges_.taken();
   }
 
-  // Pages of a shared file leave the process, not the file: the kernel keeps or writes them.
+  // Pages of a shared file leave the process, not the file: the kernel keeps or writes them. What
+  // is at work comes back at once, so few are not worth it, whatever else is in memory.
   void trim() {
-    if (resident_bytes() <= most_resident_) return;
+    const auto [all, mapped] = resident();
+    if (all <= most_resident_ || mapped <= most_resident_ / kFew) return;
     ::madvise(base_, used(), MADV_DONTNEED);
     drop_input();
   }
 
-  std::uint64_t resident_bytes() const {
-    std::array<char, 64> text{};
-    const ssize_t length = ::pread(statm_, text.data(), text.size(), 0);
-    const char* const end = text.data() + std::max<ssize_t>(length, 0);
-    const char* const second = std::find<const char*>(text.data(), end, ' ');
-    std::uint64_t pages = 0;
-    if (second != end) std::from_chars(second + 1, end, pages);
-    return pages * PageRanges::kPage;
+  struct Resident {
+    std::uint64_t all = 0, mapped = 0;  // bytes; `mapped` of files
+  };
+  Resident resident() const {
+    std::array<char, 128> text{};
+    if (::pread(statm_, text.data(), text.size() - 1, 0) <= 0) return {};
+    char* at = text.data();
+    std::strtoull(at, &at, 10);  // of address space
+    const std::uint64_t all = std::strtoull(at, &at, 10), mapped = std::strtoull(at, &at, 10);
+    const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    return {all * page, mapped * page};
   }
 
  private:
@@ -105,11 +111,15 @@ class Spill {
     return ranges_.end();
   }
 
+  // The disk need not keep what is between. Not a page is touched that reaches out of it.
+  void punch_hole(std::size_t begin, std::size_t end) const {
+    const std::size_t first = (begin + kLargestPage - 1) / kLargestPage * kLargestPage;
+    const std::size_t last = end / kLargestPage * kLargestPage;
+    ::madvise(base_ + first, last - first, MADV_REMOVE);
+  }
+
   void drop_input() const {
-    const auto begin =
-        reinterpret_cast<std::uintptr_t>(input_.data()) / PageRanges::kPage * PageRanges::kPage;
-    const auto end = reinterpret_cast<std::uintptr_t>(input_.data() + input_.size());
-    ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_PAGEOUT);
+    ::madvise(const_cast<std::uint8_t*>(input_.data()), input_.size(), MADV_PAGEOUT);
   }
 
   std::byte* base_;
@@ -179,7 +189,7 @@ std::uint64_t spill_capacity() {
 }
 
 std::uint64_t resident_bytes() {
-  return spill != nullptr ? spill.load()->resident_bytes() : 0;
+  return spill != nullptr ? spill.load()->resident().all : 0;
 }
 
 std::uint64_t spilled_bytes() {

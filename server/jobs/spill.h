@@ -15,7 +15,7 @@ namespace vitrine {
 struct SpillOptions {
   std::filesystem::path folder = {};  // for the file: on a disk with room; empty: no spilling
   std::uint64_t resident_bytes = 2ull << 30;  // of the process, at most; more only for small blocks
-  // A file mapped read-only: its pages, too, leave memory.
+  // A file mapped read-only, from its start: its pages, too, leave memory.
   std::span<const std::uint8_t> input = {};
 };
 
