@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simplify/collapse_rules.h"
 
-#include "codec/mesh/closest_point.h"
 #include "codec/progressive/placement.h"
 
 namespace vitrine {
@@ -43,20 +42,6 @@ bool fan_survives(const Surface& surface, const Star& star, VertexId centre, Ver
     a = b;
   }
   return true;
-}
-
-// True if a face that a fan keeps, once its edge to `other` has collapsed, is within the root of
-// `squared` of p.
-bool fan_is_near(const Surface& surface, const Star& star, VertexId other, const Vec3& target,
-                 const Vec3& p, double squared) {
-  VertexId a = star.vertex[star.valence - 1];
-  for (VertexId b : star.neighbours()) {
-    const bool stays = a != other && b != other && !is_virtual(a) && !is_virtual(b);
-    if (stays && squared_distance({target, surface.point(a), surface.point(b)}, p) <= squared)
-      return true;
-    a = b;
-  }
-  return false;
 }
 
 }  // namespace
@@ -117,19 +102,6 @@ bool keeps_orientation(const Surface& surface, const EdgeStar& edge, const Vec3i
   const Vec3 to = surface.middle(target);
   return fan_survives(surface, edge.star1, edge.v1, edge.v2, to) &&
          fan_survives(surface, edge.star2, edge.v2, edge.v1, to);
-}
-
-bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& target, double reach) {
-  const Vec3 to = surface.middle(target);
-  const double most = reach * reach;
-  for (const VertexId v : {edge.v1, edge.v2}) {
-    const Vec3 p = surface.point(v);
-    const bool near = dot(p - to, p - to) <= most ||
-                      fan_is_near(surface, edge.star1, edge.v2, to, p, most) ||
-                      fan_is_near(surface, edge.star2, edge.v1, to, p, most);
-    if (!near) return false;
-  }
-  return true;
 }
 
 }  // namespace vitrine

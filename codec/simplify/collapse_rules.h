@@ -51,8 +51,4 @@ Vec3i merged_position(const Surface& surface, const EdgeStar& edge, Placement pl
 // Faces without area are exempt: quantisation makes them, and they must be able to go.
 bool keeps_orientation(const Surface& surface, const EdgeStar& edge, const Vec3i& target);
 
-// True if both ends stay within `reach` (lattice units) of the faces around v~. Quadrics do not
-// tell: the planes of a needle all pass close to its axis, and so to what is left of a cut one.
-bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& target, double reach);
-
 }  // namespace vitrine

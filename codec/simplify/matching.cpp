@@ -11,7 +11,9 @@ constexpr double kLifted = 0.9;
 // Shares of the edges, cheapest first, that a level may take: fewer follow the surface closer,
 // more need fewer levels. Measured on the rate-distortion curve.
 constexpr double kCheapRegular = 0.7, kCheap = 0.6;
-constexpr double kReach = 0.25;  // share of the mean edge
+// Of keeps_near(), shares of the mean edge: the closer, the smaller is the largest error, and the
+// more of a rough surface stays until later.
+constexpr double kReachRegular = 0.1, kReach = 0.25;
 
 // Costs are not negative, so that their bits ascend with them.
 std::uint32_t cost_key(double cost) {
@@ -33,12 +35,15 @@ const std::vector<Pick>& Matcher::match(const LevelRules& rules) {
   radix_sort(edges_, scratch_);
 
   picks_.clear();
-  const double share = rules.length_weight > 0 ? kCheapRegular : kCheap;
+  const bool regular = rules.length_weight > 0;
+  const double share = regular ? kCheapRegular : kCheap;
   const auto cheap = static_cast<std::size_t>(static_cast<double>(edges_.size()) * share);
-  const std::size_t enough = surface_.live.size() / 5;
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    if (picks_.size() == rules.most || (i >= cheap && picks_.size() >= enough)) break;
-    choose(rules, edges_[i].index);
+  reach_ = mean_edge_ * (regular ? kReachRegular : kReach);
+  choose(rules, {edges_.data(), cheap}, rules.most);
+  const std::size_t enough = std::min<std::size_t>(rules.most, surface_.live.size() / 5);
+  if (picks_.size() < enough) {  // a rough surface must get on, too
+    reach_ = mean_edge_ * kReach;
+    choose(rules, edges_, enough);
   }
   const auto target_less = [](const Pick& a, const Pick& b) { return a.target < b.target; };
   const auto target_same = [](const Pick& a, const Pick& b) { return a.target == b.target; };
@@ -87,7 +92,7 @@ void Matcher::list_edges(const LevelRules& rules) {
       c = mesh.swing(c);
     } while (c != first);
   }
-  reach_ = kReach * lengths / static_cast<double>(std::max<std::size_t>(edges_.size(), 1));
+  mean_edge_ = lengths / static_cast<double>(std::max<std::size_t>(edges_.size(), 1));
 }
 
 // v~ up to rounding, for a fraction of the price of merged_position().
@@ -109,19 +114,24 @@ Vec3 Matcher::likely_target(const LevelRules& rules, Corner c) const {
   return middle + near * (1.0 / (4 * m)) - far * (1.0 / (4 * (both - shared)));
 }
 
-bool Matcher::choose(const LevelRules& rules, Corner c) {
+void Matcher::choose(const LevelRules& rules, std::span<const KeyedIndex> edges,
+                     std::size_t enough) {
+  for (const KeyedIndex& edge : edges) {
+    if (picks_.size() >= enough) return;
+    choose(rules, edge.index);
+  }
+}
+
+void Matcher::choose(const LevelRules& rules, Corner c) {
   const Connectivity& mesh = surface_.mesh;
-  if (taken_[mesh.vertex(c)] || taken_[mesh.vertex(next(c))]) return false;
+  if (taken_[mesh.vertex(c)] || taken_[mesh.vertex(next(c))]) return;
   const EdgeStar edge(mesh, c);
-  if (!keeps_manifold(mesh, edge)) return false;
+  if (!keeps_manifold(mesh, edge)) return;
   const Vec3i target = merged_position(surface_, edge, rules.placement, rules.parity);
-  if (!rules.allow(target)) return false;
-  if (!keeps_orientation(surface_, edge, target)) return false;
-  if (!keeps_near(surface_, edge, target, reach_)) return false;
+  if (!rules.allow(target) || !keeps_shape(edge, target)) return;
   taken_[edge.v1] = taken_[edge.v2] = 1;
   withhold_neighbours(rules, edge);
   picks_.push_back({c, target});
-  return true;
 }
 
 void Matcher::withhold_neighbours(const LevelRules& rules, const EdgeStar& edge) {

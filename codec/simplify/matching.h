@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/progressive/manifest.h"
 #include "codec/simplify/apply_collapse.h"
+#include "codec/simplify/closeness.h"
 #include "codec/simplify/collapse_rules.h"
 #include "codec/simplify/radix_sort.h"
 #include "codec/simplify/surface.h"
@@ -36,11 +38,19 @@ class Matcher {
   // (by_region) or all of its neighbours (pyramid placement) from collapsing in this level.
   const std::vector<Pick>& match(const LevelRules& rules);
 
+  // True if the collapse turns no face over and stays as near to the surface as the rules of the
+  // last match() ask for. Collapses that come before it in the level may change the answer.
+  bool keeps_shape(const EdgeStar& edge, const Vec3i& target) const {
+    return keeps_orientation(surface_, edge, target) && keeps_near(surface_, edge, target, reach_);
+  }
+
  private:
   void sum_rings();
   void list_edges(const LevelRules& rules);
   Vec3 likely_target(const LevelRules& rules, Corner c) const;
-  bool choose(const LevelRules& rules, Corner c);
+  // In the order given, until `enough` are picked.
+  void choose(const LevelRules& rules, std::span<const KeyedIndex> edges, std::size_t enough);
+  void choose(const LevelRules& rules, Corner c);
   void withhold_neighbours(const LevelRules& rules, const EdgeStar& edge);
 
   const Surface& surface_;
@@ -48,7 +58,7 @@ class Matcher {
   std::vector<std::uint8_t> taken_;          // per vertex
   std::vector<Vec3> ring_sum_;               // per vertex: of its real neighbours
   std::vector<std::uint32_t> ring_size_;
-  double reach_ = 0;  // of keeps_near()
+  double mean_edge_ = 0, reach_ = 0;  // reach_: of keeps_near()
   std::vector<Pick> picks_;
 };
 

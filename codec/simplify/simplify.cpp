@@ -18,7 +18,7 @@
 namespace vitrine {
 namespace {
 
-constexpr std::uint32_t kRegularLevels = 3;  // finest levels that also prefer short edges
+constexpr std::uint32_t kRegularLevels = 4;  // finest levels that also prefer short edges
 constexpr double kLengthWeight = 5e-3;
 constexpr double kCellPerError = 1;  // side of a cell against the rms distance from the planes
 // A level that removes less than this share of the vertices is the last one: what is left is
@@ -176,7 +176,7 @@ class Simplifier {
     // The collapses before may have changed the surroundings since the match.
     for (const Pick& pick : picks) {
       const EdgeStar edge(surface_.mesh, pick.corner);
-      if (keeps_manifold(surface_.mesh, edge) && keeps_orientation(surface_, edge, pick.target)) {
+      if (keeps_manifold(surface_.mesh, edge) && matcher_.keeps_shape(edge, pick.target)) {
         level.push_back(apply_collapse(surface_, edge, pick));
       }
     }

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Against distances between the meshes before and after each collapse of a bumpy sheet.
+#include "codec/simplify/closeness.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "codec/mesh/triangle_bvh.h"
+#include "support/meshes.h"
+
+namespace vitrine::test {
+namespace {
+
+constexpr double kReach = 12.3;  // lattice units; no distance is exactly that
+
+Surface bumpy_sheet() {
+  constexpr std::uint32_t kSide = 24;
+  TriangleMesh sheet = test::sheet(kSide, kSide);
+  const double edge = length(sheet.positions[1] - sheet.positions[0]);
+  for (VertexId v = 0; v < kSide * kSide; ++v)
+    sheet.positions[v].z = edge * 0.8 * std::sin(v * v * 0.37);
+  const LatticeMesh fine = quantise(sheet, fit_lattice(sheet.positions, 10));
+  Surface surface{.mesh = *Connectivity::close(kSide * kSide, fine.faces),
+                  .position = fine.positions};
+  for (VertexId v = 0; v < kSide * kSide; ++v)
+    surface.live.push_back(v);
+  return surface;
+}
+
+// The faces at the edge, or what becomes of them, and the middles of their edges at the ends.
+struct Around {
+  TriangleMesh mesh;
+  std::vector<Vec3> edges, faces;
+};
+
+Around around(const Surface& surface, const EdgeStar& edge, const Vec3* target) {
+  Around out;
+  std::set<std::uint32_t> done;
+  for (const Star* star : {&edge.star1, &edge.star2}) {
+    for (std::uint32_t i = 0; i < star->valence; ++i) {
+      const std::uint32_t face = star->corner[i] / 3;
+      Triangle t;
+      std::vector<Vec3> p;
+      std::uint32_t ends = 0, real = 0;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const VertexId v = surface.mesh.vertex(3 * face + k);
+        const bool end = v == edge.v1 || v == edge.v2;
+        ends += end;
+        if (is_virtual(v)) continue;
+        ++real;
+        p.push_back(end && target != nullptr ? *target : surface.point(v));
+      }
+      const VertexId other = star->vertex[i], centre = surface.mesh.vertex(star->corner[i]);
+      const bool same = other == edge.v1 || other == edge.v2;
+      if (!is_virtual(other) && !(same && target != nullptr)) {
+        const Vec3 from = target != nullptr ? *target : surface.point(centre);
+        out.edges.push_back((from + surface.point(other)) * 0.5);
+      }
+      if (real < 3 || (target != nullptr && ends == 2) || !done.insert(face).second) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        t[k] = static_cast<VertexId>(out.mesh.positions.size());
+        out.mesh.positions.push_back(p[k]);
+      }
+      out.mesh.faces.push_back(t);
+      out.faces.push_back((p[0] + p[1] + p[2]) * (1.0 / 3));
+    }
+  }
+  return out;
+}
+
+double farthest(const std::vector<Vec3>& points, const TriangleBvh& from) {
+  double most = 0;
+  for (const Vec3& p : points)
+    most = std::max(most, std::sqrt(from.closest(p).squared));
+  return most;
+}
+
+TEST(Closeness, ComparesTheSurfacesBeforeAndAfter) {
+  const Surface surface = bumpy_sheet();
+  std::size_t near = 0, far_ends = 0, far_middles = 0;
+  for (Corner c = 0; c < 3 * surface.mesh.face_count(); ++c) {
+    if (is_virtual(surface.mesh.vertex(c)) || is_virtual(surface.mesh.vertex(next(c)))) continue;
+    const EdgeStar edge(surface.mesh, c);
+    if (!keeps_manifold(surface.mesh, edge)) continue;
+    const Vec3i target = merged_position(surface, edge, Placement::kMidpoint, 0);
+    const Vec3 to = surface.middle(target);
+    const Around before = around(surface, edge, nullptr), after = around(surface, edge, &to);
+    const TriangleBvh old_faces(before.mesh), new_faces(after.mesh);
+    const double ends = farthest({surface.point(edge.v1), surface.point(edge.v2)}, new_faces);
+    const double middles =
+        std::max({farthest(before.edges, new_faces), farthest(after.edges, old_faces),
+                  farthest(after.faces, old_faces)});
+    ASSERT_EQ(keeps_near(surface, edge, target, kReach), std::max(ends, middles) <= kReach)
+        << "edge of " << edge.v1 << " and " << edge.v2 << ": " << ends << ", " << middles;
+    far_ends += ends > kReach, far_middles += ends <= kReach && middles > kReach;
+    near += std::max(ends, middles) <= kReach;
+  }
+  EXPECT_GT(near, 100u);
+  EXPECT_GT(far_ends, 100u);
+  EXPECT_GT(far_middles, 10u);
+}
+
+}  // namespace
+}  // namespace vitrine::test
