@@ -8,7 +8,6 @@ namespace vitrine::bench {
 namespace {
 
 constexpr double kFieldOfView = 35;  // degrees
-constexpr double kShare = 1.0 / 8;   // of the diagonal, in the height of the viewport
 
 View look(const Vec3& at, const Vec3& back, double distance) {
   const Vec3 aside = std::abs(back.y) > 0.5 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
@@ -22,14 +21,14 @@ View look(const Vec3& at, const Vec3& back, double distance) {
 
 }  // namespace
 
-std::vector<View> close_ups(const TriangleMesh& mesh) {
+std::vector<View> close_ups(const TriangleMesh& mesh, double share) {
   Vec3 low = mesh.positions[0], high = low;
   for (const Vec3& p : mesh.positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const double slope = std::tan(kFieldOfView * 3.14159265358979323846 / 360);
-  const double distance = kShare * length(high - low) / (2 * slope);
+  const double distance = share * length(high - low) / (2 * slope);
   std::vector<View> views;
   for (const Vec3& back :
        {Vec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {

@@ -9,9 +9,9 @@
 
 namespace vitrine::bench {
 
-// One from each of six sides: before the vertex that is farthest out, as near as an eighth of the
+// One from each of six sides: before the vertex that is farthest out, as near as a `share` of the
 // model's diagonal fills the height of a viewport of 800 x 600.
-std::vector<View> close_ups(const TriangleMesh& mesh);
+std::vector<View> close_ups(const TriangleMesh& mesh, double share);
 
 // Bytes that a visitor has fetched once no error in sight is above one pixel, head included.
 std::uint64_t bytes_for(const Manifest& manifest, const View& view);

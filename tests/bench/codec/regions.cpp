@@ -12,6 +12,12 @@ namespace {
 constexpr double kMaxRegions = 1.03;     // bytes, to a file of one region
 constexpr double kMaxCloseUp = 1.0 / 3;  // bytes, to the whole file
 
+struct CloseUp {
+  const char* name;
+  double share;  // of the diagonal, in the height of the viewport
+};
+constexpr CloseUp kCloseUps[] = {{"close_up_quarter", 0.25}, {"close_up_eighth", 0.125}};
+
 // Chunks of levels with several regions that are shorter than 8 KiB or longer than 64 KiB, and all.
 std::pair<double, double> chunks_out_of_band(const Manifest& manifest) {
   double outside = 0, all = 0;
@@ -36,12 +42,15 @@ void regions(Report& report, const Model& model) {
   const auto [outside, all] = chunks_out_of_band(manifest);
   report.add(
       {"regions." + model.name, "chunks_out_of_8_to_64_KiB", outside, all, outside / all, 0});
-  double sum = 0;
-  const std::vector<View> views = close_ups(model.clean);
-  for (const View& view : views)
-    sum += static_cast<double>(bytes_for(manifest, view));
-  const double mean = sum / static_cast<double>(views.size());
-  report.add({"close_up." + model.name, "ratio_to_whole", mean, whole, mean / whole, kMaxCloseUp});
+  for (const CloseUp& close_up : kCloseUps) {
+    double sum = 0;
+    const std::vector<View> views = close_ups(model.clean, close_up.share);
+    for (const View& view : views)
+      sum += static_cast<double>(bytes_for(manifest, view));
+    const double mean = sum / static_cast<double>(views.size());
+    report.add({close_up.name + ("." + model.name), "ratio_to_whole", mean, whole, mean / whole,
+                kMaxCloseUp});
+  }
 }
 
 }  // namespace vitrine::bench
