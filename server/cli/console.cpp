@@ -39,10 +39,10 @@ void print_fault(std::string_view message) {
   std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw on a full disk
 }
 
-std::string time_left(double seconds, double fraction) {
+std::string time_left(double seconds, double fraction, double since) {
   constexpr double kSomething = 0.02;
   if (!(fraction >= kSomething && fraction < 1)) return {};
-  const double left = seconds * (1 - fraction) / fraction;
+  const double left = std::max(seconds * (1 - fraction) / fraction - since, 0.5);
   const auto [unit, length] = left < 100        ? std::pair("s", 1)
                               : left < 100 * 60 ? std::pair("min", 60)
                                                 : std::pair("h", 3600);
@@ -52,7 +52,8 @@ std::string time_left(double seconds, double fraction) {
 ProgressBar::ProgressBar() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
-  if (is_terminal_) fmt::print(stderr, "\r\x1b[K");
+  if (ticker_.joinable()) ticker_.request_stop(), ticker_.join();
+  if (is_terminal_) std::fputs("\r\x1b[K", stderr);
 }
 
 ProgressReport ProgressBar::report() {
@@ -61,13 +62,31 @@ ProgressReport ProgressBar::report() {
 
 void ProgressBar::show(std::string_view stage, double fraction) {
   if (!is_terminal_) return;
+  const std::lock_guard lock(mutex_);
+  stage_ = stage;
+  share_ = fraction >= 0 && fraction <= 1 ? fraction : 0;
+  shown_ = Clock::now();
+  draw();
+  if (!ticker_.joinable())
+    ticker_ = std::jthread([this](const std::stop_token& stop) { keep_drawing(stop); });
+}
+
+void ProgressBar::draw() const {
   constexpr int kWidth = 30;
-  const double share = fraction >= 0 && fraction <= 1 ? fraction : 0;
-  const int filled = static_cast<int>(share * kWidth);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  fmt::print(stderr, "\r\x1b[K[{:#<{}}{:.<{}}] {:3.0f} % {}  {}", "", filled, "", kWidth - filled,
-             100 * share, stage, time_left(elapsed.count(), share));
+  const int filled = static_cast<int>(share_ * kWidth);
+  const std::chrono::duration<double> took = shown_ - start_, since = Clock::now() - shown_;
+  const std::string line =
+      fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {:3.0f} % {}  {}", "", filled, "", kWidth - filled,
+                  100 * share_, stage_, time_left(took.count(), share_, since.count()));
+  std::fwrite(line.data(), 1, line.size(), stderr);  // not fmt::print: a terminal may be gone
   std::fflush(stderr);
+}
+
+void ProgressBar::keep_drawing(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (!stopped_.wait_for(lock, stop, std::chrono::seconds(1),
+                            [&] { return stop.stop_requested(); }))
+    draw();
 }
 
 }  // namespace vitrine::cli

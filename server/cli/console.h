@@ -3,9 +3,13 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "server/cli/outcome.h"
 #include "server/jobs/sandbox.h"
@@ -19,11 +23,13 @@ Outcome print_json(const nlohmann::json& object);  // what is not UTF-8 in it is
 // Prints "vitrine: …" to stderr, where that takes it.
 void print_fault(std::string_view message);
 
-// How long the rest of a work takes of which `fraction` (0..1) took `seconds`, in words: "about 40
-// s left". Empty where that cannot be told yet, or nothing is left.
-std::string time_left(double seconds, double fraction);
+// How long the rest of a work takes of which `fraction` (0..1) took `seconds`, where `since` more
+// seconds have gone since then, in words: "about 40 s left". Empty where that cannot be told yet,
+// or nothing is left.
+std::string time_left(double seconds, double fraction, double since);
 
 // A bar with the time left on stderr where that is a terminal, else nothing. Gone when destroyed.
+// The time left runs down on a thread of its own from the first report on.
 class ProgressBar {
  public:
   ProgressBar();
@@ -34,10 +40,20 @@ class ProgressBar {
   ProgressReport report();  // valid as long as the bar
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void show(std::string_view stage, double fraction);
+  void draw() const;
+  void keep_drawing(const std::stop_token& stop);
 
   const bool is_terminal_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;  // of what follows
+  std::condition_variable_any stopped_;
+  std::string stage_;
+  double share_ = 0;
+  Clock::time_point shown_;
+  std::jthread ticker_;
 };
 
 }  // namespace vitrine::cli

@@ -38,12 +38,20 @@ class OnTerminal {
   OnTerminal(const OnTerminal&) = delete;
   OnTerminal& operator=(const OnTerminal&) = delete;
 
-  // Reads until `text` has come, or to the end.
-  void wait_for(const std::string& text) {
-    while (seen_.find(text) == std::string::npos && read_some()) {
+  // Reads until `text` has come so many times, or to the end.
+  void wait_for(const std::string& text, int times = 1) {
+    while (count(text) < times && read_some()) {
     }
   }
   void signal(int number) const { ::kill(pid_, number); }
+  // To the process that does the work.
+  void signal_child(int number) const {
+    const std::string pid = std::to_string(pid_);
+    std::ifstream children("/proc/" + pid + "/task/" + pid + "/children");
+    pid_t child = 0;
+    ASSERT_TRUE(children >> child);
+    ::kill(child, number);
+  }
   // Reads to the end; the status as of waitpid().
   int finish() {
     while (read_some()) {
@@ -55,6 +63,13 @@ class OnTerminal {
   const std::string& seen() const { return seen_; }
 
  private:
+  int count(const std::string& text) const {
+    int found = 0;
+    for (std::size_t at = 0; (at = seen_.find(text, at)) != std::string::npos; at += text.size())
+      ++found;
+    return found;
+  }
+
   bool read_some() {
     std::array<char, 4096> part{};
     ssize_t n = 0;
@@ -71,15 +86,20 @@ class OnTerminal {
 };
 
 TEST(TimeLeft, is_what_the_rest_takes_at_the_pace_so_far) {
-  EXPECT_EQ(cli::time_left(10, 0.2), "about 40 s left");
-  EXPECT_EQ(cli::time_left(60, 0.1), "about 9 min left");
-  EXPECT_EQ(cli::time_left(3'600, 0.1), "about 9 h left");
-  EXPECT_EQ(cli::time_left(0.001, 0.5), "about 1 s left");
+  EXPECT_EQ(cli::time_left(10, 0.2, 0), "about 40 s left");
+  EXPECT_EQ(cli::time_left(60, 0.1, 0), "about 9 min left");
+  EXPECT_EQ(cli::time_left(3'600, 0.1, 0), "about 9 h left");
+  EXPECT_EQ(cli::time_left(0.001, 0.5, 0), "about 1 s left");
+}
+
+TEST(TimeLeft, runs_down_and_never_out) {
+  EXPECT_EQ(cli::time_left(10, 0.2, 15), "about 25 s left");
+  EXPECT_EQ(cli::time_left(10, 0.2, 1'000), "about 1 s left");
 }
 
 TEST(TimeLeft, is_not_told_before_something_and_after_all_is_done) {
   for (const double fraction : {-1.0, 0.0, 0.001, 1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_EQ(cli::time_left(10, fraction), "") << fraction;
+    EXPECT_EQ(cli::time_left(10, fraction, 0), "") << fraction;
 }
 
 TEST_F(VitrineCommand, a_terminal_shows_how_far_a_build_is_and_the_time_left) {
@@ -89,6 +109,16 @@ TEST_F(VitrineCommand, a_terminal_shows_how_far_a_build_is_and_the_time_left) {
   EXPECT_THAT(build.seen(), HasSubstr(" s left"));
   EXPECT_THAT(build.seen(), HasSubstr(" % simplify"));
   EXPECT_THAT(build.seen(), HasSubstr(" % encode"));
+}
+
+TEST_F(VitrineCommand, the_bar_is_drawn_anew_while_a_build_has_nothing_to_report) {
+  const std::string in = write("in.ply", bumpy_ply(130'000));
+  OnTerminal build({kVitrine, "build", in, "-o", path("out.pmesh")});
+  build.wait_for(" % read");  // the first bar, long before the next
+  build.signal_child(SIGSTOP);
+  build.wait_for(" left", 3);
+  build.signal_child(SIGCONT);
+  EXPECT_EQ(build.finish(), 0);
 }
 
 TEST_F(VitrineCommand, an_interrupted_build_leaves_nothing_and_can_be_started_again) {
