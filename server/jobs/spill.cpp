@@ -188,8 +188,8 @@ std::uint64_t spill_capacity() {
   return spill != nullptr ? spill.load()->capacity() : 0;
 }
 
-std::uint64_t resident_bytes() {
-  return spill != nullptr ? spill.load()->resident().all : 0;
+std::uint64_t mapped_bytes() {
+  return spill != nullptr ? spill.load()->resident().mapped : 0;
 }
 
 std::uint64_t spilled_bytes() {

@@ -30,6 +30,6 @@ void start_trimming();
 // All 0 where there is no spilling.
 std::uint64_t spill_capacity();  // bytes of address space
 std::uint64_t spilled_bytes();   // that lie in the file now
-std::uint64_t resident_bytes();  // that the process holds in memory now
+std::uint64_t mapped_bytes();    // of files that the process holds in memory now
 
 }  // namespace vitrine

@@ -95,9 +95,9 @@ TEST(Spill, ABuildOutOfCoreGivesTheBytesOfABuildInMemory) {
 TEST(Spill, PagesLeaveMemoryAndKeepWhatIsInThem) {
   const Spilling spilling;
   const auto answer = run_sandboxed(spilling.limits, [](const ProgressReport&) -> Expected<Bytes> {
-    const std::uint64_t before = resident_bytes();
+    const std::uint64_t before = mapped_bytes();
     const Bytes large(64 << 20, 7);
-    while (resident_bytes() > before + large.size() / 2)
+    while (mapped_bytes() > before + large.size() / 2)
       std::this_thread::yield();
     return Bytes{static_cast<std::uint8_t>(std::ranges::count(large, 7) == 64 << 20)};
   });
