@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // An array that grows at its end by blocks of equal size. Unlike std::vector it never moves what it
-// holds: growing takes no second copy, leaves no hole behind that only smaller things fit, and an
-// array has at most one block more than its elements need.
+// holds: growing takes no second copy, leaves no hole behind that only smaller things fit, and takes
+// at most one block more than the elements need. Shrinking keeps the blocks.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace vitrine {
@@ -14,6 +15,15 @@ template <class T>
 class Segments {
  public:
   static constexpr std::size_t kBlock = 2048;  // elements
+
+  Segments() = default;
+  Segments(Segments&& other) noexcept
+      : blocks_(std::move(other.blocks_)), size_(std::exchange(other.size_, 0)) {}
+  Segments& operator=(Segments&& other) noexcept {
+    blocks_ = std::move(other.blocks_);
+    size_ = std::exchange(other.size_, 0);
+    return *this;
+  }
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -27,7 +37,7 @@ class Segments {
   // New elements are copies of `value`.
   void resize(std::size_t size, const T& value) {
     while (blocks_.size() * kBlock < size)
-      blocks_.emplace_back(new T[kBlock]);
+      blocks_.push_back(std::unique_ptr<T[]>(new T[kBlock]));
     for (; size_ < size; ++size_)
       (*this)[size_] = value;
     size_ = size;

@@ -41,7 +41,8 @@ tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& 
 
 // The folder, or the one that it will be made in.
 std::filesystem::path existing(std::filesystem::path folder) {
-  while (!std::filesystem::is_directory(folder) && folder != folder_of(folder))
+  std::error_code unknown;  // is as good as not there: who opens the folder names the fault
+  while (!std::filesystem::is_directory(folder, unknown) && folder != folder_of(folder))
     folder = folder_of(folder);
   return folder;
 }

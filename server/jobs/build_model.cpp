@@ -112,7 +112,6 @@ class LevelErrors {
     if (finer >= manifest.levels.size() || manifest.tree.regions_at(finer).size() == 1) return;
     const std::int32_t cells =
         (1 << manifest.levels[chunk.level].shift) - (1 << manifest.levels[finer].shift);
-    if (cells == 0) return;
     const RegionNode& region = manifest.region(chunk);
     for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
       const ChunkInfo& next = manifest.chunks[manifest.find_chunk(finer, leaf)];

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <malloc.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -28,6 +29,7 @@ namespace {
 
 constexpr std::size_t kLarge = 8192;          // blocks from here on may spill; a block of Segments
 constexpr std::size_t kWorthHole = 1 << 20;   // freed ranges from here on go back to the disk
+constexpr std::uint64_t kMostCapacity = 64ull << 30;  // 300 million triangles; any disk maps it
 constexpr std::size_t kLargestPage = 65'536;  // of any kernel that this runs on
 constexpr std::uint64_t kHeldShare = 4;  // large blocks take a quarter of memory before any spills
 // The rest of what may be resident is for what comes in until the next look.
@@ -119,7 +121,7 @@ class Spill {
   }
 
   void drop_input() const {
-    ::madvise(const_cast<std::uint8_t*>(input_.data()), input_.size(), MADV_PAGEOUT);
+    ::madvise(const_cast<std::uint8_t*>(input_.data()), input_.size(), MADV_DONTNEED);
   }
 
   std::byte* base_;
@@ -153,6 +155,14 @@ FileDescriptor nameless_file(const std::filesystem::path& folder) {
   return fd;
 }
 
+std::size_t capacity_on(const struct statvfs& disk) {
+  struct rlimit file {};
+  std::uint64_t most = kMostCapacity;
+  if (::getrlimit(RLIMIT_FSIZE, &file) == 0) most = std::min<std::uint64_t>(most, file.rlim_cur);
+  most = std::min<std::uint64_t>(most, disk.f_bavail / 2 * disk.f_frsize);
+  return most / PageRanges::kPage * PageRanges::kPage;
+}
+
 }  // namespace
 
 Expected<void> open_spill(const SpillOptions& options) {
@@ -160,13 +170,10 @@ Expected<void> open_spill(const SpillOptions& options) {
   const FileDescriptor file = nameless_file(options.folder);
   struct statvfs disk {};
   if (!file || ::fstatvfs(file.get(), &disk) != 0) return refused(options.folder, errno);
-  const std::size_t capacity =
-      disk.f_bavail * disk.f_frsize / 2 / PageRanges::kPage * PageRanges::kPage;
-  if (capacity == 0) return {};
-  if (::ftruncate(file.get(), static_cast<off_t>(capacity)) != 0)
-    return refused(options.folder, errno);
+  const std::size_t capacity = capacity_on(disk);
+  if (capacity == 0 || ::ftruncate(file.get(), static_cast<off_t>(capacity)) != 0) return {};
   void* base = ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
-  if (base == MAP_FAILED) return refused(options.folder, errno);
+  if (base == MAP_FAILED) return {};
   const int statm =
       ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);  // open as long as the process
   if (statm < 0) return refused("/proc", errno);
@@ -228,7 +235,8 @@ void give_back(void* p) noexcept {
 }  // namespace
 }  // namespace vitrine
 
-// All forms: the sanitisers' own do not call each other.
+// All forms but those with an alignment, whose blocks stay in memory: the sanitisers' own do not
+// call each other.
 void* operator new(std::size_t size) {
   return vitrine::take_or_throw(size);
 }
@@ -251,5 +259,11 @@ void operator delete(void* p, std::size_t) noexcept {
   vitrine::give_back(p);
 }
 void operator delete[](void* p, std::size_t) noexcept {
+  vitrine::give_back(p);
+}
+void operator delete(void* p, const std::nothrow_t&) noexcept {
+  vitrine::give_back(p);
+}
+void operator delete[](void* p, const std::nothrow_t&) noexcept {
   vitrine::give_back(p);
 }

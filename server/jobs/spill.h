@@ -21,8 +21,9 @@ struct SpillOptions {
 
 // Begins to spill, until the process ends. Call it in a process of one thread, once, and
 // start_trimming() right after, where threads may be started; what happens between the two may take
-// away the right to open files. The file takes at most half of the room that the disk has, as
-// address space from the start; beyond it, memory is used. Fails (kIo) where it cannot be made.
+// away the right to open files. The file takes at most half of the room that the disk has, 64 GiB
+// and what files may have (RLIMIT_FSIZE), as address space from the start; beyond it, and on a disk
+// that cannot hold or map such a file, memory is used. Fails (kIo) where no file can be made.
 // Where others fill the disk meanwhile, the process ends by SIGBUS.
 Expected<void> open_spill(const SpillOptions& options);
 void start_trimming();

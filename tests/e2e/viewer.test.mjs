@@ -224,6 +224,20 @@ test("with a pixel error the camera decides what is fetched", async () => {
   await viewer.page.context().close();
 });
 
+test("with a pixel error a larger view asks for more", async () => {
+  const viewer = await ViewerPage.open(browser, pages.plain);
+  await viewer.page.locator("progressive-mesh").evaluate((element) => element.setAttribute("pixel-error", "8"));
+  await viewer.events("first-paint");
+  await viewer.releaseLayers();
+  await viewer.events("load");
+  const small = await viewer.triangles();
+  const { width, height } = viewer.page.viewportSize();
+  await viewer.settled(() => viewer.page.setViewportSize({ width: 2 * width, height: 2 * height }));
+  assert.ok((await viewer.triangles()) > small);
+  assert.deepEqual(viewer.errors, []);
+  await viewer.page.context().close();
+});
+
 /** The middle of the viewer, free of controls. */
 async function canvas(viewer, name) {
   const bytes = await viewer.picture(name && join(pictures, `${name}.png`));

@@ -33,6 +33,17 @@ TEST(Segments, GrowingMovesNothing) {
   EXPECT_EQ(segments[kMany - 1], 5);
 }
 
+TEST(Segments, WhatWasMovedFromIsEmptyAndGrowsAnew) {
+  Segments<int> from = counted(3);
+  Segments<int> to = std::move(from);
+  from = counted(1);  // NOLINT(bugprone-use-after-move)
+  from = std::move(to);
+  EXPECT_EQ(from.flat(), (std::vector<int>{0, 1, 2}));
+  EXPECT_TRUE(to.empty());  // NOLINT(bugprone-use-after-move)
+  to.push_back(4);
+  EXPECT_EQ(to.flat(), std::vector<int>{4});
+}
+
 TEST(Segments, WhatWasTakenOffIsFilledAnew) {
   Segments<int> segments = counted(kMany);
   segments.resize(2, 0);

@@ -72,7 +72,7 @@ std::uint64_t bytes_of(const Manifest& manifest, const Chunks& chunks) {
   return bytes;
 }
 
-TEST(View, ACloseUpNeedsAThirdOfTheBytes) {
+TEST(View, ACloseUpWhereErrorsHalveByLevelNeedsAThirdOfTheBytes) {
   const Manifest& m = torus_model().manifest;
   const Chunks chunks = plan(m, along_x(m, 1, frame_of(m).size.x / 16));
   EXPECT_GT(chunks.size(), m.levels.size());

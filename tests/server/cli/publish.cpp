@@ -34,6 +34,14 @@ TEST_F(VitrineCommand, a_pmesh_is_published_as_it_is) {
   EXPECT_EQ(std::string(bytes.begin(), bytes.end()), read("model.pmesh"));
 }
 
+TEST_F(VitrineCommand, a_data_folder_that_cannot_be_looked_at_is_named) {
+  const std::string folder = path(std::string(300, 'd'));  // no file system has such names
+  const ProgramResult result =
+      vitrine({"publish", write("in.ply", bumpy_ply(500)), "--data", folder});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("File name too long"));
+}
+
 TEST_F(VitrineCommand, a_damaged_pmesh_is_not_published) {
   model(800);
   const std::string whole = read("model.pmesh");

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <csignal>
@@ -115,6 +116,24 @@ TEST(Spill, BlocksWithinTheShareOfMemoryDoNotSpill) {
     const bool some = spilled_bytes() == beyond.size();
     return Bytes{static_cast<std::uint8_t>(none && some)};
   });
+  ASSERT_TRUE(answer) << answer.error().message;
+  EXPECT_EQ(*answer, Bytes{1});
+}
+
+TEST(Spill, ADiskThatTakesNoLargeFilesMeansMemoryIsUsed) {
+  struct rlimit before {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const struct rlimit small {
+    .rlim_cur = 1 << 20, .rlim_max = before.rlim_max
+  };
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Spilling spilling;
+  const auto answer = run_sandboxed(spilling.limits, [](const ProgressReport&) -> Expected<Bytes> {
+    const Bytes large(8 << 20, 7);
+    const bool fits = spill_capacity() <= 1 << 20 && spilled_bytes() == 0;
+    return Bytes{static_cast<std::uint8_t>(fits && large.back() == 7)};
+  });
+  ::setrlimit(RLIMIT_FSIZE, &before);
   ASSERT_TRUE(answer) << answer.error().message;
   EXPECT_EQ(*answer, Bytes{1});
 }

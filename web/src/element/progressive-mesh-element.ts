@@ -161,6 +161,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   #fit(): void {
     const { clientWidth, clientHeight } = this.#panel.view;
     this.#stage?.resize(clientWidth, clientHeight);
+    this.#follow();
   }
 
   #progress(bytes: number, total: number): void {
