@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An array that grows at its end by blocks of equal size. Unlike std::vector it never moves what it
-// holds: growing takes no second copy, leaves no hole behind that only smaller things fit, and takes
-// at most one block more than the elements need. Shrinking keeps the blocks.
+// holds: growing takes no second copy, leaves no hole behind that only smaller things fit, and
+// takes at most one block more than the elements need. Shrinking keeps the blocks.
 #pragma once
 
 #include <cstddef>

@@ -27,10 +27,10 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kLarge = 8192;          // blocks from here on may spill; a block of Segments
-constexpr std::size_t kWorthHole = 1 << 20;   // freed ranges from here on go back to the disk
+constexpr std::size_t kLarge = 8192;         // blocks from here on may spill; a block of Segments
+constexpr std::size_t kWorthHole = 1 << 20;  // freed ranges from here on go back to the disk
 constexpr std::uint64_t kMostCapacity = 64ull << 30;  // 300 million triangles; any disk maps it
-constexpr std::size_t kLargestPage = 65'536;  // of any kernel that this runs on
+constexpr std::size_t kLargestPage = 65'536;          // of any kernel that this runs on
 constexpr std::uint64_t kHeldShare = 4;  // large blocks take a quarter of memory before any spills
 // The rest of what may be resident is for what comes in until the next look.
 constexpr double kTrimShare = 0.625;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
 #include "vitrine_command.h"
 
 namespace vitrine::test {
 namespace {
+
+using testing::HasSubstr;
 
 TEST_F(VitrineCommand, what_is_published_is_served_by_an_installation_that_is_open_already) {
   const auto installation = open_installation(path("data")).value();

@@ -123,9 +123,7 @@ TEST(Spill, BlocksWithinTheShareOfMemoryDoNotSpill) {
 TEST(Spill, ADiskThatTakesNoLargeFilesMeansMemoryIsUsed) {
   struct rlimit before {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  const struct rlimit small {
-    .rlim_cur = 1 << 20, .rlim_max = before.rlim_max
-  };
+  const struct rlimit small { .rlim_cur = 1 << 20, .rlim_max = before.rlim_max };
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
   const Spilling spilling;
   const auto answer = run_sandboxed(spilling.limits, [](const ProgressReport&) -> Expected<Bytes> {
