@@ -200,19 +200,20 @@ test("says so when the page forbids its worker", async () => {
   await viewer.page.context().close();
 });
 
-/** A page that shows all of its model. */
-async function refined(url) {
+/** A page that shows all that its element asks for, which is the whole model unless `attributes` say less. */
+async function refined(url, attributes = {}) {
   const viewer = await ViewerPage.open(browser, url);
+  await viewer.page.locator("progressive-mesh").evaluate((element, given) => {
+    for (const [name, value] of Object.entries(given)) element.setAttribute(name, value);
+  }, attributes);
+  await viewer.events("first-paint");
   await viewer.releaseLayers();
   await viewer.events("load");
   return viewer;
 }
+
 test("with a pixel error the camera decides what is fetched", async () => {
-  const viewer = await ViewerPage.open(browser, pages.plain);
-  await viewer.page.locator("progressive-mesh").evaluate((element) => element.setAttribute("pixel-error", "8"));
-  await viewer.events("first-paint");
-  await viewer.releaseLayers();
-  await viewer.events("load");
+  const viewer = await refined(pages.plain, { "pixel-error": "8" });
   const far = await viewer.triangles(), fetched = viewer.finishedChunks;
   assert.ok(far < mesh.faces.length, "the whole is not needed from afar");
   const box = await viewer.page.locator("progressive-mesh").boundingBox();
@@ -225,11 +226,7 @@ test("with a pixel error the camera decides what is fetched", async () => {
 });
 
 test("with a pixel error a larger view asks for more", async () => {
-  const viewer = await ViewerPage.open(browser, pages.plain);
-  await viewer.page.locator("progressive-mesh").evaluate((element) => element.setAttribute("pixel-error", "8"));
-  await viewer.events("first-paint");
-  await viewer.releaseLayers();
-  await viewer.events("load");
+  const viewer = await refined(pages.plain, { "pixel-error": "8" });
   const small = await viewer.triangles();
   const { width, height } = viewer.page.viewportSize();
   await viewer.settled(() => viewer.page.setViewportSize({ width: 2 * width, height: 2 * height }));
