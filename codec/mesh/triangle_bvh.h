@@ -46,6 +46,7 @@ class TriangleBvh {
     const Triangle& f = faces_[t];
     return {positions_[f[0]], positions_[f[1]], positions_[f[2]]};
   }
+  const Vec3& point(std::uint32_t t, std::uint32_t k) const { return positions_[faces_[t][k]]; }
   // The triangles as faces over vertices that are numbered as they come by.
   std::span<const Triangle> faces() const { return faces_; }
   std::span<const Vec3> positions() const { return positions_; }

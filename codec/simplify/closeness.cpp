@@ -3,89 +3,130 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "codec/mesh/closest_point.h"
 
 namespace vitrine {
 namespace {
 
+// A star and where its real neighbours are.
+struct Ring {
+  Ring(const Surface& surface, const Star& around) : star(around) {
+    for (std::uint32_t i = 0; i < star.valence; ++i) {
+      if (!is_virtual(star.vertex[i])) point[i] = surface.point(star.vertex[i]);
+    }
+  }
+
+  const Star& star;
+  std::array<Vec3, Star::kCapacity> point;
+};
+
 // The faces around an edge, before or after it has collapsed.
 class Patch {
  public:
-  Patch(const Surface& surface, double reach) : surface_(surface), squared_(reach * reach) {}
-
-  // The faces of a star whose centre is at `centre`, but for those at `without`. Two at most.
-  void add(const Star& star, const Vec3& centre, VertexId without) {
-    centre_[size_ > 0] = centre;
-    VertexId a = star.vertex[star.valence - 1];
-    for (VertexId b : star.neighbours()) {
-      const bool real = !is_virtual(a) && !is_virtual(b);
-      if (real && a != without && b != without) side_[size_++] = {a, b};
-      a = b;
-    }
-    if (first_ == 0) first_ = size_;
+  // A ring around a place, but for what is at the vertex `without`.
+  struct Part {
+    const Ring& ring;
+    Vec3 centre;
+    VertexId without;
+  };
+  Patch(const Part& one, const Part& two) {
+    add(one);
+    start_[1] = size_;
+    add(two);
   }
 
-  Corners face(std::uint32_t i) const {
-    const auto [a, b] = side_[i];
-    return {centre_[i >= first_], surface_.point(a), surface_.point(b)};
-  }
+  std::span<const Corners> faces() const { return {face_.data(), size_}; }
 
   // Points come in the order of the faces, so that the search goes on where the last one ended.
-  bool is_near(const Vec3& p) {
+  bool is_near(const Vec3& p, double squared) {
     for (std::uint32_t i = 0; i < size_; ++i) {
-      if (squared_distance(face(last_), p) <= squared_) return true;
+      if (squared_distance(face_[last_], p) <= squared) return true;
       last_ = last_ + 1 < size_ ? last_ + 1 : 0;
     }
     return false;
   }
 
-  // The middles of the edges of a star with its centre at `centre`, but for that to `without`.
-  bool has_near(const Star& star, const Vec3& centre, VertexId without) {
-    return std::ranges::all_of(star.neighbours(), [&](VertexId v) {
-      return v == without || is_virtual(v) || is_near((centre + surface_.point(v)) * 0.5);
-    });
-  }
-
-  // The middles of the faces of another patch.
-  bool has_near(const Patch& other) {
-    for (std::uint32_t i = 0; i < other.size_; ++i) {
-      const Corners f = other.face(i);
-      if (!is_near((f.a + f.b + f.c) * (1.0 / 3))) return false;
+  // The middles of a ring's edges. `part`: the ring's own.
+  bool has_near(const Part& edges, std::uint32_t part, double squared) {
+    last_ = start_[part];
+    for (std::uint32_t i = 0; i < edges.ring.star.valence; ++i) {
+      const VertexId v = edges.ring.star.vertex[i];
+      if (v == edges.without || is_virtual(v)) continue;
+      if (!is_near((edges.centre + edges.ring.point[i]) * 0.5, squared)) return false;
     }
     return true;
   }
 
- private:
-  struct Side {
-    VertexId a, b;
-  };
+  // The middles of the faces of another patch.
+  bool has_near(const Patch& other, double squared) {
+    last_ = 0;
+    return std::ranges::all_of(other.faces(), [&](const Corners& f) {
+      return is_near((f.a + f.b + f.c) * (1.0 / 3), squared);
+    });
+  }
 
-  const Surface& surface_;
-  double squared_;
-  std::array<Vec3, 2> centre_;
-  std::array<Side, 2 * Star::kCapacity> side_;     // across from the centre
-  std::uint32_t size_ = 0, first_ = 0, last_ = 0;  // first_: of the first centre
+ private:
+  void add(const Part& part) {
+    const Star& star = part.ring.star;
+    std::uint32_t i = star.valence - 1;
+    for (std::uint32_t j = 0; j < star.valence; i = j++) {
+      const VertexId v = star.vertex[i], w = star.vertex[j];
+      if (is_virtual(v) || is_virtual(w) || v == part.without || w == part.without) continue;
+      face_[size_++] = {part.centre, part.ring.point[i], part.ring.point[j]};
+    }
+  }
+
+  std::array<Corners, 2 * Star::kCapacity> face_;
+  std::array<std::uint32_t, 2> start_{};  // of each part
+  std::uint32_t size_ = 0, last_ = 0;
 };
+
+Vec3 normal_of(const Corners& t) {
+  return cross(t.b - t.a, t.c - t.a);
+}
+
+// True if two patches with the same boundary lie in a thin slab and face one way. Then each covers
+// a point of the slab's plane as often as their boundary winds around it, and where one of them is
+// the other is straight above or below.
+bool share_slab(const Patch& one, const Patch& other, double thickness) {
+  Vec3 normal;
+  for (const Corners& t : one.faces())
+    normal += normal_of(t);
+  const Vec3 origin = one.faces()[0].a;
+  double low = 0, high = 0;
+  for (const Patch* patch : {&one, &other}) {
+    for (const Corners& t : patch->faces()) {
+      if (dot(normal_of(t), normal) <= 0) return false;
+      for (const Vec3& p : {t.a, t.b}) {  // the next face around the centre has the third
+        const double height = dot(p - origin, normal);
+        low = std::min(low, height), high = std::max(high, height);
+      }
+    }
+  }
+  return (high - low) * (high - low) <= thickness * thickness * dot(normal, normal);
+}
 
 }  // namespace
 
 bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& target, double reach) {
   const Vec3 p1 = surface.point(edge.v1), p2 = surface.point(edge.v2), to = surface.middle(target);
-  Patch after(surface, reach);
-  after.add(edge.star1, to, edge.v2);
-  after.add(edge.star2, to, edge.v1);
-  if (!after.is_near(p1) || !after.is_near(p2)) return false;
-  Patch before(surface, reach);
-  before.add(edge.star1, p1, edge.v1);
-  before.add(edge.star2, p2, edge.v2);
+  const Ring ring1(surface, edge.star1), ring2(surface, edge.star2);
+  Patch after({ring1, to, edge.v2}, {ring2, to, edge.v1});
+  Patch before({ring1, p1, edge.v1}, {ring2, p2, edge.v1});  // the faces at the edge: in ring1
+  const bool inside = !edge.star1.on_border && !edge.star2.on_border;
+  if (inside && share_slab(after, before, reach)) return true;
+  const double squared = reach * reach;
+  if (!after.is_near(p1, squared) || !after.is_near(p2, squared)) return false;
   // Edges that go and come in pairs are half as far apart as their ends.
-  const auto move = [&](const Star& star, VertexId v, VertexId other, const Vec3& from) {
-    return length(to - from) <= 2 * reach ||
-           (after.has_near(star, from, v) && before.has_near(star, to, other));
+  const auto move = [&](const Patch::Part& from, std::uint32_t part, VertexId other) {
+    return length(to - from.centre) <= 2 * reach ||
+           (after.has_near(from, part, squared) &&
+            before.has_near({from.ring, to, other}, part, squared));
   };
-  return move(edge.star1, edge.v1, edge.v2, p1) && move(edge.star2, edge.v2, edge.v1, p2) &&
-         before.has_near(after);
+  return move({ring1, p1, edge.v1}, 0, edge.v2) && move({ring2, p2, edge.v2}, 1, edge.v1) &&
+         before.has_near(after, squared);
 }
 
 }  // namespace vitrine

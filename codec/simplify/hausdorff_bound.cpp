@@ -122,6 +122,7 @@ std::vector<std::uint16_t> HausdorffBound::add(const RegionedSurface& source,
                                                const WitnessSurface& target,
                                                std::span<const std::uint16_t> settled) {
   target_ = &target;
+  fine_ = source.bvh.size() >= target.size();
   last_ = 0;
   Visit all{source, settled, node_regions(source), PatchCover(target)};
   visit(all, 0);
@@ -156,9 +157,9 @@ void HausdorffBound::visit_leaf(Visit& all, const TriangleBvh::Node& node) {
 
 void HausdorffBound::visit_triangle(const Corners& triangle, PatchCover& patches) {
   const std::array corners = {triangle.a, triangle.b, triangle.c};
-  if (settle(corners, last_)) return;
+  if (fine_ && settle(corners, last_)) return;
   last_ = target_->stroll(centre_of(triangle), last_);
-  if (settle(corners, last_)) return;
+  if (fine_ && settle(corners, last_)) return;
   const PatchCover::Result patch =
       patches.cover(triangle, last_, limit(), static_cast<std::uint16_t>(region_ + 1));
   raise(patch.height);

@@ -116,6 +116,7 @@ class HausdorffBound {
   std::size_t spent_ = 0;  // pieces examined or halved since the precision was last changed
   unsigned losses_ = 0;
   const WitnessSurface* target_ = nullptr;
+  bool fine_ = false;  // the source has the smaller triangles: one of the target may serve several
   std::uint32_t last_ = 0;  // the newest witness: the next one is near it
 };
 

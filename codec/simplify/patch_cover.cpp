@@ -9,28 +9,25 @@ namespace vitrine {
 
 // The prism over a triangle: height over its plane, and the side of each of its three walls.
 struct PatchCover::Prism {
-  Vec3 origin, normal, centre;
+  Vec3 origin, normal;
   std::array<Vec3, 3> inward;
   std::array<double, 3> offset;  // of the walls from the origin
+  Place centre;
 
   explicit Prism(const Corners& t)
-      : origin(t.a),
-        normal(cross(t.b - t.a, t.c - t.a)),
-        centre((t.a + t.b + t.c) * (1.0 / 3)),
-        inward{},
-        offset{} {
+      : origin(t.a), normal(cross(t.b - t.a, t.c - t.a)), inward{}, offset{}, centre{} {
     const double size = length(normal);
     normal = size > 0 ? normal * (1 / size) : Vec3{};
     inward = {cross(normal, t.b - t.a), cross(normal, t.c - t.b), cross(normal, t.a - t.c)};
     offset = {0, dot(inward[1], t.b - t.a), 0};
+    centre = place((t.a + t.b + t.c) * (1.0 / 3));
   }
 
   bool flat() const { return normal == Vec3{}; }
 
   Place place(const Vec3& p) const {
     const Vec3 r = p - origin;
-    return {std::abs(dot(normal, r)),
-            {dot(inward[0], r), dot(inward[1], r) - offset[1], dot(inward[2], r)}};
+    return {dot(normal, r), {dot(inward[0], r), dot(inward[1], r) - offset[1], dot(inward[2], r)}};
   }
 };
 
@@ -48,19 +45,22 @@ bool PatchCover::outside(const Place& a, const Place& b, const Place& c) {
   return false;
 }
 
+PatchCover::Place PatchCover::between(const Place& a, const Place& b, double part) {
+  Place p{a.height + (b.height - a.height) * part, {}};
+  for (std::size_t k = 0; k < 3; ++k)
+    p.depth[k] = a.depth[k] + (b.depth[k] - a.depth[k]) * part;
+  return p;
+}
+
+// Twice the area of a triangle seen from above, but for a factor > 0; negative where it faces down.
+double PatchCover::area(const Place& a, const Place& b, const Place& c) {
+  const auto side = [&](const Place& p, std::size_t k) { return p.depth[k] - a.depth[k]; };
+  return side(b, 0) * side(c, 1) - side(b, 1) * side(c, 0);
+}
+
 bool PatchCover::inside(const Place& p) {
   return p.depth[0] >= 0 && p.depth[1] >= 0 && p.depth[2] >= 0;
 }
-
-namespace {
-
-// True if the line through p along `normal` meets the triangle, which faces that way.
-bool over(const Corners& t, const Vec3& p, const Vec3& normal) {
-  return dot(cross(t.b - t.a, p - t.a), normal) >= 0 &&
-         dot(cross(t.c - t.b, p - t.b), normal) >= 0 && dot(cross(t.a - t.c, p - t.c), normal) >= 0;
-}
-
-}  // namespace
 
 PatchCover::PatchCover(const WitnessSurface& surface)
     : surface_(surface), marks_(surface.size(), 0), seen_(surface.size(), 0) {}
@@ -74,8 +74,8 @@ PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t star
   bool over_centre = false;
   ++call_;
   seen_[start] = call_;
-  const Corners first = surface_.triangle(start);
-  open_.assign(1, {start, 0, prism.place(first.a), prism.place(first.b)});
+  open_.assign(
+      1, {start, 0, prism.place(surface_.point(start, 0)), prism.place(surface_.point(start, 1))});
   while (!open_.empty()) {
     const Open open = open_.back();
     open_.pop_back();
@@ -85,20 +85,46 @@ PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t star
   return result;
 }
 
+// The largest height that a triangle has over the prism: it is cut at one wall after the other.
+double PatchCover::height_inside(const std::array<Place, 3>& places) {
+  std::array<Place, 9> polygon, cut;  // six corners, but for what rounding may add
+  std::ranges::copy(places, polygon.begin());
+  std::size_t size = places.size();
+  for (std::size_t wall = 0; wall < 3; ++wall) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Place &p = polygon[i], &q = polygon[i + 1 < size ? i + 1 : 0];
+      const double here = p.depth[wall], there = q.depth[wall];
+      if (here >= 0) cut[kept++] = p;
+      if ((here < 0 && there > 0) || (here > 0 && there < 0))
+        cut[kept++] = between(p, q, here / (here - there));
+    }
+    polygon = cut, size = kept;
+  }
+  double height = 0;
+  for (std::size_t i = 0; i < size; ++i)
+    height = std::max(height, std::abs(polygon[i].height));
+  return height;
+}
+
 // Takes triangle t into the patch if it reaches into the prism. False if the patch is no cover.
 bool PatchCover::step(const Prism& prism, const Open& open, double limit, Result& result,
                       bool& over_centre) {
   const std::uint32_t t = open.triangle;
-  const Corners s = surface_.triangle(t);
   std::array<Place, 3> places;
   places[open.edge] = open.from, places[(open.edge + 1) % 3] = open.to;
-  places[(open.edge + 2) % 3] = prism.place(corner(s, (open.edge + 2) % 3));
+  const std::uint32_t apex = (open.edge + 2) % 3;
+  places[apex] = prism.place(surface_.point(t, apex));
   if (outside(places[0], places[1], places[2])) return true;
-  const double height = std::max({places[0].height, places[1].height, places[2].height});
-  if (height > limit || dot(cross(s.b - s.a, s.c - s.a), prism.normal) <= 0) return false;
+  double height = std::max(
+      {std::abs(places[0].height), std::abs(places[1].height), std::abs(places[2].height)});
+  if (height > limit) height = height_inside(places);
+  if (height > limit || !(area(places[0], places[1], places[2]) > 0)) return false;
   result.height = std::max(result.height, height);
   if (inside(places[0]) && inside(places[1]) && inside(places[2])) marks_[t] = mark_;
-  over_centre = over_centre || over(s, prism.centre, prism.normal);
+  over_centre = over_centre || (area(places[0], places[1], prism.centre) >= 0 &&
+                                area(places[1], places[2], prism.centre) >= 0 &&
+                                area(places[2], places[0], prism.centre) >= 0);
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t other = surface_.across(t, k);
     if (seen_[other] == call_ && other != t) continue;

@@ -5,7 +5,7 @@
 // the prism over T (the points whose projection to T's plane lies in T). If none of its triangles
 // faces away from T and no border edge reaches into the prism, then its projection to T is open
 // and closed in T, and so all of T if it is not empty: each point of T has a point of the patch at
-// right angles above or below it, no farther away than the highest corner of the patch.
+// right angles above or below it, no farther away than the patch is high over T.
 #pragma once
 
 #include <array>
@@ -33,7 +33,8 @@ class PatchCover {
 
  private:
   struct Prism;
-  // Where a point is: height over the plane, depth behind each wall (negative outside).
+  // Where a point is: height over the plane (negative below), depth behind each wall (negative
+  // outside).
   struct Place {
     double height;
     std::array<double, 3> depth;
@@ -45,7 +46,10 @@ class PatchCover {
   };
   static bool outside(const Place& a, const Place& b);
   static bool outside(const Place& a, const Place& b, const Place& c);
+  static double area(const Place& a, const Place& b, const Place& c);
   static bool inside(const Place& p);
+  static Place between(const Place& a, const Place& b, double part);
+  static double height_inside(const std::array<Place, 3>& places);
   bool step(const Prism& prism, const Open& open, double limit, Result& result, bool& over_centre);
 
   const WitnessSurface& surface_;

@@ -21,6 +21,9 @@ class WitnessSurface {
 
   std::size_t size() const { return across_.size(); }
   Corners triangle(std::uint32_t t) const { return bvh_->triangle(t); }
+  const Vec3& point(std::uint32_t t, std::uint32_t k) const {
+    return bvh_->point(t, k);
+  }  // corner k
   // The triangle across edge k, from corner k to the next; t itself at a border.
   std::uint32_t across(std::uint32_t t, std::uint32_t edge) const { return across_[t][edge] / 3; }
   // Which of that triangle's edges it is.
