@@ -78,7 +78,12 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
       return bad("a level's error or display filter is out of range");
     }
   }
-  if (m.levels.front().shift > kMaxShift || m.levels.back().shift != 0) {
+  const LevelInfo& base = m.levels.front();
+  if (base.vertices < 3 || base.faces == 0) {
+    return bad("the base mesh has " + std::to_string(base.vertices) + " vertices and " +
+               std::to_string(base.faces) + " faces, fewer than one triangle");
+  }
+  if (base.shift > kMaxShift || m.levels.back().shift != 0) {
     return bad("the lattice of a level is impossible");
   }
   for (std::size_t l = 1; l < m.levels.size(); ++l) {
