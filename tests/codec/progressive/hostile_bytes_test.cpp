@@ -4,6 +4,8 @@
 // foreign bytes in the sandbox alone.
 #include <gtest/gtest.h>
 
+#include <new>
+
 #include "codec/progressive/refiner.h"
 #include "support/counting_new.h"
 #include "support/meshes.h"
@@ -137,6 +139,32 @@ TEST(RefinerMemory, StaysWithinItsBytesPerTriangle) {
     EXPECT_LE(test::peak_heap_bytes() - before,
               bytes * refiner->connectivity().face_count() + (512u << 10));
   }
+}
+
+// False where memory ran out.
+bool decodes_with_failure_at(std::size_t allocation, const StoredModel& model) {
+  test::fail_allocation(allocation);
+  try {
+    auto manifest = parse_header(model.file);
+    auto refiner = Refiner::start(std::move(manifest.value()), model.base);
+    for (std::size_t i = 0; i < model.manifest.chunks.size(); ++i)
+      test::apply_chunk(*refiner, model, i);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  test::fail_allocation(0);
+  return true;
+}
+
+TEST(RefinerMemory, WhereItRunsOutItIsAnExceptionAndNothingIsLost) {
+  const StoredModel model = small_model(Placement::kPyramid, 80, true);
+  const std::size_t before = test::heap_bytes();
+  std::size_t allocation = 1;
+  while (!decodes_with_failure_at(allocation, model)) {
+    ASSERT_EQ(test::heap_bytes(), before) << "at allocation " << allocation;
+    ++allocation;
+  }
+  EXPECT_GT(allocation, model.manifest.chunks.size());
 }
 
 // A header of a few hundred bytes that states the most vertices a reader allows.
