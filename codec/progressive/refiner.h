@@ -6,10 +6,11 @@
 // Contract: safe on hostile bytes. A damaged chunk gives an error or a valid mesh, and after an
 // error the refiner is unusable (`apply` keeps failing with kState) but its memory is in order.
 // It holds, at every moment, at most 60 bytes per triangle of the closed mesh at hand (64 with
-// colours), 1 KiB per region and 512 KiB; a chunk brings at most 16 vertices per byte and 256 more
-// (most_born), by splits at most one per vertex that was there, and a component that is born whole
-// has at most two faces per vertex. Nothing is allocated per split. Where memory runs out, start()
-// and apply() throw std::bad_alloc, and a refiner that threw can only be destroyed or replaced.
+// colours), 1 KiB per region, 8 bytes per byte of the header (its adjacency and chunk index) and
+// 512 KiB; a chunk brings at most 16 vertices per byte and 256 more (most_born), by splits at most
+// one per vertex that was there, and a component that is born whole has at most two faces per
+// vertex. Nothing is allocated per split. Where memory runs out, start() and apply() throw
+// std::bad_alloc, and a refiner that threw can only be destroyed or replaced.
 #pragma once
 
 #include <cstdint>
