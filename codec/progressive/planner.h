@@ -51,7 +51,7 @@ class Planner {
   const Manifest* manifest_;
   Want want_;
   std::vector<bool> have_;
-  // What follows from have_, kept up to date: a hostile header has 300,000 chunks to call next() for.
+  // What follows from have_, kept up to date: next() may come for each of 300,000 chunks.
   std::size_t first_missing_ = 0;
   std::uint64_t bytes_;
   double faces_;
