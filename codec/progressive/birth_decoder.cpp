@@ -8,7 +8,7 @@
 namespace vitrine {
 
 Expected<std::vector<Newborn>> decode_births(MeshState& mesh, const ChunkFrame& frame,
-                                             RangeDecoder& coder) noexcept {
+                                             RangeDecoder& coder) {
   if (frame.newborn == 0) return std::vector<Newborn>();
   NoBirthTruth truth;
   // On the heap: the models are larger than a WebAssembly stack likes.

@@ -13,6 +13,6 @@ namespace vitrine {
 // Decodes the components that a chunk brings whole into `mesh`; they come back in coded order.
 // Safe on hostile bytes, as decode_layer().
 Expected<std::vector<Newborn>> decode_births(MeshState& mesh, const ChunkFrame& frame,
-                                             RangeDecoder& coder) noexcept;
+                                             RangeDecoder& coder);
 
 }  // namespace vitrine

@@ -20,8 +20,7 @@ Expected<ChunkSplits> decode_splits(MeshState& mesh, const ChunkFrame& frame, Ra
 }  // namespace
 
 Expected<LayerChange> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
-                                   std::uint32_t node,
-                                   std::span<const std::uint8_t> bytes) noexcept {
+                                   std::uint32_t node, std::span<const std::uint8_t> bytes) {
   RangeDecoder coder(bytes);
   auto splits = decode_splits(mesh, frame, coder);
   if (!splits) return tl::unexpected(splits.error());

@@ -21,7 +21,6 @@ struct LayerChange {
 // next level, the chunk says which child each vertex goes to.
 // Safe on hostile bytes; after an error `mesh` is a manifold in memory, but of no use.
 Expected<LayerChange> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
-                                   std::uint32_t node,
-                                   std::span<const std::uint8_t> bytes) noexcept;
+                                   std::uint32_t node, std::span<const std::uint8_t> bytes);
 
 }  // namespace vitrine

@@ -78,7 +78,12 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
       return bad("a level's error or display filter is out of range");
     }
   }
-  if (m.levels.front().shift > kMaxShift || m.levels.back().shift != 0) {
+  const LevelInfo& base = m.levels.front();
+  if (base.vertices < 3 || base.faces == 0) {
+    return bad("the base mesh has " + std::to_string(base.vertices) + " vertices and " +
+               std::to_string(base.faces) + " faces, fewer than one triangle");
+  }
+  if (base.shift > kMaxShift || m.levels.back().shift != 0) {
     return bad("the lattice of a level is impossible");
   }
   for (std::size_t l = 1; l < m.levels.size(); ++l) {
@@ -301,7 +306,7 @@ std::size_t Manifest::find_chunk(std::uint32_t level, std::uint32_t leaf) const 
 }
 
 // Prefix: magic (8), major (2), minor (2), header length (4). Then the feature flags and the body.
-Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) noexcept {
+Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) {
   ByteReader in(prefix);
   const auto magic = in.bytes(kMagic.size());
   const std::uint16_t major = in.u16();
@@ -321,8 +326,7 @@ Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) noexc
   return length;
 }
 
-Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes,
-                                const Limits& limits) noexcept {
+Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limits& limits) {
   const auto length = header_bytes(bytes.first(std::min(bytes.size(), kHeaderPrefix)));
   if (!length) return tl::unexpected(length.error());
   if (*length > limits.header_bytes || *length > bytes.size()) {

@@ -6,35 +6,31 @@
 namespace vitrine {
 
 Planner::Planner(const Manifest& manifest)
-    : manifest_(&manifest), want_(WantLevel{0}), have_(manifest.chunks.size(), false) {}
+    : manifest_(&manifest),
+      want_(WantLevel{0}),
+      have_(manifest.chunks.size(), false),
+      bytes_(manifest.head_bytes()),
+      faces_(manifest.levels[0].faces) {}
 
 void Planner::want(const Want& want) {
   want_ = want;
 }
 
 void Planner::have(std::size_t chunk) {
-  if (chunk < have_.size()) have_[chunk] = true;
-}
-
-std::uint64_t Planner::bytes_held() const {
-  std::uint64_t bytes = manifest_->head_bytes();
-  for (std::size_t i = 0; i < have_.size(); ++i) {
-    if (have_[i]) bytes += manifest_->chunks[i].length;
-  }
-  return bytes;
+  if (chunk >= have_.size() || have_[chunk]) return;
+  have_[chunk] = true;
+  while (first_missing_ < have_.size() && have_[first_missing_])
+    ++first_missing_;
+  const ChunkInfo& info = manifest_->chunks[chunk];
+  bytes_ += info.length;
+  // A split adds two faces, or one at a boundary, and what is born whole has its own number; a
+  // level's average is exact once it is whole.
+  const double born = static_cast<double>(info.splits) + info.newborn;
+  faces_ += born * faces_per_vertex(info.level);
 }
 
 std::uint64_t Planner::faces_held() const {
-  // A split adds two faces, or one at a boundary, and what is born whole has its own number; a
-  // level's average is exact once it is whole.
-  double faces = manifest_->levels[0].faces;
-  for (std::size_t i = 0; i < have_.size(); ++i) {
-    if (!have_[i]) continue;
-    const ChunkInfo& chunk = manifest_->chunks[i];
-    const double born = static_cast<double>(chunk.splits) + chunk.newborn;
-    faces += born * faces_per_vertex(chunk.level);
-  }
-  return static_cast<std::uint64_t>(faces + 0.5);
+  return static_cast<std::uint64_t>(faces_ + 0.5);
 }
 
 double Planner::faces_per_vertex(std::uint32_t level) const {
@@ -49,10 +45,8 @@ std::optional<std::size_t> Planner::next() const {
     return ViewPlan(*manifest_, have_, *view).best(view->bytes - static_cast<double>(bytes_held()));
   }
   // File order is level order, so the first chunk not held is always ready.
-  for (std::size_t i = 0; i < have_.size(); ++i) {
-    if (!have_[i]) return is_wanted(i) ? std::optional(i) : std::nullopt;
-  }
-  return std::nullopt;
+  const bool wanted = first_missing_ < have_.size() && is_wanted(first_missing_);
+  return wanted ? std::optional(first_missing_) : std::nullopt;
 }
 
 bool Planner::is_wanted(std::size_t chunk) const {

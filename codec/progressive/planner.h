@@ -40,7 +40,7 @@ class Planner {
   // The next chunk to fetch, or nothing when the want is met. Obeys the region rule.
   std::optional<std::size_t> next() const;
 
-  std::uint64_t bytes_held() const;  // header, base and chunks of have()
+  std::uint64_t bytes_held() const { return bytes_; }  // header, base and chunks of have()
 
   std::uint64_t faces_held() const;  // real faces of base and chunks of have()
 
@@ -51,6 +51,10 @@ class Planner {
   const Manifest* manifest_;
   Want want_;
   std::vector<bool> have_;
+  // What follows from have_, kept up to date: next() may come for each of 300,000 chunks.
+  std::size_t first_missing_ = 0;
+  std::uint64_t bytes_;
+  double faces_;
 };
 
 }  // namespace vitrine

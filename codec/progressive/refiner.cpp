@@ -65,7 +65,7 @@ Refiner::Refiner(Refiner&&) noexcept = default;
 Refiner& Refiner::operator=(Refiner&&) noexcept = default;
 Refiner::~Refiner() = default;
 
-Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) noexcept {
+Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) {
   const LevelInfo& level = manifest.levels[0];
   const std::size_t colours = manifest.coloured ? base.positions.size() : 0;
   if (base.positions.size() != level.vertices || base.faces.size() != level.faces ||
@@ -110,7 +110,7 @@ bool Refiner::ready(std::size_t chunk) const {
   return true;
 }
 
-Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> bytes) noexcept {
+Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> bytes) {
   State& s = *state_;
   if (chunk >= s.applied.size() || !ready(chunk)) {
     return fail(ErrorCode::kState, "this chunk cannot be applied in the present state");

@@ -6,9 +6,11 @@
 // Contract: safe on hostile bytes. A damaged chunk gives an error or a valid mesh, and after an
 // error the refiner is unusable (`apply` keeps failing with kState) but its memory is in order.
 // It holds, at every moment, at most 60 bytes per triangle of the closed mesh at hand (64 with
-// colours), 1 KiB per region and 512 KiB; a chunk brings at most 16 vertices per byte and 256 more
-// (most_born), by splits at most one per vertex that was there, and a component that is born whole
-// has at most two faces per vertex. Nothing is allocated per split.
+// colours), 1 KiB per region, 8 bytes per byte of the header (its adjacency and chunk index) and
+// 512 KiB; a chunk brings at most 16 vertices per byte and 256 more (most_born), by splits at most
+// one per vertex that was there, and a component that is born whole has at most two faces per
+// vertex. Nothing is allocated per split. Where memory runs out, start() and apply() throw
+// std::bad_alloc, and a refiner that threw can only be destroyed or replaced.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +30,7 @@ class Refiner {
  public:
   // `base` holds the real faces as the Draco buffer decodes them, positions in lattice units. Its
   // counts must equal the manifest's level 0 (kBadInput).
-  static Expected<Refiner> start(Manifest manifest, const BaseMesh& base) noexcept;
+  static Expected<Refiner> start(Manifest manifest, const BaseMesh& base);
   Refiner(Refiner&&) noexcept;
   Refiner& operator=(Refiner&&) noexcept;
   ~Refiner();
@@ -39,7 +41,7 @@ class Refiner {
 
   // Decodes and applies manifest().chunks[chunk]. The caller has checked the SHA-256 where the
   // bytes come from outside.
-  Expected<void> apply(std::size_t chunk, std::span<const std::uint8_t> bytes) noexcept;
+  Expected<void> apply(std::size_t chunk, std::span<const std::uint8_t> bytes);
 
   // Takes back components born in the chunk applied last and then its splits, newest first, until
   // at most `faces` real faces are left or all are undone: a level can so be shown in part. No

@@ -35,7 +35,8 @@ double ViewPlan::gain(std::size_t index) const {
   return pixels * std::max(1 - chunk.max_error / before, kLeastGain);
 }
 
-// The chunk and what has to come before it, in an order that can be applied.
+// The chunk and what has to come before it, in an order that can be applied; not all where it
+// exhausts the steps.
 std::vector<std::size_t> ViewPlan::missing_for(std::size_t chunk) {
   ++call_;
   std::vector<std::size_t> missing;
@@ -47,17 +48,28 @@ void ViewPlan::require(std::size_t index, std::vector<std::size_t>& missing) {
   required_[index] = call_;
   const ChunkInfo& chunk = manifest_.chunks[index];
   const auto need = [&](std::uint32_t leaf) {
-    for (std::uint32_t level = leaf_level_[leaf] + 1; level < chunk.level; ++level) {
+    for (std::uint32_t level = leaf_level_[leaf] + 1; level < chunk.level && !is_exhausted();
+         ++level) {
+      ++steps_;
       const std::size_t coarser = manifest_.find_chunk(level, leaf);
       if (required_[coarser] != call_) require(coarser, missing);
     }
   };
   const RegionNode& region = manifest_.region(chunk);
   for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
+    steps_ += manifest_.adjacency[leaf].size() + 1;
     for (const std::uint32_t next : manifest_.adjacency[leaf])
       need(next);
   }
   missing.push_back(index);
+}
+
+// In file order, which is level order, so it can be applied.
+std::optional<std::size_t> ViewPlan::first_missing(double bytes) const {
+  const auto at =
+      static_cast<std::size_t>(std::find(have_.begin(), have_.end(), false) - have_.begin());
+  if (static_cast<double>(manifest_.chunks[at].length) > bytes) return std::nullopt;
+  return at;
 }
 
 std::optional<std::size_t> ViewPlan::best(double bytes) {
@@ -69,6 +81,7 @@ std::optional<std::size_t> ViewPlan::best(double bytes) {
     const double removed = gain(i);
     if (removed == 0) continue;
     const std::vector<std::size_t> missing = missing_for(i);
+    if (is_exhausted()) return found ? found : first_missing(bytes);
     double length = 0;
     for (const std::size_t m : missing)
       length += static_cast<double>(manifest_.chunks[m].length);

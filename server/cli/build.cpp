@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <thread>
@@ -107,16 +108,28 @@ Outcome check_outputs(const Arguments& arguments) {
   return {};
 }
 
+// Of the time that a build with a report takes, the build itself.
+constexpr double kBuilt = 0.2;
+
+// Reports from `from` to `to` of the whole what the work reports from 0 to 1.
+ProgressReport part_of(const ProgressReport& whole, double from, double to) {
+  return [&whole, from, to](std::string_view stage, double done) {
+    whole(stage, std::lerp(from, to, done));
+  };
+}
+
 Expected<Product> make(std::span<const std::uint8_t> input, const BuildOptions& options,
                        const std::optional<std::string>& report_of,
                        const ProgressReport& progress) {
-  auto result = build_model(input, options, progress);
+  const double built = report_of ? kBuilt : 1;
+  auto result = build_model(input, options, part_of(progress, 0, built));
   if (!result) return tl::unexpected(result.error());
   const auto manifest = parse_header(result->file);
   if (!manifest) return tl::unexpected(manifest.error());
   std::string page;
   if (report_of) {
-    auto written = build_report(*report_of, input, options.reading, *result, progress);
+    auto written =
+        build_report(*report_of, input, options.reading, *result, part_of(progress, built, 1));
     if (!written) return tl::unexpected(written.error());
     page = std::move(*written);
   }

@@ -48,8 +48,6 @@ Expected<void> check_loops(const Refiner& refiner) {
 // Where vertices are is what a planner goes by.
 Expected<void> check_boxes(const Refiner& refiner, std::uint32_t level) {
   const Manifest& manifest = refiner.manifest();
-  const auto last = static_cast<std::uint32_t>(manifest.levels.size() - 1);
-  if (last == 0) return {};
   std::vector<const LatticeBox*> box(manifest.tree.leaves());
   for (const std::uint32_t node : manifest.tree.regions_at(level + 1))
     box[manifest.tree.nodes[node].first] = &manifest.tree.nodes[node].box;

@@ -10,8 +10,10 @@ namespace {
 // Each block is preceded by its size, in a place that keeps the alignment of malloc.
 constexpr std::size_t kPrefix = alignof(std::max_align_t);
 std::size_t held = 0, peak = 0;
+std::size_t until_failure = 0;  // 0: none
 
 void* take(std::size_t size) noexcept {
+  if (until_failure > 0 && --until_failure == 0) return nullptr;
   auto* block = static_cast<std::size_t*>(std::malloc(size + kPrefix));
   if (block == nullptr) return nullptr;
   *block = size;
@@ -44,6 +46,9 @@ std::size_t peak_heap_bytes() {
 }
 void start_peak() {
   peak = held;
+}
+void fail_allocation(std::size_t n) {
+  until_failure = n;
 }
 
 }  // namespace vitrine::test

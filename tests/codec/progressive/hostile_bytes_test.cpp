@@ -4,6 +4,9 @@
 // foreign bytes in the sandbox alone.
 #include <gtest/gtest.h>
 
+#include <new>
+#include <tuple>
+
 #include "codec/progressive/refiner.h"
 #include "support/counting_new.h"
 #include "support/meshes.h"
@@ -137,6 +140,85 @@ TEST(RefinerMemory, StaysWithinItsBytesPerTriangle) {
     EXPECT_LE(test::peak_heap_bytes() - before,
               bytes * refiner->connectivity().face_count() + (512u << 10));
   }
+}
+
+const std::vector<std::uint8_t> unsplit(16, 0xFF);  // a chunk in which nothing splits
+
+void add_forks(std::uint32_t leaves, RegionTree& tree) {
+  tree.nodes.push_back({.fork = leaves > 1 ? 2u : 0u});
+  if (leaves == 1) return;
+  add_forks(leaves / 2, tree);
+  add_forks(leaves - leaves / 2, tree);
+}
+
+// A tetrahedron that never gets finer, in `leaves` regions of which each has all others as
+// neighbours, or none.
+Manifest crowded_header(std::uint32_t leaves, std::size_t levels, bool neighbours) {
+  Manifest m;
+  m.levels.assign(levels, {.vertices = 4, .faces = 4});
+  m.tree.nodes.clear();
+  add_forks(leaves, m.tree);
+  EXPECT_TRUE(m.tree.link());
+  m.adjacency.assign(leaves, {});
+  for (std::uint32_t a = 0; neighbours && a < leaves; ++a) {
+    for (std::uint32_t b = 0; b < leaves; ++b)
+      if (a != b) m.adjacency[a].push_back(b);
+  }
+  for (std::uint32_t level = 1; level < levels; ++level) {
+    for (const std::uint32_t node : m.tree.regions_at(level))
+      m.chunks.push_back({.level = level, .region = m.tree.nodes[node].first, .node = node});
+  }
+  m.chunks[0].length = unsplit.size();
+  return m;
+}
+
+// A header can state more neighbours and chunks than its regions hold vertices.
+TEST(RefinerMemory, FollowsTheBytesOfAHostileHeader) {
+  const BaseMesh base{.positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}},
+                      .faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  for (const auto& [leaves, levels, neighbours] :
+       {std::tuple(2'500u, 3u, true), std::tuple(2'500u, 64u, false),
+        std::tuple(60'000u, 3u, false)}) {
+    Manifest crowded = crowded_header(leaves, levels, neighbours);
+    const auto bytes = write_header(crowded);
+    test::start_peak();
+    const std::size_t before = test::heap_bytes();
+    auto parsed = parse_header(bytes);
+    ASSERT_TRUE(parsed) << parsed.error().message;
+    auto refiner = Refiner::start(std::move(*parsed), base);
+    ASSERT_TRUE(refiner) << refiner.error().message;
+    ASSERT_TRUE(refiner->apply(0, unsplit));
+    ASSERT_TRUE(refiner->apply(leaves, {}));
+    EXPECT_LE(test::peak_heap_bytes() - before,
+              60 * 4 + (std::size_t{leaves} << 10) + 8 * bytes.size() + (512u << 10))
+        << leaves << " regions, " << levels << " levels";
+  }
+}
+
+// False where memory ran out.
+bool decodes_with_failure_at(std::size_t allocation, const StoredModel& model) {
+  test::fail_allocation(allocation);
+  try {
+    auto manifest = parse_header(model.file);
+    auto refiner = Refiner::start(std::move(manifest.value()), model.base);
+    for (std::size_t i = 0; i < model.manifest.chunks.size(); ++i)
+      test::apply_chunk(*refiner, model, i);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  test::fail_allocation(0);
+  return true;
+}
+
+TEST(RefinerMemory, WhereItRunsOutItIsAnExceptionAndNothingIsLost) {
+  const StoredModel model = small_model(Placement::kPyramid, 80, true);
+  const std::size_t before = test::heap_bytes();
+  std::size_t allocation = 1;
+  while (!decodes_with_failure_at(allocation, model)) {
+    ASSERT_EQ(test::heap_bytes(), before) << "at allocation " << allocation;
+    ++allocation;
+  }
+  EXPECT_GT(allocation, model.manifest.chunks.size());
 }
 
 // A header of a few hundred bytes that states the most vertices a reader allows.

@@ -199,6 +199,10 @@ TEST(Manifest, RefusesWhatCannotBe) {
   contains(refusal([](Manifest& m) { m.levels[1].faces = 3; }), "faces of level 1");
   contains(refusal([](Manifest& m) { m.levels[1].faces = 9; }), "faces of level 1");
   contains(refusal([](Manifest& m) { m.levels[1].vertices = 3; }), "lose vertices");
+  contains(refusal([](Manifest& m) { m.levels = {{}}, m.tree = {}, m.chunks = {}; }),
+           "0 vertices and 0 faces");
+  contains(refusal([](Manifest& m) { m.levels[0].vertices = 2; }), "2 vertices");
+  contains(refusal([](Manifest& m) { m.levels[0].faces = 0; }), "0 faces");
   contains(refusal([](Manifest& m) { m.levels[0].display_filter = 1.5; }), "display filter");
   contains(refusal([](Manifest& m) { m.levels[0].shift = kMaxShift + 1; }), "lattice");
   contains(refusal([](Manifest& m) {

@@ -72,12 +72,32 @@ TEST(Planner, AnErrorIsMetByTheCoarsestLevelBelowIt) {
   EXPECT_EQ(plan(WantError{0}), (Chunks{0, 1, 2, 3, 4}));
 }
 
+// Minutes, if each step counted all that is held.
+TEST(Planner, ManyChunksArePlannedOneAfterTheOther) {
+  constexpr std::uint32_t kLevels = 300'000;
+  Manifest m;
+  for (std::uint32_t level = 0; level < kLevels; ++level) {
+    m.levels.push_back({.vertices = 4 + level, .faces = 4 + 2 * level});
+    if (level > 0) m.chunks.push_back({.level = level, .length = 10, .splits = 1});
+  }
+  Planner planner(m);
+  planner.want(WantTriangles{1'000'000});
+  for (std::size_t i = 0; i + 1 < kLevels; ++i) {
+    ASSERT_EQ(planner.next(), std::optional(i));
+    planner.have(i);
+  }
+  EXPECT_EQ(planner.next(), std::nullopt);
+  EXPECT_EQ(planner.faces_held(), m.levels.back().faces);
+  EXPECT_EQ(planner.bytes_held(), 10u * m.chunks.size());
+}
+
 TEST(Planner, WhatIsHeldIsCountedAndNotAskedForAgain) {
   const Manifest manifest = four_levels();
   Planner planner(manifest);
   EXPECT_EQ(planner.bytes_held(), 1'000u);
   EXPECT_EQ(planner.faces_held(), 100u);
   planner.have(0);
+  planner.have(1);
   planner.have(1);
   planner.have(1'000);  // unknown chunks are ignored
   EXPECT_EQ(planner.bytes_held(), 3'000u);

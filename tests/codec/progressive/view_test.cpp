@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "codec/progressive/refine.h"
 #include "support/meshes.h"
@@ -147,6 +148,48 @@ TEST(View, ABudgetIsNeverExceeded) {
     const Chunks chunks = plan(m, view);
     EXPECT_LE(bytes_of(m, chunks), budget);
     EXPECT_FALSE(chunks.empty());
+  }
+}
+
+// A header of 4 MB: regions of which each is next to all others. The second half is `behind` a
+// camera along x, or beside the first.
+Manifest crowded_header(std::uint32_t regions, bool behind) {
+  Manifest m;
+  for (int level = 0; level < 40; ++level)
+    m.levels.push_back({.vertices = 4, .faces = 4, .max_error = 1.0 / (level + 1)});
+  const LatticeBox seen{{0, 0, 0}, {10, 10, 10}}, unseen{{-2'000, 0, 0}, {-1'990, 10, 10}};
+  m.tree.nodes.clear();
+  for (std::uint32_t k = 0; k < regions; ++k) {
+    if (k + 1 < regions) m.tree.nodes.push_back({.fork = 2, .box = seen});
+    m.tree.nodes.push_back({.box = behind && k >= regions / 2 ? unseen : seen});
+    std::vector<std::uint32_t>& others = m.adjacency.emplace_back(regions);
+    std::iota(others.begin(), others.end(), 0u);
+    others.erase(others.begin() + k);
+  }
+  EXPECT_TRUE(m.tree.link());
+  m.adjacency.erase(m.adjacency.begin());
+  for (std::uint32_t level = 1; level < m.levels.size(); ++level) {
+    for (const std::uint32_t node : m.tree.regions_at(level))
+      m.chunks.push_back({.level = level,
+                          .region = m.tree.nodes[node].first,
+                          .node = node,
+                          .max_error = m.levels[level].max_error});
+  }
+  return m;
+}
+
+// The whole plan would take minutes where half of such regions wait for the other half.
+TEST(View, AHostileHeaderIsPlannedInBoundedSteps) {
+  constexpr std::uint32_t kRegions = 2'000;
+  for (const bool behind : {false, true}) {
+    const Manifest m = crowded_header(kRegions, behind);
+    Planner planner(m);
+    planner.want(along_x(m, 1, 5));
+    for (std::size_t i = 0; i < m.chunks.size(); ++i) {
+      const ChunkInfo& chunk = m.chunks[i];
+      if (chunk.level < 39 && chunk.region < kRegions / 2) planner.have(i);
+    }
+    EXPECT_EQ(planner.next(), std::optional(m.find_chunk(2, kRegions / 2))) << behind;
   }
 }
 

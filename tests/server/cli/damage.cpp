@@ -62,5 +62,19 @@ TEST_F(VitrineCommand, a_hostile_base_mesh_is_an_error_or_a_mesh_but_never_a_cra
   }
 }
 
+TEST_F(VitrineCommand, a_wrong_box_is_found_in_a_file_of_one_level) {
+  model(4);
+  const std::string bytes = read("model.pmesh");
+  Manifest manifest = parse_header(to_bytes(bytes)).value();
+  ASSERT_EQ(manifest.levels.size(), 1u);
+  const std::string rest = bytes.substr(manifest.base_offset);
+  manifest.tree.nodes[0].box.high = manifest.tree.nodes[0].box.low;
+  const auto header = write_header(manifest);
+  const ProgramResult result =
+      vitrine({"verify", write("bad.pmesh", std::string(header.begin(), header.end()) + rest)});
+  expect_fault(result, 1);
+  EXPECT_NE(result.errors.find("outside of the box"), std::string::npos) << result.errors;
+}
+
 }  // namespace
 }  // namespace vitrine::test

@@ -5,10 +5,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <limits>
+#include <regex>
+#include <string>
+#include <vector>
 
 #include "server/cli/console.h"
 #include "vitrine_command.h"
@@ -85,6 +89,16 @@ class OnTerminal {
   std::string seen_;
 };
 
+// All shares that a terminal was shown, in their order.
+std::vector<int> shares_in(const std::string& seen) {
+  static const std::regex share("([0-9]+) % ");
+  std::vector<int> shares;
+  for (auto at = std::sregex_iterator(seen.begin(), seen.end(), share);
+       at != std::sregex_iterator(); ++at)
+    shares.push_back(std::stoi((*at)[1]));
+  return shares;
+}
+
 TEST(TimeLeft, is_what_the_rest_takes_at_the_pace_so_far) {
   EXPECT_EQ(cli::time_left(10, 0.2, 0), "about 40 s left");
   EXPECT_EQ(cli::time_left(60, 0.1, 0), "about 9 min left");
@@ -109,6 +123,15 @@ TEST_F(VitrineCommand, a_terminal_shows_how_far_a_build_is_and_the_time_left) {
   EXPECT_THAT(build.seen(), HasSubstr(" s left"));
   EXPECT_THAT(build.seen(), HasSubstr(" % simplify"));
   EXPECT_THAT(build.seen(), HasSubstr(" % encode"));
+}
+
+TEST_F(VitrineCommand, the_bar_of_a_build_with_a_report_never_goes_back) {
+  const std::string in = write("in.ply", bumpy_ply(3'000));
+  OnTerminal build({kVitrine, "build", in, "-o", path("out.pmesh"), "--report", path("out.html")});
+  EXPECT_EQ(build.finish(), 0);
+  EXPECT_THAT(build.seen(), HasSubstr(" % report"));
+  const std::vector<int> shares = shares_in(build.seen());
+  EXPECT_TRUE(std::ranges::is_sorted(shares)) << build.seen();
 }
 
 TEST_F(VitrineCommand, the_bar_is_drawn_anew_while_a_build_has_nothing_to_report) {
