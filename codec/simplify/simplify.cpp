@@ -148,8 +148,7 @@ class Simplifier {
   void join_regions(std::uint32_t from_finest, bool in_one) {
     // The leaves are the regions of the finest level.
     const bool join_all = in_one && from_finest > 0;
-    regions_.join(surface_.live, join_all ? UINT32_MAX : region_capacity(from_finest),
-                  surface_.region);
+    regions_.join(surface_.live, join_all ? UINT32_MAX : options_.region_vertices, surface_.region);
   }
 
   LevelRules rules(std::uint32_t from_finest) {
@@ -162,11 +161,6 @@ class Simplifier {
             .most = live - std::min(live, options_.target_vertices),
             .low = cell_of(low_, surface_.shift),
             .high = cell_of(high_, surface_.shift)};
-  }
-
-  // A split of a coarser level has longer vectors, so fewer of them make a chunk.
-  std::uint32_t region_capacity(std::uint32_t from_finest) const {
-    return options_.region_vertices * 16 / (16 + from_finest);
   }
 
   CollapseLevel collapse_level(const LevelRules& rules) {
