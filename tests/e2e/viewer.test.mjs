@@ -125,6 +125,18 @@ test("the gallery lists what is published", async () => {
   await viewer.page.context().close();
 });
 
+test("an open surface is seen from behind, too", async () => {
+  const away = join(daemon.folder, "away.ply");
+  const corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]];
+  await writeColoured({ vertices: corners, faces: [[0, 2, 1], [0, 3, 2]] }, away);
+  const viewer = await ViewerPage.open(browser, await daemon.publish(away, "A sheet that faces away"));
+  await viewer.releaseLayers();
+  await viewer.events("load");
+  assert.ok(await differs(viewer, await viewer.picture()), "the canvas shows something");
+  assert.deepEqual(viewer.errors, []);
+  await viewer.page.context().close();
+});
+
 test("a page for a narrow, dark screen shows the whole model", async () => {
   const viewer = await ViewerPage.open(browser, pages.coloured, { colorScheme: "dark", width: 360, height: 640 });
   await viewer.releaseLayers();

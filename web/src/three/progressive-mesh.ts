@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
-  Box3, BufferGeometry, Matrix4, Mesh, MeshStandardMaterial, Sphere, Vector3, type Object3DEventMap, type PerspectiveCamera,
+  Box3, BufferGeometry, DoubleSide, Matrix4, Mesh, MeshStandardMaterial, Sphere, Vector3, type Object3DEventMap, type PerspectiveCamera,
 } from "three";
 import { RemoteModel } from "../core/client.ts";
 import type { Assets } from "../core/messages.ts";
@@ -35,7 +35,8 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   readonly ready: Promise<void>;
 
   constructor(url: string, assets: Assets, transport: Transport = "auto") {
-    super(new BufferGeometry(), new MeshStandardMaterial({ color: 0xd8d3cb, roughness: 0.85, metalness: 0 }));
+    // Scans are open as often as not: who looks into one sees its inside.
+    super(new BufferGeometry(), new MeshStandardMaterial({ color: 0xd8d3cb, roughness: 0.85, metalness: 0, side: DoubleSide }));
     this.ready = new Promise((resolve, reject) => (this.#base = { resolve, reject }));
     this.#model = new RemoteModel(url, transport, assets, {
       opened: (info) => this.#open(info),
