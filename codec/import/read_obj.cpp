@@ -76,8 +76,9 @@ class ObjReader {
       }
       if (materials_.has_current()) add_sample(corners_.back(), vt);
     }
+    is_cut_ = corners_.size() < 3 && text_.at_end();
     mesh_.add_face(corners_);
-    return true;
+    return !is_cut_;
   }
 
   // Colours are 0..1, but some programs write 0..255.
@@ -125,6 +126,10 @@ class ObjReader {
 
   Unexpected bad_line(std::string_view keyword) const {
     const bool vertex = keyword == "v";
+    if (is_cut_) {
+      return bad_input("OBJ line " + std::to_string(text_.line()) +
+                       ": the file ends within this face; it is cut short, copy it again");
+    }
     return bad_input("OBJ line " + std::to_string(text_.line()) +
                      (vertex ? ": a vertex needs three numbers"
                              : ": a face needs vertex numbers from 1, or from -1 back to the first "
@@ -140,6 +145,7 @@ class ObjReader {
   std::vector<std::array<float, 2>> places_;  // texture coordinates
   ColourMeans means_;  // of the materials' colours; empty while there are none
   std::string missing_library_;
+  bool is_cut_ = false;  // the last line ends before its third corner
 };
 
 }  // namespace

@@ -85,5 +85,15 @@ TEST(ReadObj, NamesTheLineOfAFault) {
   EXPECT_THAT(refusal("v 0 0 0\nf 1 1 99999999999\n"), HasSubstr("refers to vertex"));
 }
 
+TEST(ReadObj, RefusesAFileThatEndsWithinAFace) {
+  const std::string whole = std::string(kSquare) + "f 1 2 3\nf 1 3 4";
+  EXPECT_EQ(read_text(whole).mesh.faces.size(), 2u);
+  for (const int lost : {1, 2, 3, 4, 5, 6}) {
+    EXPECT_THAT(refusal(whole.substr(0, whole.size() - static_cast<std::size_t>(lost))),
+                HasSubstr("OBJ line 6: the file ends within this face; it is cut short"));
+  }
+  EXPECT_EQ(read_text(std::string(kSquare) + "f 1 2 3\nf 1 3\n").mesh.faces.size(), 1u);
+}
+
 }  // namespace
 }  // namespace vitrine
