@@ -35,6 +35,9 @@ Expected<RawMesh> read_any(std::span<const std::uint8_t> bytes, const ReadOption
     return read_ply(bytes, options.beside);
   // Many binary STL files start with "solid" too, so the size decides before the word.
   if (is_binary_stl(bytes)) return read_stl(bytes);
+  if (const auto there = facets_of_cut_stl(bytes)) {
+    return bad_input("the STL file is cut short: only " + *there + " are there; copy it again");
+  }
   const std::string_view word = first_word(bytes);
   if (word == "solid" || word == "Solid" || word == "SOLID") return read_stl(bytes);
   if (is_off(word)) return read_off(bytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // STL, text or binary: triangles that do not share vertices, welded where positions are equal.
 #include <algorithm>
+#include <cmath>
 
 #include "codec/import/byte_cursor.h"
 #include "codec/import/readers.h"
@@ -29,6 +30,22 @@ Expected<RawMesh> weld_facets(std::vector<Vec3> positions) {
     mesh.add_triangle({index[i], index[i + 1], index[i + 2]});
   }
   return mesh;
+}
+
+// What exporters write for a coordinate: neither endless nor denormal, as other bytes often are.
+bool is_plausible(float x) {
+  return std::abs(x) < 1e30F && std::fpclassify(x) != FP_SUBNORMAL;
+}
+
+bool are_plausible_facets(std::span<const std::uint8_t> bytes) {
+  ByteCursor facets(bytes);
+  for (std::size_t f = 0; f < bytes.size() / kFacetBytes; ++f) {
+    for (int k = 0; k < 12; ++k) {
+      if (!is_plausible(facets.read<float>())) return false;
+    }
+    facets.skip(2);
+  }
+  return true;
 }
 
 Expected<RawMesh> read_binary(std::span<const std::uint8_t> bytes, std::uint32_t count) {
@@ -114,6 +131,17 @@ bool is_binary_stl(std::span<const std::uint8_t> bytes) {
   const bool may_be_text = std::equal(header.begin(), header.begin() + 5, "solid") &&
                            std::find(header.begin(), header.end(), 0) == header.end();
   return size == bytes.size() || (!may_be_text && size > kHeaderBytes && size < bytes.size());
+}
+
+std::optional<std::string> facets_of_cut_stl(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kHeaderBytes + kFacetBytes) return std::nullopt;
+  const std::size_t count = load<std::uint32_t>(&bytes[80]);
+  const std::size_t there = (bytes.size() - kHeaderBytes) / kFacetBytes;
+  const auto header = bytes.first(kHeaderBytes);
+  const bool may_be_text = std::find(header.begin(), header.end(), 0) == header.end();
+  if (may_be_text || there >= count) return std::nullopt;
+  if (!are_plausible_facets(bytes.subspan(kHeaderBytes))) return std::nullopt;
+  return std::to_string(there) + " of " + std::to_string(count) + " triangles";
 }
 
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes) {

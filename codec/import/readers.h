@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "codec/core/expected.h"
@@ -21,6 +23,10 @@ Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const Limits& li
 
 // How the formats without a magic number are told.
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
+
+// Of a binary STL file that ends early, what is there: "3 of 12 triangles". Nothing where the bytes
+// do not look like one, or not even its first triangle is there.
+std::optional<std::string> facets_of_cut_stl(std::span<const std::uint8_t> bytes);
 bool is_off(std::string_view first_word);
 
 }  // namespace vitrine

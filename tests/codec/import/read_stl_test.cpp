@@ -44,6 +44,24 @@ TEST(ReadStl, TrailingBytesAfterABinaryFileAreIgnored) {
       4u);
 }
 
+TEST(ReadStl, SaysHowMuchOfABinaryFileIsThereWhereItIsCutShort) {
+  std::string file = as_text(*write_mesh(tetrahedron(), MeshFormat::kStl));
+  EXPECT_THAT(refusal(file.substr(0, file.size() - 1)),
+              HasSubstr("cut short: only 3 of 4 triangles are there; copy it again"));
+  EXPECT_THAT(refusal(file.substr(0, 84 + 50)), HasSubstr("only 1 of 4 triangles"));
+  file.replace(0, 6, "solid ");
+  EXPECT_THAT(refusal(file.substr(0, file.size() - 1)), HasSubstr("only 3 of 4 triangles"));
+}
+
+TEST(ReadStl, OtherBytesAreNoBinaryFileThatIsCutShort) {
+  std::string utf16;
+  for (const char c : std::string(100, 'v'))
+    utf16 += {c, '\0'};
+  EXPECT_THAT(refusal(utf16), HasSubstr("not a mesh file"));
+  EXPECT_THAT(refusal(std::string(84, '\0') + std::string(300, '\xFF')),
+              HasSubstr("not a mesh file"));
+}
+
 TEST(ReadStl, RefusesTextThatIsCutShortOrDisordered) {
   const std::string text = kTwoFacets;
   EXPECT_THAT(refusal(text.substr(0, text.find("endsolid"))), HasSubstr("no endsolid"));
