@@ -33,6 +33,10 @@ Unexpected unknown(std::string_view place, std::string_view what,
   return usage(fmt::format("{}: unknown key '{}'; {}", place, what, hint));
 }
 
+std::string flag_name(const Option& option) {
+  return fmt::format("--{}", option.key);
+}
+
 // What has been set so far; later calls win.
 class Draft {
  public:
@@ -53,8 +57,8 @@ class Draft {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       const auto applied = options()[i].apply(line.settings, sources_[i].value);
       if (!applied) {
-        return usage(fmt::format("{}: {}: {}", sources_[i].source, sources_[i].key,
-                                 applied.error().message));
+        return usage(
+            fmt::format("{}: {}", place_of(options()[i], sources_[i]), applied.error().message));
       }
     }
     line.sources = std::move(sources_);
@@ -62,6 +66,13 @@ class Draft {
   }
 
  private:
+  // A flag and a variable name their key; a line of a file does not.
+  static std::string place_of(const Option& option, const SettingSource& setting) {
+    if (setting.source == flag_name(option) || setting.source == environment_name(option))
+      return setting.source;
+    return fmt::format("{}: {}", setting.source, setting.key);
+  }
+
   std::vector<SettingSource> sources_;
 };
 
@@ -77,7 +88,7 @@ Expected<void> read_line(std::string_view text, const std::string& place, Draft&
   if (line.empty() || line.starts_with('#')) return {};
   const std::size_t equals = line.find('=');
   if (equals == std::string_view::npos) {
-    return usage(fmt::format("{}: expected 'key = value'", place));
+    return usage(fmt::format("{}: '{}' is not 'key = value'; correct the line", place, line));
   }
   const std::string_view key = trim(line.substr(0, equals));
   std::string_view value = trim(line.substr(equals + 1));
@@ -151,7 +162,7 @@ struct Flags {
 Unexpected unknown_flag(std::string_view flag) {
   std::vector<std::string> flags = {"--config"};
   for (const Option& option : options())
-    flags.push_back(fmt::format("--{}", option.key));
+    flags.push_back(flag_name(option));
   for (const ActionFlag& action : kActions)
     flags.emplace_back(action.flag);
   return unknown("command line", flag, std::vector<std::string_view>(flags.begin(), flags.end()));
@@ -174,7 +185,7 @@ Expected<Flags> read_flags(std::span<const std::string_view> arguments) {
     } else if (++i < arguments.size()) {
       value = arguments[i];
     } else {
-      return usage(fmt::format("command line: {} needs a value", flag));
+      return usage(fmt::format("command line: {} needs a value; give it as the next word", flag));
     }
     if (option == nullptr) {
       flags.config = std::string(value);
@@ -205,7 +216,7 @@ Expected<CommandLine> parse_command_line(std::span<const std::string_view> argum
     return Unexpected(read.error());
   }
   for (const auto& [option, value] : flags->values) {
-    draft.set(*option, value, fmt::format("--{}", option->key));
+    draft.set(*option, value, flag_name(*option));
   }
   return std::move(draft).finish(flags->action);
 }

@@ -18,7 +18,7 @@ Expected<std::uint64_t> parse_number(std::string_view text, std::uint64_t min, s
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (fault != std::errc{} || end != text.data() + text.size() || value < min || value > max) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("'{}' is not a whole number from {} to {}", text, min, max));
+                fmt::format("'{}' is not a whole number from {} to {}; give one", text, min, max));
   }
   return value;
 }
@@ -34,14 +34,15 @@ Expected<Endpoint> parse_endpoint(std::string_view text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("'{}' is not HOST:PORT, for example 127.0.0.1:8080", text));
+                fmt::format("'{}' is not HOST:PORT; give, for example, 127.0.0.1:8080", text));
   }
   std::string_view host = text.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
   if (host == "localhost") host = "127.0.0.1";
   if (!is_numeric_address(host)) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("'{}' is not a numeric address, for example 127.0.0.1 or [::1]", host));
+    return fail(
+        ErrorCode::kBadInput,
+        fmt::format("'{}' is not a numeric address; give, for example, 127.0.0.1 or [::1]", host));
   }
   const auto port = parse_number(text.substr(colon + 1), 0, 65535);
   if (!port) return Unexpected(port.error());

@@ -11,7 +11,9 @@
 namespace vitrine {
 namespace {
 
+using ::testing::Eq;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 using Words = std::vector<std::string_view>;
 
 Expected<CommandLine> parse(const Words& arguments, const Words& environment = {},
@@ -67,11 +69,25 @@ TEST(CommandLine, VariablesThatKubernetesSetsForAServiceOfThisNameAreIgnored) {
 TEST(CommandLine, RefusesValuesOutOfRangeAndSaysWhereTheyCameFrom) {
   const auto port = parse({"--listen", "127.0.0.1:65536"});
   ASSERT_FALSE(port);
-  EXPECT_THAT(port.error().message, HasSubstr("--listen: listen: '65536'"));
+  EXPECT_EQ(port.error().message,
+            "--listen: '65536' is not a whole number from 0 to 65535; give one");
+  EXPECT_THAT(parse({}, {"VITRINE_THREADS=x"}).error().message, StartsWith("VITRINE_THREADS: 'x'"));
+  EXPECT_THAT(parse({"--config", "v.conf"}, {}, "\nthreads = x\n").error().message,
+              StartsWith("v.conf:2: threads: 'x'"));
   EXPECT_FALSE(parse({"--listen", "8080"}));
   EXPECT_FALSE(parse({"--threads", "-1"}));
   EXPECT_FALSE(parse({"--stop-timeout", "1s"}));
   EXPECT_FALSE(parse({}, {"VITRINE_MAX_CONNECTIONS=0"}));
+}
+
+TEST(CommandLine, EveryFaultEndsWithTheNextStep) {
+  for (const Words& words :
+       {Words{"--listen", "8080"}, Words{"--listen", "museum:80"}, Words{"--listen", "127.0.0.1:x"},
+        Words{"--threads", "-1"}, Words{"--data", ""}, Words{"--data"}, Words{"--lisen", "x"}}) {
+    EXPECT_THAT(parse(words).error().message, HasSubstr("; "));
+  }
+  EXPECT_THAT(parse({"--config", "v.conf"}, {}, "[server]\n").error().message,
+              Eq("v.conf:1: '[server]' is not 'key = value'; correct the line"));
 }
 
 TEST(CommandLine, AFlagWithoutItsValueIsAnError) {
