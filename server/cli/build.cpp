@@ -148,6 +148,10 @@ Outcome write_outputs(const Arguments& arguments, const Product& product) {
 
 Outcome build(const Arguments& arguments) {
   if (!arguments.has("-o")) return misused("-o is missing: name the output file");
+  if (!arguments.text("-o").ends_with(".pmesh")) {
+    return misused(
+        "the output's name must end in .pmesh; vitrine decode makes meshes of that file");
+  }
   auto options = read_options(arguments);
   if (!options) return tl::unexpected(options.error());
   const std::string path = arguments.operand(0), out = arguments.text("-o");

@@ -19,6 +19,7 @@ TEST_F(VitrineCommand, wrong_usage_is_exit_code_2) {
       {"build"},
       {"build", "in.ply"},
       {"build", "in.ply", "-o"},
+      {"build", "in.ply", "-o", "out.ply"},
       {"build", "in.ply", "-o", "out.pmesh", "--bits", "9"},
       {"build", "in.ply", "-o", "out.pmesh", "--bits", "17"},
       {"build", "in.ply", "-o", "out.pmesh", "--placement", "centre"},
@@ -43,7 +44,8 @@ TEST_F(VitrineCommand, a_mistyped_command_or_flag_is_answered_with_the_right_one
 TEST_F(VitrineCommand, a_missing_file_is_named) {
   for (const std::string command : {"build", "info", "decode", "verify", "publish"}) {
     std::vector<std::string> words = {command, path("absent.ply")};
-    if (command == "build" || command == "decode") words.insert(words.end(), {"-o", path("o.ply")});
+    if (command == "build") words.insert(words.end(), {"-o", path("o.pmesh")});
+    if (command == "decode") words.insert(words.end(), {"-o", path("o.ply")});
     if (command == "publish") words.insert(words.end(), {"--data", path("data")});
     const ProgramResult result = vitrine(words);
     expect_fault(result, 1);
@@ -99,11 +101,19 @@ TEST_F(VitrineCommand, a_folder_or_device_is_not_replaced_by_the_output) {
 
 TEST_F(VitrineCommand, the_input_is_never_replaced_by_the_output) {
   const std::string mesh = bumpy_ply(500);
-  const std::string in = write("in.ply", mesh);
-  const ProgramResult result = vitrine({"build", in, "-o", path("./in.ply")});
+  const std::string in = write("in.pmesh", mesh);
+  const ProgramResult result = vitrine({"build", in, "-o", path("./in.pmesh")});
   expect_fault(result, 1);
   EXPECT_THAT(result.errors, HasSubstr("is the input itself"));
-  EXPECT_EQ(read("in.ply"), mesh);
+  EXPECT_EQ(read("in.pmesh"), mesh);
+}
+
+TEST_F(VitrineCommand, a_mesh_is_not_replaced_by_a_model) {
+  const std::string in = write("in.ply", bumpy_ply(500)), other = write("other.obj", "v 0 0 0\n");
+  const ProgramResult result = vitrine({"build", in, "-o", other});
+  expect_fault(result, 2);
+  EXPECT_THAT(result.errors, HasSubstr("must end in .pmesh; vitrine decode"));
+  EXPECT_EQ(read("other.obj"), "v 0 0 0\n");
 }
 
 TEST_F(VitrineCommand, a_name_that_is_not_utf8_does_not_break_the_json) {
@@ -180,7 +190,8 @@ TEST_F(VitrineCommand, a_read_only_folder_is_an_error) {
   for (const std::string command : {"build", "publish"}) {
     const ProgramResult result =
         run_on_small_disk("mount -o remount,ro \"$out\"", path("out"),
-                          {command, in, command == "build" ? "-o" : "--data", path("out/model")});
+                          {command, in, command == "build" ? "-o" : "--data",
+                           path(command == "build" ? "out/model.pmesh" : "out/data")});
     expect_fault(result, 1);
     EXPECT_THAT(result.errors, HasSubstr("Read-only file system"));
     EXPECT_EQ(result.output, "");
