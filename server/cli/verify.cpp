@@ -70,8 +70,10 @@ Outcome verify(const Arguments& arguments) {
     auto printed = as_json ? print_json(product->report) : print(as_text(product->report));
     if (!printed || good) return printed;
   }
-  return failed(fmt::format("{} is whole but not the quantised {}; build it again from that file",
-                            path, arguments.text("--against")));
+  return failed(fmt::format(
+      "{} is whole but not the quantised {} with {} up; give the --up that it was built with, or "
+      "build it again from that file",
+      path, arguments.text("--against"), arguments.text("--up", "y")));
 }
 
 constexpr std::string_view kOperands[] = {"FILE.pmesh"};

@@ -217,7 +217,9 @@ TEST_F(VitrineCommand, a_model_that_was_turned_up_is_lossless_only_against_the_t
   vitrine_json({"build", in, "-o", path("out.pmesh"), "--up", "z"});
   EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in, "--up", "z"})["lossless"],
             true);
-  expect_fault(vitrine({"verify", path("out.pmesh"), "--against", in}), 1);
+  const ProgramResult other = vitrine({"verify", path("out.pmesh"), "--against", in});
+  expect_fault(other, 1);
+  EXPECT_NE(other.errors.find("give the --up that it was built with"), std::string::npos);
 }
 
 TEST_F(VitrineCommand, materials_that_lie_beside_an_obj_colour_the_model) {
