@@ -39,6 +39,10 @@ void print_fault(std::string_view message) {
   std::fwrite(line.data(), 1, line.size(), stderr);  // fmt::print would throw on a full disk
 }
 
+void print_note(std::string_view message) {
+  print_fault(fmt::format("note: {}", message));
+}
+
 std::string time_left(double seconds, double fraction, double since) {
   constexpr double kSomething = 0.02;
   if (!(fraction >= kSomething && fraction < 1)) return {};

@@ -22,6 +22,7 @@ Outcome print_json(const nlohmann::json& object);  // what is not UTF-8 in it is
 
 // Prints "vitrine: …" to stderr, where that takes it.
 void print_fault(std::string_view message);
+void print_note(std::string_view message);  // "vitrine: note: …": worth knowing, and no fault
 
 // How long the rest of a work takes of which `fraction` (0..1) took `seconds`, where `since` more
 // seconds have gone since then, in words: "about 40 s left". Empty where that cannot be told yet,

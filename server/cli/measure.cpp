@@ -43,6 +43,16 @@ void convert(Surface& surface, std::string_view unit) {
     p = p * (*from / *to);
 }
 
+// What to know of units before trusting the numbers; empty where they are as good as they look.
+std::string note_on_units(const Surface& a, const Surface& b) {
+  if (a.unit.empty() == b.unit.empty()) return {};
+  const bool first = a.unit.empty();
+  return fmt::format(
+      "{} states no unit and {} is in {}: their numbers are compared as they are; if they differ, "
+      "build a model of {} with --unit and measure that",
+      first ? "A" : "B", first ? "B" : "A", first ? b.unit : a.unit, first ? "A" : "B");
+}
+
 json one_way(const OneWayDistance& d) {
   return {{"rms", d.rms}, {"p95", d.p95}, {"max", d.max}};
 }
@@ -86,12 +96,16 @@ Outcome run_measure(const Arguments& arguments) {
     if (!first) return tl::unexpected(first.error());
     const auto second = read(*b, arguments.operand(1));
     if (!second) return tl::unexpected(second.error());
+    const std::string note = note_on_units(*first, *second);
     convert(*first, second->unit);
     const auto distance = measure(first->mesh, second->mesh, options);
     if (!distance) return tl::unexpected(distance.error());
-    return Product{describe(*distance), {}};
+    json report = describe(*distance);
+    if (!note.empty()) report["note"] = note;
+    return Product{std::move(report), {}};
   });
   if (!product) return tl::unexpected(product.error());
+  if (product->report.contains("note")) print_note(product->report["note"].get<std::string>());
   return arguments.has("--json") ? print_json(product->report) : print(as_text(product->report));
 }
 

@@ -212,6 +212,17 @@ TEST_F(VitrineCommand, a_unit_goes_through_the_model_into_what_is_exported) {
   EXPECT_LT(distance["max_percent"].get<double>(), 1e-3);
 }
 
+TEST_F(VitrineCommand, measure_says_where_only_one_of_two_states_its_unit) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  vitrine_json({"build", in, "-o", path("mm.pmesh"), "--unit", "mm"});
+  const ProgramResult mixed =
+      vitrine({"measure", path("mm.pmesh"), in, "--samples", "1000", "--json"});
+  expect_fault(mixed, 0);
+  EXPECT_NE(mixed.errors.find("note: B states no unit and A is in mm"), std::string::npos);
+  EXPECT_TRUE(json::parse(mixed.output).contains("note"));
+  EXPECT_EQ(vitrine({"measure", in, in, "--samples", "1000"}).errors, "");
+}
+
 TEST_F(VitrineCommand, a_model_that_was_turned_up_is_lossless_only_against_the_turned_input) {
   const std::string in = write("in.ply", bumpy_ply(500));
   vitrine_json({"build", in, "-o", path("out.pmesh"), "--up", "z"});
