@@ -62,13 +62,15 @@ Outcome publish_file(const Arguments& arguments) {
   if (file->is_pmesh() && (arguments.has("--unit") || arguments.has("--up"))) {
     return misused("--unit and --up are for meshes; a .pmesh has its own, so build it again");
   }
+  const std::filesystem::path data = arguments.text("--data");
+  if (const auto usable = check_installation(data); !usable) return failed(usable.error());
   const CompanionFiles companions(path, file->bytes());
   reading->beside = companions.contents();
-  const SpillOptions spill{.folder = existing(arguments.text("--data")), .input = file->bytes()};
+  const SpillOptions spill{.folder = existing(data), .input = file->bytes()};
   const auto pmesh = make_pmesh(*file, path, *reading, spill);
   if (!pmesh) return tl::unexpected(pmesh.error());
 
-  const auto installation = open_installation(arguments.text("--data"));
+  const auto installation = open_installation(data);
   if (!installation) return failed(installation.error());
   const std::string stem = std::filesystem::path(path).stem().string();
   const auto id = publish(*installation->store, *installation->catalogue, *pmesh,

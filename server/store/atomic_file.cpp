@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+}  // namespace
+
 const char* next_step(int error) {
   switch (error) {
     case ENOSPC:
@@ -26,12 +28,17 @@ const char* next_step(int error) {
     case EROFS:
       return "choose a folder you may write to";
     case ENOENT:
-    case ENOTDIR:
       return "create the folder first";
+    case ENOTDIR:
+      return "a part of the path is a file: choose another folder";
+    case ENAMETOOLONG:
+      return "choose a shorter name";
     default:
       return "check the disk";
   }
 }
+
+namespace {
 
 Unexpected refused(const char* what, const fs::path& path, int error) {
   return fail(ErrorCode::kIo, fmt::format("cannot {} {}: {}; {}", what, path.string(),
@@ -73,7 +80,7 @@ Expected<void> check_writable(const fs::path& path) {
                                             "another name",
                                             path.string()));
   }
-  if (::access(folder_of(path).c_str(), W_OK) != 0) return refused("write", path, errno);
+  if (::access((folder_of(path) / ".").c_str(), W_OK) != 0) return refused("write", path, errno);
   return {};
 }
 

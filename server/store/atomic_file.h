@@ -19,6 +19,9 @@ Expected<void> check_writable(const std::filesystem::path& path);
 Expected<void> write_file_atomically(const std::filesystem::path& path,
                                      std::span<const std::uint8_t> bytes);
 
+// What to do where a file or folder cannot be written for that error number.
+const char* next_step(int error);
+
 // Where a file of that name is; `.` for a bare name.
 std::filesystem::path folder_of(const std::filesystem::path& path);
 

@@ -68,7 +68,10 @@ Expected<std::vector<std::uint8_t>> Object::read(std::uint64_t offset, std::uint
 Expected<FileStore> FileStore::open(const fs::path& root) {
   std::error_code error;
   fs::create_directories(root, error);
-  if (error) return refused("create", root, error.message().c_str());
+  if (error) {
+    return fail(ErrorCode::kIo, fmt::format("cannot create {}: {}; {}", root.string(),
+                                            error.message(), next_step(error.value())));
+  }
   return FileStore(root);
 }
 

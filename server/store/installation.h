@@ -15,6 +15,10 @@ struct Installation {
   std::unique_ptr<Catalogue> catalogue;
 };
 
+// Whether the folder, or the one that it would be made in, can be written to. Creates nothing.
+// Fails (kIo) with the cause.
+Expected<void> check_installation(const std::filesystem::path& folder);
+
 // Creates what is missing. Several processes may open the same folder.
 Expected<Installation> open_installation(const std::filesystem::path& folder);
 

@@ -193,9 +193,20 @@ TEST_F(VitrineCommand, a_read_only_folder_is_an_error) {
                           {command, in, command == "build" ? "-o" : "--data",
                            path(command == "build" ? "out/model.pmesh" : "out/data")});
     expect_fault(result, 1);
-    EXPECT_THAT(result.errors, HasSubstr("Read-only file system"));
+    EXPECT_THAT(result.errors,
+                HasSubstr("Read-only file system; choose a folder you may write to"));
     EXPECT_EQ(result.output, "");
   }
+}
+
+TEST_F(VitrineCommand, a_read_only_installation_is_named_with_what_to_do) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  std::filesystem::create_directory(path("out"));
+  const ProgramResult result =
+      run_on_small_disk("mkdir \"$out/objects\" && mount -o remount,ro \"$out\"", path("out"),
+                        {"publish", in, "--data", path("out")});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("Read-only file system; choose a folder you may write to"));
 }
 
 TEST_F(VitrineCommand, an_older_output_survives_a_failure) {
