@@ -28,6 +28,17 @@ namespace {
 constexpr std::size_t kAdminConnections = 64;
 constexpr std::size_t kMaxExports = 64;  // each holds a decoded mesh while it runs
 
+Unexpected of_admin(const Error& error) {
+  return fail(error.code, "--admin-listen: " + error.message);
+}
+
+// Asked before the data folder is made, so that a start that fails leaves nothing.
+Expected<void> check_addresses(const Settings& settings) {
+  if (auto usable = check_address(settings.listen); !usable) return usable;
+  const auto usable = check_address(settings.admin_listen);
+  return usable ? Expected<void>{} : of_admin(usable.error());
+}
+
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
  public:
@@ -97,9 +108,7 @@ class Daemon {
   Expected<void> bind(HttpServer& server, const Endpoint& endpoint,
                       const std::filesystem::path& port_file, std::string_view what) {
     const auto port = server.listen(endpoint);
-    if (!port)
-      return fail(port.error().code,
-                  (what.empty() ? "" : "--admin-listen: ") + port.error().message);
+    if (!port) return what.empty() ? Unexpected(port.error()) : of_admin(port.error());
     if (auto written = write_port_file(port_file, *port); !written) return written;
     const bool v6 = endpoint.host.find(':') != std::string::npos;
     events_.event(Severity::kInfo, fmt::format("{}listening on http://{}{}{}:{}", what,
@@ -188,6 +197,7 @@ int print(const std::string& text) {
 }
 
 int serve(const Settings& settings) {
+  if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
   auto installation = open_installation(settings.data);
   if (!installation) return report({ErrorCode::kIo, installation.error().message});
   auto access_log = Log::open(settings.access_log);

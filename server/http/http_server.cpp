@@ -19,7 +19,25 @@ Unexpected cannot_listen(const Endpoint& endpoint, const boost::system::error_co
                                                 : "choose another address"));
 }
 
+Expected<void> bind(Tcp::acceptor& acceptor, const Endpoint& endpoint) {
+  boost::system::error_code error;
+  const auto address = asio::ip::make_address(endpoint.host, error);
+  if (error) return cannot_listen(endpoint, error);
+  const Tcp::endpoint local(address, endpoint.port);
+  acceptor.open(local.protocol(), error);
+  if (!error) acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.bind(local, error);
+  if (error) return cannot_listen(endpoint, error);
+  return {};
+}
+
 }  // namespace
+
+Expected<void> check_address(const Endpoint& endpoint) {
+  asio::io_context io;
+  Tcp::acceptor acceptor(io);
+  return bind(acceptor, endpoint);
+}
 
 Workers::Workers(unsigned threads, std::size_t max_exports)
     : pool_(threads), exports_(threads), max_exports_(max_exports) {
@@ -55,14 +73,9 @@ HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& worker
       sweeper_(strand_) {}
 
 Expected<std::uint16_t> HttpServer::listen(const Endpoint& endpoint) {
+  if (auto bound = bind(acceptor_, endpoint); !bound) return Unexpected(bound.error());
   boost::system::error_code error;
-  const auto address = asio::ip::make_address(endpoint.host, error);
-  if (error) return cannot_listen(endpoint, error);
-  const Tcp::endpoint local(address, endpoint.port);
-  acceptor_.open(local.protocol(), error);
-  if (!error) acceptor_.set_option(Tcp::acceptor::reuse_address(true), error);
-  if (!error) acceptor_.bind(local, error);
-  if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  acceptor_.listen(asio::socket_base::max_listen_connections, error);
   if (error) return cannot_listen(endpoint, error);
   return acceptor_.local_endpoint().port();
 }

@@ -57,6 +57,9 @@ struct HttpOptions {
   StreamHandler stream;
 };
 
+// Whether an HttpServer could listen there now. Fails (kIo) with the cause.
+Expected<void> check_address(const Endpoint& endpoint);
+
 class HttpServer {
  public:
   HttpServer(asio::io_context& io, Services& services, Workers& workers, HttpOptions options);

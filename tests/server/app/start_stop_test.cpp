@@ -87,6 +87,19 @@ TEST(Start, APortInUseIsOneLineWithTheNextStepAndExitCode1) {
               HasSubstr("cannot listen on " + address + ": Address already in use; "));
 }
 
+TEST(Start, APortInUseLeavesNoFreshDataFolderBehind) {
+  const ServedFolder folder;
+  const Daemon daemon(folder.path());
+  const std::string address = "127.0.0.1:" + std::to_string(daemon.port());
+  const auto fresh = folder.path() / "fresh";
+  EXPECT_EQ(run_vitrined({"--listen", address, "--data", fresh.string()}).exit_code, 1);
+  EXPECT_EQ(
+      run_vitrined({"--listen", "127.0.0.1:0", "--admin-listen", address, "--data", fresh.string()})
+          .exit_code,
+      1);
+  EXPECT_FALSE(std::filesystem::exists(fresh));
+}
+
 TEST(Start, AnAdministrationPortInUseIsNamed) {
   const ServedFolder folder;
   const Daemon daemon(folder.path());
