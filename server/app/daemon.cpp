@@ -13,6 +13,7 @@
 #include <iterator>
 #include <thread>
 
+#include "server/app/check_paths.h"
 #include "server/app/descriptor_limit.h"
 #include "server/app/port_file.h"
 #include "server/config/command_line.h"
@@ -208,6 +209,11 @@ int serve(const Settings& settings) {
   return kExitDone;
 }
 
+int check(const Settings& settings) {
+  if (const auto usable = check_paths(settings); !usable) return report(usable.error());
+  return print("the configuration is valid\n");
+}
+
 }  // namespace
 
 int run_daemon(std::span<const std::string_view> arguments,
@@ -219,7 +225,7 @@ int run_daemon(std::span<const std::string_view> arguments,
     case Action::kServe:
       return serve(line->settings);
     case Action::kCheckConfig:
-      return print("the configuration is valid\n");
+      return check(line->settings);
     case Action::kPrintConfig:
       return print(print_config(*line));
     case Action::kHelp:

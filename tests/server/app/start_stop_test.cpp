@@ -65,6 +65,28 @@ TEST(Start, ChecksAConfigurationWithoutServing) {
   EXPECT_THAT(result.output, HasSubstr(file + ":1: unknown key 'listne'; did you mean 'listen'?"));
 }
 
+TEST(Start, ChecksThePathsOfAConfigurationAndCreatesNothing) {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  std::ofstream(path("file")) << "not a folder";
+  const auto check = [](const std::string& flag, const std::string& value) {
+    return run_vitrined({flag, value, "--check-config"});
+  };
+  for (const std::string flag : {"--data", "--port-file", "--admin-port-file", "--access-log"}) {
+    const ProgramResult result = check(flag, path("file/below"));
+    EXPECT_EQ(result.exit_code, 1) << flag;
+    EXPECT_EQ(lines(result.output), 1u);
+    EXPECT_THAT(result.output, HasSubstr(flag.substr(2) + ": cannot write " + path("file/below")));
+    EXPECT_THAT(result.output, HasSubstr("; a part of the path is a file: choose another folder"));
+  }
+  EXPECT_EQ(check("--data", path("file")).exit_code, 1);
+  EXPECT_EQ(check("--port-file", folder.path().string()).exit_code, 1);
+  EXPECT_EQ(check("--data", path("new/folder")).exit_code, 0);
+  EXPECT_EQ(check("--data", folder.path().string()).exit_code, 0);
+  EXPECT_EQ(check("--access-log", "/dev/null").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("new")));
+}
+
 TEST(Start, RefusesAFolderAsConfigurationAndAnAddressThatIsNoNumber) {
   const TemporaryFolder folder;
   EXPECT_EQ(run_vitrined({"--config", folder.path().string(), "--check-config"}).exit_code, 1);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/app/check_paths.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "server/store/atomic_file.h"
+#include "server/store/installation.h"
+
+namespace vitrine {
+namespace {
+
+namespace fs = std::filesystem;
+
+Expected<void> named(std::string_view key, const Expected<void>& checked) {
+  if (checked) return {};
+  return fail(checked.error().code, fmt::format("{}: {}", key, checked.error().message));
+}
+
+// A pipe or a terminal takes a log as well as a file does.
+Expected<void> check_log(const fs::path& log) {
+  std::error_code unknown;
+  if (log == "-") return {};
+  if (!fs::exists(log, unknown) || fs::is_directory(log, unknown)) return check_writable(log);
+  if (::access(log.c_str(), W_OK) == 0) return {};
+  return fail(ErrorCode::kIo, fmt::format("cannot write {}: {}; {}", log.string(),
+                                          std::strerror(errno), next_step(errno)));
+}
+
+}  // namespace
+
+Expected<void> check_paths(const Settings& settings) {
+  if (auto ok = named("data", check_installation(settings.data)); !ok) return ok;
+  for (const auto& [key, file] : {std::pair("port-file", settings.port_file),
+                                  std::pair("admin-port-file", settings.admin_port_file)}) {
+    if (file.empty()) continue;
+    if (auto ok = named(key, check_writable(file)); !ok) return ok;
+  }
+  if (settings.access_log.empty()) return {};
+  return named("access-log", check_log(settings.access_log));
+}
+
+}  // namespace vitrine
