@@ -45,6 +45,14 @@ class Demo(unittest.TestCase):
             self.assertEqual(answer.status, 200)
             return answer.read().decode()
 
+    def failed(self, listen, data):
+        """All that a demo said that did not come up."""
+        environment = os.environ | {"VITRINE_LISTEN": listen, "VITRINE_DATA": data}
+        done = subprocess.run([DEMO], env=environment, text=True, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        return done.stdout
+
     def refused(self, *arguments):
         done = subprocess.run([DEMO, *arguments], capture_output=True, text=True, cwd=self.folder)
         self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
@@ -67,6 +75,14 @@ class Demo(unittest.TestCase):
             self.assertNotIn(f":{port}/", url)
             self.page(url)
             self.stop(demo)
+
+    def test_a_data_folder_that_cannot_be_written_is_named_in_one_line(self):
+        file = Path(self.folder) / "file"
+        file.write_text("not a folder")
+        said = self.failed("127.0.0.1:0", f"{file}/data")
+        self.assertEqual(said.splitlines()[-1], f"demo: cannot write to '{file}/data'; "
+                                                "set VITRINE_DATA to a folder you may write to")
+        self.assertNotIn("mkdir", said)
 
     def test_a_mesh_of_ones_own_is_shown(self):
         mesh = Path(self.folder) / "own mesh.obj"
