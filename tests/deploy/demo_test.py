@@ -46,12 +46,17 @@ class Demo(unittest.TestCase):
             return answer.read().decode()
 
     def failed(self, listen, data):
-        """All that a demo said that did not come up."""
+        """All that a demo said that did not come up; it leaves nothing in the clone."""
+        before = self.states()
         environment = os.environ | {"VITRINE_LISTEN": listen, "VITRINE_DATA": data}
         done = subprocess.run([DEMO], env=environment, text=True, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertEqual(self.states(), before)
         return done.stdout
+
+    def states(self):
+        return set((ROOT / "build" / "demo").glob("*"))
 
     def refused(self, *arguments):
         done = subprocess.run([DEMO, *arguments], capture_output=True, text=True, cwd=self.folder)
@@ -75,6 +80,11 @@ class Demo(unittest.TestCase):
             self.assertNotIn(f":{port}/", url)
             self.page(url)
             self.stop(demo)
+
+    def test_an_address_of_another_machine_is_not_called_in_use(self):
+        said = self.failed("192.0.2.1:8080", self.folder + "/data")
+        self.assertNotIn("in use", said)
+        self.assertIn("cannot listen on 192.0.2.1:8080: Cannot assign requested address; choose another", said)
 
     def test_a_data_folder_that_cannot_be_written_is_named_in_one_line(self):
         file = Path(self.folder) / "file"
