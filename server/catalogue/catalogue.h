@@ -69,6 +69,11 @@ class Catalogue {
   virtual Expected<void> set_state(const ModelId& id, ModelState state) = 0;
 
   virtual Expected<std::optional<ModelRecord>> find(const ModelId& id) = 0;  // drafts too
+
+  // The newest published model of the same file whose title, creator, rights and licence are those
+  // of `model`.
+  virtual Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) = 0;
+
   virtual Expected<ModelPage> search(const ModelQuery& query) = 0;
 
   // Where a chunk's bytes lie; published models only.

@@ -119,6 +119,10 @@ class SqliteCatalogue final : public Catalogue {
         insert_chunk_(database_, "INSERT OR IGNORE INTO chunk VALUES (?,?,?,?)"),
         update_state_(database_, "UPDATE model SET state = ?2 WHERE id = ?1 RETURNING 1"),
         find_model_(database_, fmt::format("SELECT {} FROM model WHERE id = ?", kColumns)),
+        find_same_(database_, fmt::format("SELECT {} FROM model WHERE state = 1 AND file = ? AND "
+                                          "title = ? AND creator = ? AND rights = ? AND "
+                                          "licence = ? ORDER BY id DESC LIMIT 1",
+                                          kColumns)),
         find_chunk_(database_,
                     "SELECT model, offset, length FROM chunk JOIN model ON model.id = chunk.model "
                     "WHERE sha256 = ? AND state = 1 LIMIT 1"),
@@ -164,6 +168,16 @@ class SqliteCatalogue final : public Catalogue {
       if (!find_model_.reset().bind(id.bytes()).step()) return std::nullopt;
       auto model = read_model(find_model_);
       find_model_.reset();
+      return model;
+    });
+  }
+
+  Expected<std::optional<ModelRecord>> find_same(const ModelRecord& like) override {
+    return guarded<std::optional<ModelRecord>>([&]() -> Expected<std::optional<ModelRecord>> {
+      find_same_.reset().bind(like.file).bind(like.title).bind(like.creator);
+      if (!find_same_.bind(like.rights).bind(like.licence).step()) return std::nullopt;
+      auto model = read_model(find_same_);
+      find_same_.reset();
       return model;
     });
   }
@@ -232,7 +246,8 @@ class SqliteCatalogue final : public Catalogue {
 
   std::mutex mutex_;
   Database database_;
-  Statement insert_model_, insert_chunk_, update_state_, find_model_, find_chunk_, data_version_;
+  Statement insert_model_, insert_chunk_, update_state_, find_model_, find_same_, find_chunk_,
+      data_version_;
   std::uint64_t own_changes_ = 0;  // `PRAGMA data_version` counts the changes of others only
 };
 

@@ -73,11 +73,17 @@ Outcome publish_file(const Arguments& arguments) {
   const auto installation = open_installation(data);
   if (!installation) return failed(installation.error());
   const std::string stem = std::filesystem::path(path).stem().string();
-  const auto id = publish(*installation->store, *installation->catalogue, *pmesh,
-                          {.title = arguments.text("--title", stem)});
-  if (!id) return failed(id.error());
-  if (!arguments.has("--json")) return print(id->to_string());
-  return print_json({{"id", id->to_string()}, {"url", nullptr}});
+  const auto published = publish(*installation->store, *installation->catalogue, *pmesh,
+                                 {.title = arguments.text("--title", stem)});
+  if (!published) return failed(published.error());
+  const std::string id = published->id.to_string();
+  if (!published->is_new) {
+    print_note(fmt::format(
+        "{} is published under this title already, as {}; give another --title to publish it again",
+        path, id));
+  }
+  if (!arguments.has("--json")) return print(id);
+  return print_json({{"id", id}, {"url", nullptr}});
 }
 
 constexpr std::string_view kOperands[] = {"IN"};

@@ -78,23 +78,30 @@ Expected<void> check_stored(const PublishedModel& model, std::span<const ChunkPl
   return {};
 }
 
+// Names the stored file in the catalogue, once it has been read back.
+Expected<Publication> add(ObjectStore& store, Catalogue& catalogue, const ModelRecord& record) {
+  const auto model = PublishedModel::open(store, record);
+  if (!model) return tl::unexpected(model.error());
+  const auto chunks = places((*model)->manifest());
+  if (auto good = check_stored(**model, chunks); !good) return tl::unexpected(good.error());
+  const auto same = catalogue.find_same(record);
+  if (!same) return tl::unexpected(same.error());
+  if (*same) return Publication{.id = (*same)->id, .is_new = false};
+  if (auto added = catalogue.add(record, chunks); !added) return tl::unexpected(added.error());
+  return Publication{.id = record.id};
+}
+
 }  // namespace
 
-Expected<ModelId> publish(ObjectStore& store, Catalogue& catalogue,
-                          std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata) {
+Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
+                              std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata) {
   const auto manifest = parse_header(pmesh);
   if (!manifest) return tl::unexpected(manifest.error());
   if (auto good = check_texts(metadata, manifest->unit); !good) return tl::unexpected(good.error());
   if (auto fits = check_size(*manifest, pmesh.size()); !fits) return tl::unexpected(fits.error());
   const Sha256 name = sha256(pmesh);
   if (auto stored = store.put(name, pmesh); !stored) return tl::unexpected(stored.error());
-  const ModelRecord record = describe(*manifest, metadata, name);
-  const auto model = PublishedModel::open(store, record);
-  if (!model) return tl::unexpected(model.error());
-  const auto chunks = places((*model)->manifest());
-  if (auto good = check_stored(**model, chunks); !good) return tl::unexpected(good.error());
-  if (auto added = catalogue.add(record, chunks); !added) return tl::unexpected(added.error());
-  return record.id;
+  return add(store, catalogue, describe(*manifest, metadata, name));
 }
 
 }  // namespace vitrine

@@ -15,10 +15,17 @@ struct ModelMetadata {
   std::string title, creator, rights, licence;
 };
 
+struct Publication {
+  ModelId id;
+  bool is_new = true;  // false: this model was there already
+};
+
 // Stores the file, reads it back from the store to check the header and the SHA-256 of the base and
 // of every chunk, and then adds the model as published, in one transaction: a crash at any point
-// leaves at most an object that nothing names. Fails with kBadInput where the file is damaged.
-Expected<ModelId> publish(ObjectStore& store, Catalogue& catalogue,
-                          std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata);
+// leaves at most an object that nothing names. The same bytes under
+// the same texts are the model that is published already. Fails with kBadInput where the file is
+// damaged.
+Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
+                              std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata);
 
 }  // namespace vitrine

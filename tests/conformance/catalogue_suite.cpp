@@ -74,6 +74,26 @@ TEST_F(CatalogueSuite, a_model_is_found_as_it_was_added) {
   EXPECT_EQ(found->vertices, added.vertices);
 }
 
+TEST_F(CatalogueSuite, the_newest_published_model_of_a_file_and_its_texts_is_found) {
+  ModelRecord other = model(1);
+  EXPECT_FALSE(catalogue_->find_same(other).value());
+  add(other);
+  other.id = id_of(2);
+  EXPECT_EQ(catalogue_->find_same(other).value().value().id, id_of(1));
+  add(other);
+  EXPECT_EQ(catalogue_->find_same(other).value().value().id, id_of(2));
+  ASSERT_TRUE(catalogue_->set_state(id_of(2), ModelState::kDraft));
+  EXPECT_EQ(catalogue_->find_same(other).value().value().id, id_of(1));
+  for (std::string ModelRecord::*text :
+       {&ModelRecord::title, &ModelRecord::creator, &ModelRecord::rights, &ModelRecord::licence}) {
+    ModelRecord changed = other;
+    changed.*text += ".";
+    EXPECT_FALSE(catalogue_->find_same(changed).value());
+  }
+  other.file = digest(9);
+  EXPECT_FALSE(catalogue_->find_same(other).value());
+}
+
 TEST_F(CatalogueSuite, an_absent_model_is_not_an_error) {
   const auto found = catalogue_->find(id_of(1));
   ASSERT_TRUE(found);

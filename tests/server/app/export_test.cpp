@@ -63,7 +63,7 @@ class ExportTest : public ::testing::Test {
     Installation installation = open_installation(folder.path()).value();
     const auto published = publish(*installation.store, *installation.catalogue, built().file, {});
     if (!published) throw std::runtime_error(published.error().message);
-    id = published->to_string();
+    id = published->id.to_string();
     daemon.emplace(folder.path());
   }
 

@@ -32,7 +32,7 @@ class ServedFolder {
     const auto id = vitrine::publish(*installation_.store, *installation_.catalogue, pmesh.bytes,
                                      {.title = title});
     if (!id) throw std::runtime_error(id.error().message);
-    return id->to_string();
+    return id->id.to_string();
   }
 
  private:

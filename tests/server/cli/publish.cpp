@@ -38,6 +38,15 @@ TEST_F(VitrineCommand, a_pmesh_is_published_as_it_is) {
   EXPECT_EQ(std::string(bytes.begin(), bytes.end()), read("model.pmesh"));
 }
 
+TEST_F(VitrineCommand, publishing_a_mesh_again_gives_the_same_model_and_says_so) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  const nlohmann::json first = vitrine_json({"publish", in, "--data", path("data")});
+  const ProgramResult again = vitrine({"publish", in, "--data", path("data"), "--json"});
+  expect_fault(again, 0);
+  EXPECT_THAT(again.errors, HasSubstr("note: " + in + " is published under this title already"));
+  EXPECT_EQ(nlohmann::json::parse(again.output), first);
+}
+
 TEST_F(VitrineCommand, a_data_folder_that_cannot_be_looked_at_is_named) {
   const std::string folder = path(std::string(300, 'd'));  // no file system has such names
   const ProgramResult result =

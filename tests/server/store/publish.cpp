@@ -35,7 +35,7 @@ class Publish : public testing::Test {
 TEST_F(Publish, a_published_model_serves_its_head_its_chunks_and_its_file) {
   const auto id = publish(store_, *catalogue_, file_.bytes, {.title = "A head"});
   ASSERT_TRUE(id) << id.error().message;
-  const auto model = models_.find(*id).value();
+  const auto model = models_.find(id->id).value();
   ASSERT_TRUE(model);
   EXPECT_EQ(model->record().title, "A head");
   EXPECT_EQ(model->record().unit, "mm");
@@ -80,21 +80,31 @@ TEST_F(Publish, text_that_is_not_utf8_or_is_endless_is_refused) {
 TEST_F(Publish, two_openings_of_a_data_folder_share_their_models) {
   const auto first = open_installation(folder_.path() / "data").value();
   const auto second = open_installation(folder_.path() / "data").value();
-  const ModelId id = publish(*first.store, *first.catalogue, file_.bytes, {}).value();
+  const ModelId id = publish(*first.store, *first.catalogue, file_.bytes, {}).value().id;
   PublishedModels models(*second.store, *second.catalogue);
   EXPECT_TRUE(models.find(id).value());
 }
 
-TEST_F(Publish, the_same_file_may_be_published_twice) {
+TEST_F(Publish, the_same_file_under_another_title_is_another_model) {
   const auto first = publish(store_, *catalogue_, file_.bytes, {.title = "one"});
   const auto second = publish(store_, *catalogue_, file_.bytes, {.title = "two"});
   ASSERT_TRUE(first && second);
-  EXPECT_NE(*first, *second);
-  EXPECT_EQ(models_.find(*second).value()->record().title, "two");
+  EXPECT_NE(first->id, second->id);
+  EXPECT_EQ(models_.find(second->id).value()->record().title, "two");
+}
+
+TEST_F(Publish, the_same_file_under_the_same_title_is_the_same_model) {
+  const auto first = publish(store_, *catalogue_, file_.bytes, {.title = "one"});
+  const auto again = publish(store_, *catalogue_, file_.bytes, {.title = "one"});
+  ASSERT_TRUE(first && again);
+  EXPECT_EQ(first->id, again->id);
+  EXPECT_TRUE(first->is_new);
+  EXPECT_FALSE(again->is_new);
+  EXPECT_EQ(model_count(), 1u);
 }
 
 TEST_F(Publish, a_model_that_was_hidden_elsewhere_is_served_no_more) {
-  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value();
+  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value().id;
   ASSERT_TRUE(models_.find(id).value());
   const auto other = open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
   ASSERT_TRUE(other->set_state(id, ModelState::kDraft));
@@ -106,7 +116,7 @@ TEST_F(Publish, a_model_published_by_another_process_is_found_whatever_is_cached
   PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
   EXPECT_FALSE(lazy.find(ModelId::generate()).value());
   const auto other = open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
-  const ModelId id = publish(store_, *other, file_.bytes, {}).value();
+  const ModelId id = publish(store_, *other, file_.bytes, {}).value().id;
   EXPECT_TRUE(lazy.find(id).value());
   EXPECT_TRUE(lazy.find_chunk(sha256(test::to_bytes("a chunk"))).value().model);
 }
@@ -123,7 +133,7 @@ TEST_F(Publish, a_chunk_is_held_once_it_was_asked_for_and_as_long_as_that_is_fre
 }
 
 TEST_F(Publish, a_model_whose_object_is_lost_is_an_error_that_names_it) {
-  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value();
+  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value().id;
   std::filesystem::remove_all(folder_.path() / "objects");
   const auto model = models_.find(id);
   ASSERT_FALSE(model);
