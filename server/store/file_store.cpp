@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -54,6 +55,13 @@ Expected<void> create_folder(const fs::path& folder) {
   return {};
 }
 
+bool wait_for_lock(int fd) {
+  while (::flock(fd, LOCK_EX) != 0) {
+    if (errno != EINTR) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Expected<std::vector<std::uint8_t>> Object::read(std::uint64_t offset, std::uint64_t length) const {
@@ -92,6 +100,22 @@ Expected<void> FileStore::put(const Sha256& name, std::span<const std::uint8_t> 
   if (auto made = create_folder(folder.parent_path()); !made) return made;
   if (auto made = create_folder(folder); !made) return made;
   return write_file_atomically(path, bytes);
+}
+
+Expected<std::shared_ptr<const void>> FileStore::lock() {
+  auto folder =
+      std::make_shared<FileDescriptor>(::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!*folder || !wait_for_lock(folder->get())) {
+    return refused("lock", root_, std::strerror(errno));
+  }
+  return folder;
+}
+
+Expected<void> FileStore::remove(const Sha256& name) {
+  const fs::path path = path_of(name);
+  if (::unlink(path.c_str()) == 0) return sync_folder(path.parent_path());
+  if (errno != ENOENT) return refused("remove", path, std::strerror(errno));
+  return {};
 }
 
 Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {

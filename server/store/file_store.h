@@ -14,6 +14,8 @@ class FileStore final : public ObjectStore {
   static Expected<FileStore> open(const std::filesystem::path& root);
 
   Expected<void> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
+  Expected<std::shared_ptr<const void>> lock() override;
+  Expected<void> remove(const Sha256& name) override;
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
 
  private:

@@ -41,6 +41,13 @@ class ObjectStore {
   // not have that name, kIo where the disk refuses. Putting an object again changes nothing.
   virtual Expected<void> put(const Sha256& name, std::span<const std::uint8_t> bytes) = 0;
 
+  // Whoever puts an object and has it named, or takes it away, holds this meanwhile: nobody else,
+  // in this process or another, does either until it is destroyed.
+  virtual Expected<std::shared_ptr<const void>> lock() = 0;
+
+  // Takes the object away; that there is none is no fault. Fails (kIo) where the disk refuses.
+  virtual Expected<void> remove(const Sha256& name) = 0;
+
   // Null where there is no such object.
   virtual Expected<std::unique_ptr<Object>> open(const Sha256& name) const = 0;
 };

@@ -100,8 +100,15 @@ Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
   if (auto good = check_texts(metadata, manifest->unit); !good) return tl::unexpected(good.error());
   if (auto fits = check_size(*manifest, pmesh.size()); !fits) return tl::unexpected(fits.error());
   const Sha256 name = sha256(pmesh);
+  const auto lock = store.lock();
+  if (!lock) return tl::unexpected(lock.error());
+  const auto before = store.open(name);
+  if (!before) return tl::unexpected(before.error());
   if (auto stored = store.put(name, pmesh); !stored) return tl::unexpected(stored.error());
-  return add(store, catalogue, describe(*manifest, metadata, name));
+  auto published = add(store, catalogue, describe(*manifest, metadata, name));
+  // The first fault is the one to tell: a full disk takes a removal.
+  if (!published && *before == nullptr) static_cast<void>(store.remove(name));
+  return published;
 }
 
 }  // namespace vitrine

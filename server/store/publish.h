@@ -22,7 +22,7 @@ struct Publication {
 
 // Stores the file, reads it back from the store to check the header and the SHA-256 of the base and
 // of every chunk, and then adds the model as published, in one transaction: a crash at any point
-// leaves at most an object that nothing names. The same bytes under
+// leaves at most an object that nothing names, and a failure not even that. The same bytes under
 // the same texts are the model that is published already. Fails with kBadInput where the file is
 // damaged.
 Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,

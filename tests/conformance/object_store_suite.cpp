@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 namespace vitrine::test {
@@ -82,6 +83,36 @@ TEST_F(ObjectStoreSuite, putting_again_changes_nothing) {
   put(bytes);
   put(bytes);
   EXPECT_EQ(open(bytes)->read(0, 1'000).value(), bytes);
+}
+
+TEST_F(ObjectStoreSuite, what_was_removed_is_absent_and_can_be_removed_and_put_again) {
+  const Bytes bytes = some_bytes(1'000, 9), others = some_bytes(1'000, 10);
+  put(bytes);
+  put(others);
+  EXPECT_TRUE(store_->remove(sha256(bytes)));
+  EXPECT_EQ(open(bytes), nullptr);
+  EXPECT_TRUE(open(others));
+  EXPECT_TRUE(store_->remove(sha256(bytes)));
+  put(bytes);
+  EXPECT_TRUE(open(bytes));
+}
+
+TEST_F(ObjectStoreSuite, one_connection_at_a_time_holds_the_lock) {
+  std::vector<std::thread> holders;
+  std::atomic<int> holding = 0;
+  for (int i = 0; i < 4; ++i) {
+    holders.emplace_back([this, &holding] {
+      const auto connection = backend_->connect();
+      for (int round = 0; round < 100; ++round) {
+        const auto lock = connection->lock();
+        ASSERT_TRUE(lock);
+        EXPECT_EQ(++holding, 1);
+        --holding;
+      }
+    });
+  }
+  for (auto& holder : holders)
+    holder.join();
 }
 
 TEST_F(ObjectStoreSuite, another_connection_sees_what_was_put) {

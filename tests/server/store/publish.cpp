@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "server/catalogue/sqlite_catalogue.h"
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
@@ -28,6 +31,11 @@ class Publish : public testing::Test {
   Bytes served(const Sha256& chunk) {
     const auto found = models_.find_chunk(chunk).value();
     return found.model ? found.model->read(found.range).value() : Bytes{};
+  }
+  std::size_t object_count() const {
+    const auto objects = std::filesystem::recursive_directory_iterator(folder_.path() / "objects");
+    return static_cast<std::size_t>(
+        std::ranges::count_if(objects, [](const auto& entry) { return entry.is_regular_file(); }));
   }
   std::size_t model_count() { return catalogue_->search({.drafts = true}).value().models.size(); }
 };
@@ -59,6 +67,49 @@ TEST_F(Publish, a_damaged_chunk_is_refused_and_no_model_appears) {
   ASSERT_FALSE(id);
   EXPECT_EQ(id.error().code, ErrorCode::kBadInput);
   EXPECT_EQ(model_count(), 0u);
+  EXPECT_EQ(object_count(), 0u);
+}
+
+// As on a disk that is full by then.
+class FullCatalogue final : public Catalogue {
+ public:
+  explicit FullCatalogue(Catalogue& before) : before_(before) {}
+
+  Expected<void> add(const ModelRecord&, std::span<const ChunkPlace>) override {
+    return fail(ErrorCode::kIo, "the disk is full; free some space");
+  }
+  Expected<void> set_state(const ModelId& id, ModelState state) override {
+    return before_.set_state(id, state);
+  }
+  Expected<std::optional<ModelRecord>> find(const ModelId& id) override { return before_.find(id); }
+  Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) override {
+    return before_.find_same(model);
+  }
+  Expected<ModelPage> search(const ModelQuery& query) override { return before_.search(query); }
+  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
+    return before_.find_chunk(chunk);
+  }
+  Expected<std::uint64_t> revision() override { return before_.revision(); }
+
+ private:
+  Catalogue& before_;
+};
+
+TEST_F(Publish, a_catalogue_that_refuses_leaves_no_object_behind) {
+  FullCatalogue full(*catalogue_);
+  const auto refused = publish(store_, full, file_.bytes, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, "the disk is full; free some space");
+  EXPECT_EQ(object_count(), 0u);
+}
+
+TEST_F(Publish, a_catalogue_that_refuses_takes_no_object_from_another_model) {
+  const auto first = publish(store_, *catalogue_, file_.bytes, {.title = "one"});
+  ASSERT_TRUE(first);
+  FullCatalogue full(*catalogue_);
+  ASSERT_FALSE(publish(store_, full, file_.bytes, {.title = "two"}));
+  EXPECT_EQ(object_count(), 1u);
+  EXPECT_EQ(served(sha256(test::to_bytes("a chunk"))), test::to_bytes("a chunk"));
 }
 
 TEST_F(Publish, a_file_that_is_cut_off_or_too_long_is_refused) {
