@@ -100,8 +100,8 @@ LevelError ErrorMeter::measure(TriangleMesh mesh, const LevelRegions& regions) c
                         original = in_regions(bvh_, regions.of_original);
   HausdorffBound bound(kTolerance, negligible_, regions.count);
   const double rms = sample_both(level, original, surface, bound);
-  const std::vector<std::uint16_t> settled = bound.add(level, surface_);
-  bound.add(original, surface, settled);
+  const Overlaps overlaps = bound.add(level, surface_);
+  bound.add(original, surface, overlaps);
   return result(bound, regions.count, rms);
 }
 

@@ -10,6 +10,11 @@ namespace {
 
 // A piece is halved at once where radius^4 exceeds this many times (twice the witness' area)^2.
 constexpr double kManyWitnesses = 16;
+// Where the source has so many times the triangles of the target, one witness may serve a whole
+// one.
+constexpr std::size_t kFine = 2;
+// Of the limit: the radius of a piece that one true distance may settle.
+constexpr double kSmall = 0.9;
 constexpr double kSlack = 1e-6;  // of the limit: what a cut may leave standing
 
 Vec3 centre_of(const Corners& t) {
@@ -113,20 +118,19 @@ void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& 
 
 struct HausdorffBound::Visit {
   const RegionedSurface& source;
-  std::span<const std::uint16_t> settled;
+  const Overlaps& known;
   std::vector<std::uint16_t> node_regions;  // per node: the region of all below it, or kSeveral
   PatchCover patches;
 };
 
-std::vector<std::uint16_t> HausdorffBound::add(const RegionedSurface& source,
-                                               const WitnessSurface& target,
-                                               std::span<const std::uint16_t> settled) {
+Overlaps HausdorffBound::add(const RegionedSurface& source, const WitnessSurface& target,
+                             const Overlaps& known) {
   target_ = &target;
-  fine_ = source.bvh.size() >= target.size();
+  fine_ = source.bvh.size() >= kFine * target.size();
   last_ = 0;
-  Visit all{source, settled, node_regions(source), PatchCover(target)};
+  Visit all{source, known, node_regions(source), PatchCover(target)};
   visit(all, 0);
-  return std::move(all.patches).marks();
+  return std::move(all.patches).overlaps();
 }
 
 void HausdorffBound::visit(Visit& all, std::uint32_t index) {
@@ -143,25 +147,27 @@ void HausdorffBound::visit(Visit& all, std::uint32_t index) {
 void HausdorffBound::visit_leaf(Visit& all, const TriangleBvh::Node& node) {
   bool near = false;
   for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-    const Corners triangle = all.source.bvh.triangle(t);
     const auto regions = all.source.regions(t);
     for (std::size_t k = 0; k < kinds(regions); ++k) {
       region_ = regions[k];
-      if (!all.settled.empty() && all.settled[t] == region_ + 1) continue;
-      if (!near) approach(centre_of(triangle));
+      if (!all.known.mark.empty() && all.known.mark[t] == region_ + 1) continue;
+      if (const auto start = all.known.near(t)) {
+        last_ = *start;
+      } else if (!near) {
+        approach(centre_of(all.source.bvh.triangle(t)));
+      }
       near = true;
-      visit_triangle(triangle, all.patches);
+      visit_triangle(all, t);
     }
   }
 }
 
-void HausdorffBound::visit_triangle(const Corners& triangle, PatchCover& patches) {
-  const std::array corners = {triangle.a, triangle.b, triangle.c};
-  if (fine_ && settle(corners, last_)) return;
+void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
+  const Corners triangle = all.source.bvh.triangle(t);
   last_ = target_->stroll(centre_of(triangle), last_);
-  if (fine_ && settle(corners, last_)) return;
+  if (fine_ && settle(std::array{triangle.a, triangle.b, triangle.c}, last_)) return;
   const PatchCover::Result patch =
-      patches.cover(triangle, last_, limit(), static_cast<std::uint16_t>(region_ + 1));
+      all.patches.cover(triangle, t, last_, limit(), static_cast<std::uint16_t>(region_ + 1));
   raise(patch.height);
   if (!patch.covered) cover(ConvexPiece(triangle), last_);
 }
@@ -181,17 +187,13 @@ bool HausdorffBound::settle_box(const TriangleBvh::Node& n) {
 // Moves the newest witness near p: by a walk, unless that ends too far away.
 void HausdorffBound::approach(const Vec3& p) {
   last_ = target_->stroll(p, last_);
-  if (target_->distance_within(p, last_, limit()) > limit())
+  if (target_->farthest_within({&p, 1}, last_, limit()) > limit())
     last_ = target_->closest(p, last_).triangle;
 }
 
 bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness) {
-  const double most = limit();
-  double farthest = 0;
-  for (const Vec3& p : corners) {
-    farthest = std::max(farthest, target_->distance_within(p, witness, most));
-    if (farthest > most) return false;
-  }
+  const double most = limit(), farthest = target_->farthest_within(corners, witness, most);
+  if (farthest > most) return false;
   raise(farthest);
   return true;
 }
@@ -200,11 +202,12 @@ void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
   const Vec3 centre = piece.centre();
   const std::uint32_t witness = last_ = target_->walk(centre, start);
   if (settle(piece.corners(), witness)) return;
-  const double radius = piece.radius(centre), area = squared_area(target_->triangle(witness));
+  const double radius = piece.radius(centre);
+  const double area = squared_area(target_->triangle(witness));
   const bool much_larger = radius * radius * radius * radius > kManyWitnesses * area;
   if (!much_larger) return cut(piece, witness, kCuts);
   // A walk may end among faces without area, which say nothing of the surface's size near by.
-  radius > limit() / 2 && area > 0 ? halve(piece, witness) : examine(piece, witness);
+  radius > kSmall* limit() && area > 0 ? halve(piece, witness) : examine(piece, witness);
 }
 
 void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cuts) {
@@ -234,7 +237,7 @@ void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
   }
   for (const Vec3& p : piece.corners()) {
     const double known = regions_[region_].known;
-    if (target_->distance_within(p, witness, known) <= known) continue;
+    if (target_->farthest_within({&p, 1}, witness, known) <= known) continue;
     know(std::sqrt(target_->closest(p, middle.triangle).squared));
   }
   halve(piece, middle.triangle);

@@ -65,12 +65,11 @@ class HausdorffBound {
   void add_twins(const WitnessSurface& one, const WitnessSurface& other,
                  const RegionedSurface& surface);
 
-  // Adds the distances from every point of `source` to `target`, save for the triangles marked in
-  // `settled` (empty: none). Returns marks for the triangles of `target`: 1 more than a region
-  // within whose bound their distance to `source` is found to be on the way, or 0; for the call in
-  // the other direction.
-  std::vector<std::uint16_t> add(const RegionedSurface& source, const WitnessSurface& target,
-                                 std::span<const std::uint16_t> settled = {});
+  // Adds the distances from every point of `source` to `target`. Returns what is learned of the
+  // triangles of `target` on the way, for the call in the other direction: those marked are within
+  // the bound of a region, one less than the mark.
+  Overlaps add(const RegionedSurface& source, const WitnessSurface& target,
+               const Overlaps& known = {});
 
   // No distance added so far is larger. At most tolerance * the largest one, or `negligible`, or,
   // where the surfaces are tangled, as near to these as a bounded number of pieces allows.
@@ -95,7 +94,7 @@ class HausdorffBound {
   }
   struct Visit;
   void visit(Visit& visit, std::uint32_t node);
-  void visit_triangle(const Corners& triangle, PatchCover& patches);
+  void visit_triangle(Visit& visit, std::uint32_t triangle);
   void visit_leaf(Visit& visit, const TriangleBvh::Node& node);
   bool settle_box(const TriangleBvh::Node& node);
   void approach(const Vec3& p);

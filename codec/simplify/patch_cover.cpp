@@ -3,136 +3,224 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
 
 namespace vitrine {
+namespace {
 
-// The prism over a triangle: height over its plane, and the side of each of its three walls.
+using Ints __attribute__((vector_size(16))) = std::int32_t;
+
+// What a place may be wrong by, of the distance from the prism: half a dozen roundings.
+constexpr float kRounding = 5e-7f;
+constexpr float kFarthest = 1e5f;     // units of the prism
+constexpr double kLeastArea = 1e-12;  // of the unit, squared
+constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0};
+
+double longest_edge(const Corners& t) {
+  const Vec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
+  return std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
+}
+
+// The largest height of the plane of `s` over the corners of another triangle, along its normal.
+double plane_height(const Corners& s, const Vec3& direction, const Corners& over) {
+  const Vec3 normal = cross(s.b - s.a, s.c - s.a);
+  const double most =
+      std::max({std::abs(dot(normal, s.a - over.a)), std::abs(dot(normal, s.a - over.b)),
+                std::abs(dot(normal, s.a - over.c))});
+  return most / std::abs(dot(normal, direction));
+}
+
+// What an area may be wrong by that places with this slack span: sides are up to slack / kRounding
+// long.
+float doubtful_area(float slack) {
+  return 8 / kRounding * slack * slack;
+}
+
+float outside(float depth, float slack) {
+  return std::max(slack - depth, 0.0f);
+}
+
+}  // namespace
+
+// The prism over a triangle: its plane and its three walls. Its unit is the longest edge. Places
+// are floats, four to a vector, and say what they may be wrong by.
 struct PatchCover::Prism {
-  Vec3 origin, normal;
-  std::array<Vec3, 3> inward;
-  std::array<double, 3> offset;  // of the walls from the origin
-  Place centre;
+  Corners base;
+  Vec3 normal;
+  double unit;
+  float limit;                    // units
+  float depth = 0, per_area = 0;  // twice the triangle's area, and 1 over it, units
+  Lanes x{}, y{}, z{}, from{};    // of the directions along which places are told
+  Lanes centre{};
 
-  explicit Prism(const Corners& t)
-      : origin(t.a), normal(cross(t.b - t.a, t.c - t.a)), inward{}, offset{}, centre{} {
-    const double size = length(normal);
-    normal = size > 0 ? normal * (1 / size) : Vec3{};
-    inward = {cross(normal, t.b - t.a), cross(normal, t.c - t.b), cross(normal, t.a - t.c)};
-    offset = {0, dot(inward[1], t.b - t.a), 0};
-    centre = place((t.a + t.b + t.c) * (1.0 / 3));
+  Prism(const Corners& t, double most)
+      : base(t),
+        normal(cross(t.b - t.a, t.c - t.a)),
+        unit(longest_edge(t)),
+        limit(static_cast<float>(most / unit)) {
+    const double twice_area = length(normal), scale = 1 / unit;
+    if (!(twice_area > kLeastArea * unit * unit)) return;
+    depth = static_cast<float>(twice_area * scale * scale);
+    per_area = (1 + kRounding) / depth;
+    normal = normal * (1 / twice_area);
+    set(0, normal);
+    set(1, cross(normal, t.b - t.a) * scale);
+    set(2, cross(normal, t.c - t.b) * scale);
+    set(3, cross(normal, t.a - t.c) * scale);
+    from[2] = -depth;  // its corners are elsewhere
+    centre = Lanes{0, depth / 3, depth / 3, depth / 3};
   }
 
-  bool flat() const { return normal == Vec3{}; }
+  void set(std::size_t lane, const Vec3& along) {
+    x[lane] = static_cast<float>(along.x);
+    y[lane] = static_cast<float>(along.y);
+    z[lane] = static_cast<float>(along.z);
+  }
+
+  bool flat() const { return per_area == 0; }
 
   Place place(const Vec3& p) const {
-    const Vec3 r = p - origin;
-    return {dot(normal, r), {dot(inward[0], r), dot(inward[1], r) - offset[1], dot(inward[2], r)}};
+    const Vec3 r = (p - base.a) * (1 / unit);
+    const auto rx = static_cast<float>(r.x), ry = static_cast<float>(r.y),
+               rz = static_cast<float>(r.z);
+    const float reach = 1 + std::abs(rx) + std::abs(ry) + std::abs(rz), slack = kRounding * reach;
+    const Lanes at = x * rx + y * ry + z * rz - from, aside = at - centre;
+    const Ints bits = ((at + slack <= 0) & Ints{0, 1, 2, 4}) |
+                      ((aside > 3 * slack) & Ints{0, 8, 16, 32}) |
+                      ((aside < -3 * slack) & Ints{0, 64, 128, 256});
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bits);
+    const std::uint64_t both = halves[0] | halves[1];
+    const unsigned far = reach <= kFarthest ? 0 : kFar;
+    // Negative barycentric coordinates tell how far outside the triangle it is at most, in edges.
+    const float out = per_area *
+                      (outside(at[1], slack) + outside(at[2], slack) + outside(at[3], slack)),
+                high = std::abs(at[0]) + slack;
+    return {at, slack, out * out + high * high, static_cast<unsigned>(both | both >> 32) | far};
   }
 };
 
-bool PatchCover::outside(const Place& a, const Place& b) {  // the edge is behind no wall
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (a.depth[k] <= 0 && b.depth[k] <= 0) return true;
-  }
-  return false;
-}
-
-bool PatchCover::outside(const Place& a, const Place& b, const Place& c) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (a.depth[k] <= 0 && b.depth[k] <= 0 && c.depth[k] <= 0) return true;
-  }
-  return false;
-}
-
-PatchCover::Place PatchCover::between(const Place& a, const Place& b, double part) {
-  Place p{a.height + (b.height - a.height) * part, {}};
-  for (std::size_t k = 0; k < 3; ++k)
-    p.depth[k] = a.depth[k] + (b.depth[k] - a.depth[k]) * part;
-  return p;
-}
-
 // Twice the area of a triangle seen from above, but for a factor > 0; negative where it faces down.
-double PatchCover::area(const Place& a, const Place& b, const Place& c) {
-  const auto side = [&](const Place& p, std::size_t k) { return p.depth[k] - a.depth[k]; };
-  return side(b, 0) * side(c, 1) - side(b, 1) * side(c, 0);
-}
-
-bool PatchCover::inside(const Place& p) {
-  return p.depth[0] >= 0 && p.depth[1] >= 0 && p.depth[2] >= 0;
+float PatchCover::area(const Lanes& a, const Lanes& b, const Lanes& c) {
+  const Lanes ab = b - a, ac = c - a;
+  return ab[1] * ac[2] - ab[2] * ac[1];
 }
 
 PatchCover::PatchCover(const WitnessSurface& surface)
-    : surface_(surface), marks_(surface.size(), 0), seen_(surface.size(), 0) {}
+    : surface_(surface), marks_(surface.size(), 0), met_(surface.size(), 0) {}
 
-PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t start, double limit,
-                                     std::uint16_t mark) {
-  mark_ = mark;
-  Result result;
-  const Prism prism(triangle);
-  if (prism.flat()) return result;
-  bool over_centre = false;
-  ++call_;
-  seen_[start] = call_;
-  open_.assign(
-      1, {start, 0, prism.place(surface_.point(start, 0)), prism.place(surface_.point(start, 1))});
+PatchCover::Result PatchCover::cover(const Corners& triangle, std::uint32_t number,
+                                     std::uint32_t start, double limit, std::uint16_t mark) {
+  const Prism prism(triangle, limit);
+  if (prism.flat()) return {};
+  calls_.push_back(number);
+  call_ = static_cast<std::uint32_t>(calls_.size());
+  mark_ = mark, degree_ = 0, height_ = squared_ = 0;
+  const bool covered = lay(prism, start) && degree_ != 0;
+  if (!covered) calls_.back() = Overlaps::kNone, height_ = 0;
+  return {covered, std::max(height_, std::sqrt(squared_)) * prism.unit};
+}
+
+// Lays the patch. False if it cannot be a cover.
+bool PatchCover::lay(const Prism& prism, std::uint32_t start) {
+  met_[start] = call_;
+  open_.clear();
+  const Open first{start, 0, prism.place(surface_.point(start, 0)),
+                   prism.place(surface_.point(start, 1))};
+  if (!step(prism, first) || !cross_edge(prism, start, 0, first.from, first.to)) return false;
   while (!open_.empty()) {
     const Open open = open_.back();
     open_.pop_back();
-    if (!step(prism, open, limit, result, over_centre)) return result;
+    if (!step(prism, open)) return false;
   }
-  result.covered = over_centre;
-  return result;
+  return true;
 }
 
-// The largest height that a triangle has over the prism: it is cut at one wall after the other.
-double PatchCover::height_inside(const std::array<Place, 3>& places) {
-  std::array<Place, 9> polygon, cut;  // six corners, but for what rounding may add
-  std::ranges::copy(places, polygon.begin());
-  std::size_t size = places.size();
-  for (std::size_t wall = 0; wall < 3; ++wall) {
+// No less than the height of a triangle over the prism: that of its corners, where these are near,
+// or that of its plane, or that of its part inside.
+float PatchCover::height(const Prism& prism, const Open& open, const Place& apex) const {
+  const float corners = std::max({open.from.height(), open.to.height(), apex.height()});
+  if (corners <= prism.limit) return corners;
+  const double plane =
+      plane_height(surface_.triangle(open.triangle), prism.normal, prism.base) / prism.unit;
+  if (plane * (1 + kRounding) <= prism.limit) return static_cast<float>(plane * (1 + kRounding));
+  return height_inside(open.from, open.to, apex);
+}
+
+// The triangle is cut at one wall after the other.
+float PatchCover::height_inside(const Place& a, const Place& b, const Place& c) {
+  const float slack = std::max({a.slack, b.slack, c.slack});
+  // Six corners, but for what rounding may add.
+  std::array<Lanes, 9> polygon{a.at, b.at, c.at}, cut;
+  std::size_t size = 3;
+  for (std::size_t wall = 1; wall <= 3; ++wall) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size; ++i) {
-      const Place &p = polygon[i], &q = polygon[i + 1 < size ? i + 1 : 0];
-      const double here = p.depth[wall], there = q.depth[wall];
+      const Lanes &p = polygon[i], &q = polygon[i + 1 < size ? i + 1 : 0];
+      const float here = p[wall] + slack, there = q[wall] + slack;
       if (here >= 0) cut[kept++] = p;
       if ((here < 0 && there > 0) || (here > 0 && there < 0))
-        cut[kept++] = between(p, q, here / (here - there));
+        cut[kept++] = p + (q - p) * (here / (here - there));
     }
     polygon = cut, size = kept;
   }
-  double height = 0;
+  float height = 0;
   for (std::size_t i = 0; i < size; ++i)
-    height = std::max(height, std::abs(polygon[i].height));
-  return height;
+    height = std::max(height, std::abs(polygon[i][0]));
+  return height + slack;
 }
 
-// Takes triangle t into the patch if it reaches into the prism. False if the patch is no cover.
-bool PatchCover::step(const Prism& prism, const Open& open, double limit, Result& result,
-                      bool& over_centre) {
-  const std::uint32_t t = open.triangle;
-  std::array<Place, 3> places;
-  places[open.edge] = open.from, places[(open.edge + 1) % 3] = open.to;
-  const std::uint32_t apex = (open.edge + 2) % 3;
-  places[apex] = prism.place(surface_.point(t, apex));
-  if (outside(places[0], places[1], places[2])) return true;
-  double height = std::max(
-      {std::abs(places[0].height), std::abs(places[1].height), std::abs(places[2].height)});
-  if (height > limit) height = height_inside(places);
-  if (height > limit || !(area(places[0], places[1], places[2]) > 0)) return false;
-  result.height = std::max(result.height, height);
-  if (inside(places[0]) && inside(places[1]) && inside(places[2])) marks_[t] = mark_;
-  over_centre = over_centre || (area(places[0], places[1], prism.centre) >= 0 &&
-                                area(places[1], places[2], prism.centre) >= 0 &&
-                                area(places[2], places[0], prism.centre) >= 0);
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const std::uint32_t other = surface_.across(t, k);
-    if (seen_[other] == call_ && other != t) continue;
-    if (outside(places[k], places[(k + 1) % 3])) continue;
-    if (other == t) return false;
-    seen_[other] = call_;
-    open_.push_back({other, surface_.edge_across(t, k), places[(k + 1) % 3], places[k]});
+// Takes a triangle into the patch. False if it cannot be a cover.
+bool PatchCover::step(const Prism& prism, const Open& open) {
+  const std::uint32_t t = open.triangle, next = kNext[open.edge], last = kNext[next];
+  const Place &from = open.from, &to = open.to, apex = prism.place(surface_.point(t, last));
+  if (((from.bits | to.bits | apex.bits) & kFar) != 0) return false;
+  const float high = height(prism, open, apex);
+  if (!(high <= prism.limit)) return false;
+  height_ = std::max(height_, high);
+  const float squared = std::max({from.squared, to.squared, apex.squared});
+  if (squared <= prism.limit * prism.limit) {
+    marks_[t] = mark_;
+    squared_ = std::max(squared_, squared);
   }
+  const bool aside = (from.bits & to.bits & apex.bits & kAside) != 0;
+  if (!aside && !count(from, to, apex, prism.centre)) return false;
+  return cross_edge(prism, t, next, to, apex) && cross_edge(prism, t, last, apex, from);
+}
+
+// Counts a triangle that covers the centre. False where that is in doubt.
+bool PatchCover::count(const Place& a, const Place& b, const Place& c, const Lanes& centre) {
+  const float one = area(a.at, b.at, centre), two = area(b.at, c.at, centre),
+              three = area(c.at, a.at, centre);
+  const float least = std::min({one, two, three}), most = std::max({one, two, three});
+  const float slack = std::max({a.slack, b.slack, c.slack});
+  const float doubt = doubtful_area(slack);
+  if (least < -doubt && most > doubt) return true;
+  if (least > doubt) return ++degree_, true;
+  if (most < -doubt) return --degree_, true;
+  return false;
+}
+
+// True if an edge surely does not reach into the prism: it lies beyond a wall, or all walls lie on
+// one side of it. By their depths behind the first two walls the prism's corners are (0, 1), (0, 0)
+// and (1, 0) times the depth of the corner across.
+bool PatchCover::passes_by(const Prism& prism, const Place& from, const Place& to) {
+  if ((from.bits & to.bits & kBeyond) != 0) return true;
+  const float u = to.at[1] - from.at[1], v = to.at[2] - from.at[2];
+  const float second = v * from.at[1] - u * from.at[2];
+  const float first = second + u * prism.depth, third = second - v * prism.depth;
+  const float doubt = doubtful_area(std::max(from.slack, to.slack));
+  return std::min({first, second, third}) > doubt || std::max({first, second, third}) < -doubt;
+}
+
+// Goes on to the triangle across an edge that reaches into the prism. False at a border.
+bool PatchCover::cross_edge(const Prism& prism, std::uint32_t triangle, std::uint32_t edge,
+                            const Place& from, const Place& to) {
+  const std::uint32_t other = surface_.across(triangle, edge);
+  if (met_[other] == call_ && other != triangle) return true;
+  if (passes_by(prism, from, to)) return true;
+  if (other == triangle) return false;
+  met_[other] = call_;
+  open_.push_back({other, surface_.edge_across(triangle, edge), to, from});
   return true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simplify/witness_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,27 @@ Vec3 normal_of(const Corners& t) {
   return cross(t.b - t.a, t.c - t.a);
 }
 
+// A triangle, and where points are seen to be along its normal.
+struct SeenAlongNormal {
+  Corners corners;
+  std::array<Vec3, 3> edge;
+  Vec3 normal;
+  double area;  // squared, of the parallelogram
+
+  explicit SeenAlongNormal(const Corners& t)
+      : corners(t),
+        edge{t.b - t.a, t.c - t.b, t.a - t.c},
+        normal(cross(edge[0], edge[1])),
+        area(dot(normal, normal)) {}
+
+  // How far p is inside of each edge, times the lengths of edge and normal.
+  std::array<double, 3> depth(const Vec3& p) const {
+    const Vec3 turned = cross(p - corners.a, normal);
+    const double first = dot(edge[0], turned), last = dot(edge[2], turned);
+    return {first, area - first - last, last};
+  }
+};
+
 // Not numbers where the triangle has no area.
 Vec3 unit_inward(const Corners& t, std::uint32_t k) {
   const Vec3 in = inward(t, normal_of(t), k);
@@ -36,12 +58,27 @@ WitnessSurface::WitnessSurface(const TriangleBvh& bvh)
 WitnessSurface::WitnessSurface(const TriangleBvh& bvh, const WitnessSurface& shape)
     : bvh_(&bvh), across_(shape.across_) {}
 
-double WitnessSurface::distance_within(const Vec3& p, std::uint32_t t, double most) const {
-  const Corners s = triangle(t);
-  const Vec3 normal = normal_of(s);
-  const double height = dot(normal, p - s.a);
-  const bool far = height * height > most * most * dot(normal, normal);
-  return far ? std::numeric_limits<double>::infinity() : std::sqrt(squared_distance(s, p));
+double WitnessSurface::farthest_within(std::span<const Vec3> points, std::uint32_t t,
+                                       double most) const {
+  constexpr double kTooFar = std::numeric_limits<double>::infinity();
+  const SeenAlongNormal seen(triangle(t));
+  const double limit = most * most, high = limit * seen.area;
+  double farthest = 0;
+  for (const Vec3& p : points) {
+    const double height = dot(seen.normal, p - seen.corners.a);
+    if (height * height > high) return kTooFar;
+    const std::array<double, 3> depth = seen.depth(p);
+    bool over = seen.area > 0;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (depth[k] >= 0) continue;
+      if (depth[k] * depth[k] > high * dot(seen.edge[k], seen.edge[k])) return kTooFar;
+      over = false;
+    }
+    farthest =
+        std::max(farthest, over ? height * height / seen.area : squared_distance(seen.corners, p));
+    if (farthest > limit) return kTooFar;
+  }
+  return std::sqrt(farthest);
 }
 
 std::array<double, 3> WitnessSurface::overhang(const Vec3& p, std::uint32_t t) const {
@@ -61,15 +98,15 @@ WitnessSurface::Plane WitnessSurface::bisector(std::uint32_t t, std::uint32_t ed
 std::uint32_t WitnessSurface::stroll(const Vec3& p, std::uint32_t start) const {
   std::uint32_t at = start, before = start;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const Corners s = triangle(at);
-    const Vec3 normal = normal_of(s);
+    const SeenAlongNormal seen(triangle(at));
+    const std::array<double, 3> depth = seen.depth(p);
     std::uint32_t next = at;
-    double most = 0;  // squared
+    double most = 0, of = 1;  // squared, as a fraction
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const Vec3 in = inward(s, normal, k);
-      const double beyond = -dot(in, p - corner(s, k)), size = dot(in, in);
-      if (!(beyond > 0) || beyond * beyond <= most * size) continue;
-      most = beyond * beyond / size, next = across(at, k);
+      if (!(depth[k] < 0)) continue;
+      const double size = dot(seen.edge[k], seen.edge[k]);
+      if (depth[k] * depth[k] * of <= most * size) continue;
+      most = depth[k] * depth[k], of = size, next = across(at, k);
     }
     if (next == before || next == at) break;
     before = at, at = next;

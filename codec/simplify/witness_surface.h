@@ -31,9 +31,9 @@ class WitnessSurface {
     return across_[t][edge] % 3;
   }
 
-  // The distance from p to triangle t; infinity, much cheaper, for most points farther away than
-  // `most`.
-  double distance_within(const Vec3& p, std::uint32_t t, double most) const;
+  // The largest distance from one of the points to triangle t; infinity where it is more than
+  // `most`, which is much cheaper to tell.
+  double farthest_within(std::span<const Vec3> points, std::uint32_t t, double most) const;
 
   // How far p reaches beyond each edge of t, seen along its normal; negative inside.
   std::array<double, 3> overhang(const Vec3& p, std::uint32_t t) const;
