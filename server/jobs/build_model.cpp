@@ -15,6 +15,7 @@
 #include "codec/progressive/display_filter.h"
 #include "codec/simplify/display_fit.h"
 #include "codec/simplify/error_meter.h"
+#include "codec/simplify/order_in_space.h"
 #include "codec/simplify/simplify.h"
 
 namespace vitrine {
@@ -256,6 +257,7 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
                   .boundary_edges = repaired->boundary_edges,
                   .components = repaired->components,
                   .repairs = std::move(repaired->repairs)};
+  order_in_space(mesh);
   report.seconds.read = watch.lap();
   if (progress) progress("read", kRead);
 
