@@ -14,7 +14,7 @@ constexpr double kManyWitnesses = 16;
 // one.
 constexpr std::size_t kFine = 2;
 // Of the limit: the radius of a piece that one true distance may settle.
-constexpr double kSmall = 0.9;
+constexpr double kOneDistance = 0.9;
 constexpr double kSlack = 1e-6;  // of the limit: what a cut may leave standing
 
 Vec3 centre_of(const Corners& t) {
@@ -207,7 +207,8 @@ void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
   const bool much_larger = radius * radius * radius * radius > kManyWitnesses * area;
   if (!much_larger) return cut(piece, witness, kCuts);
   // A walk may end among faces without area, which say nothing of the surface's size near by.
-  radius > kSmall* limit() && area > 0 ? halve(piece, witness) : examine(piece, witness);
+  if (radius > limit() * kOneDistance && area > 0) return halve(piece, witness);
+  examine(piece, witness);
 }
 
 void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cuts) {

@@ -66,8 +66,8 @@ class HausdorffBound {
                  const RegionedSurface& surface);
 
   // Adds the distances from every point of `source` to `target`. Returns what is learned of the
-  // triangles of `target` on the way, for the call in the other direction: those marked are within
-  // the bound of a region, one less than the mark.
+  // triangles of `target` on the way, for the call in the other direction, where it is `known`: a
+  // mark is 1 + the region within whose bound the triangle is.
   Overlaps add(const RegionedSurface& source, const WitnessSurface& target,
                const Overlaps& known = {});
 

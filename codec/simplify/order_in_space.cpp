@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kBits = 10;  // of each coordinate
 
-// Two zeros behind each of the lower bits.
+// Two zeros behind each of the ten bits.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | bits << 16) & 0x0300'00FFu;
   bits = (bits | bits << 8) & 0x0300'F00Fu;
@@ -26,8 +26,9 @@ std::vector<KeyedIndex> along_curve(const std::vector<Vec3>& positions) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  const double cells = side > 0 ? ((1 << kBits) - 1) / side : 0;
-  const auto cell = [&](double from) { return spread(static_cast<std::uint32_t>(from * cells)); };
+  const auto cell = [&](double from) {
+    return side > 0 ? spread(static_cast<std::uint32_t>(from / side * ((1 << kBits) - 1))) : 0;
+  };
   std::vector<KeyedIndex> order;
   order.reserve(positions.size());
   for (const Vec3& p : positions) {

@@ -10,10 +10,10 @@ namespace {
 
 using Ints __attribute__((vector_size(16))) = std::int32_t;
 
-// What a place may be wrong by, of the distance from the prism: half a dozen roundings.
-constexpr float kRounding = 5e-7f;
-constexpr float kFarthest = 1e5f;     // units of the prism
-constexpr double kLeastArea = 1e-12;  // of the unit, squared
+// What a place may be wrong by, of the distance from the prism: eight roundings, and two to spare.
+constexpr float kRounding = 6e-7f;
+constexpr float kFarthest = 1e5f;    // units of the prism: floats stay finite
+constexpr double kLeastArea = 1e-6;  // units: what is thinner is in doubt everywhere
 constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0};
 
 double longest_edge(const Corners& t) {
@@ -30,10 +30,10 @@ double plane_height(const Corners& s, const Vec3& direction, const Corners& over
   return most / std::abs(dot(normal, direction));
 }
 
-// What an area may be wrong by that places with this slack span: sides are up to slack / kRounding
-// long.
+// What twice an area may be wrong by that places with this slack span: its sides are up to twice
+// slack / kRounding long.
 float doubtful_area(float slack) {
-  return 8 / kRounding * slack * slack;
+  return 16 / kRounding * slack * slack;
 }
 
 float outside(float depth, float slack) {
@@ -48,27 +48,28 @@ struct PatchCover::Prism {
   Corners base;
   Vec3 normal;
   double unit;
-  float limit;                    // units
-  float depth = 0, per_area = 0;  // twice the triangle's area, and 1 over it, units
-  Lanes x{}, y{}, z{}, from{};    // of the directions along which places are told
+  float limit;                         // units
+  float twice_area = 0, per_area = 0;  // of the triangle, and 1 over it, units
+  Lanes x{}, y{}, z{}, offset{};       // of the directions along which places are told
   Lanes centre{};
 
   Prism(const Corners& t, double most)
-      : base(t),
-        normal(cross(t.b - t.a, t.c - t.a)),
-        unit(longest_edge(t)),
-        limit(static_cast<float>(most / unit)) {
-    const double twice_area = length(normal), scale = 1 / unit;
-    if (!(twice_area > kLeastArea * unit * unit)) return;
-    depth = static_cast<float>(twice_area * scale * scale);
-    per_area = (1 + kRounding) / depth;
-    normal = normal * (1 / twice_area);
+      : base(t), normal{}, unit(longest_edge(t)), limit(static_cast<float>(most / unit)) {
+    const double scale = 1 / unit;
+    const Vec3 ab = (t.b - t.a) * scale, bc = (t.c - t.b) * scale, ca = (t.a - t.c) * scale;
+    normal = cross(ab, bc);
+    const double area = length(normal);
+    if (!(area > kLeastArea)) return;
+    normal = normal * (1 / area);
+    twice_area = static_cast<float>(area);
+    per_area = (1 + kRounding) / twice_area;
     set(0, normal);
-    set(1, cross(normal, t.b - t.a) * scale);
-    set(2, cross(normal, t.c - t.b) * scale);
-    set(3, cross(normal, t.a - t.c) * scale);
-    from[2] = -depth;  // its corners are elsewhere
-    centre = Lanes{0, depth / 3, depth / 3, depth / 3};
+    set(1, cross(normal, ab));
+    set(2, cross(normal, bc));
+    set(3, cross(normal, ca));
+    offset[2] = -twice_area;  // wall 2 does not pass through a
+    // Any point inside will do; not the middle, where meshes that are refined have vertices.
+    centre = Lanes{0, 0.31f, 0.36f, 0.33f} * twice_area;
   }
 
   void set(std::size_t lane, const Vec3& along) {
@@ -84,10 +85,10 @@ struct PatchCover::Prism {
     const auto rx = static_cast<float>(r.x), ry = static_cast<float>(r.y),
                rz = static_cast<float>(r.z);
     const float reach = 1 + std::abs(rx) + std::abs(ry) + std::abs(rz), slack = kRounding * reach;
-    const Lanes at = x * rx + y * ry + z * rz - from, aside = at - centre;
+    const Lanes at = x * rx + y * ry + z * rz - offset, aside = at - centre;
     const Ints bits = ((at + slack <= 0) & Ints{0, 1, 2, 4}) |
-                      ((aside > 3 * slack) & Ints{0, 8, 16, 32}) |
-                      ((aside < -3 * slack) & Ints{0, 64, 128, 256});
+                      ((aside > 2 * slack) & Ints{0, 8, 16, 32}) |
+                      ((aside < -2 * slack) & Ints{0, 64, 128, 256});
     const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bits);
     const std::uint64_t both = halves[0] | halves[1];
     const unsigned far = reach <= kFarthest ? 0 : kFar;
@@ -146,9 +147,9 @@ float PatchCover::height(const Prism& prism, const Open& open, const Place& apex
   return height_inside(open.from, open.to, apex);
 }
 
-// The triangle is cut at one wall after the other.
+// The triangle is cut at one wall after the other, with a dozen roundings each.
 float PatchCover::height_inside(const Place& a, const Place& b, const Place& c) {
-  const float slack = std::max({a.slack, b.slack, c.slack});
+  const float slack = 5 * std::max({a.slack, b.slack, c.slack});
   // Six corners, but for what rounding may add.
   std::array<Lanes, 9> polygon{a.at, b.at, c.at}, cut;
   std::size_t size = 3;
@@ -207,7 +208,7 @@ bool PatchCover::passes_by(const Prism& prism, const Place& from, const Place& t
   if ((from.bits & to.bits & kBeyond) != 0) return true;
   const float u = to.at[1] - from.at[1], v = to.at[2] - from.at[2];
   const float second = v * from.at[1] - u * from.at[2];
-  const float first = second + u * prism.depth, third = second - v * prism.depth;
+  const float first = second + u * prism.twice_area, third = second - v * prism.twice_area;
   const float doubt = doubtful_area(std::max(from.slack, to.slack));
   return std::min({first, second, third}) > doubt || std::max({first, second, third}) < -doubt;
 }

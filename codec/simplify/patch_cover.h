@@ -55,15 +55,15 @@ class PatchCover {
   struct Prism;
   // Where a point is, in units of the prism.
   struct Place {
-    Lanes at;       // height over the plane (negative below), depth behind each wall
-    float slack;    // no less than what these may be wrong by
+    Lanes at;     // height over the plane (negative below), depth behind each wall times its length
+    float slack;  // no less than what these may be wrong by
     float squared;  // no less than the squared distance from the triangle
     unsigned bits;  // kBeyond and what follows
 
     float height() const { return std::abs(at[0]) + slack; }
   };
   static constexpr unsigned kBeyond = 7;       // bit k: surely not behind wall k
-  static constexpr unsigned kAside = 63 << 3;  // two for each wall: surely to a side of the centre
+  static constexpr unsigned kAside = 63 << 3;  // two for each wall: surely to a side of `centre`
   static constexpr unsigned kFar = 1 << 9;     // too far away to be placed
   // A triangle to look at, and the edge by which it was reached, corner k to the next.
   struct Open {

@@ -11,6 +11,8 @@ namespace vitrine {
 namespace {
 
 constexpr int kMaxSteps = 64;  // of a walk
+constexpr double kTooFar = std::numeric_limits<double>::infinity();
+constexpr double kThin = 1e-12;  // squared: width over length
 
 // At right angles to edge k, in the plane of a triangle with the normal given.
 Vec3 inward(const Corners& t, const Vec3& normal, std::uint32_t k) {
@@ -34,6 +36,14 @@ struct SeenAlongNormal {
         normal(cross(edge[0], edge[1])),
         area(dot(normal, normal)) {}
 
+  double squared_length(std::size_t k) const { return dot(edge[k], edge[k]); }
+
+  // So thin that rounding may turn its normal anywhere.
+  bool is_thin() const {
+    const double longest = std::max({squared_length(0), squared_length(1), squared_length(2)});
+    return !(area > kThin * longest * longest);
+  }
+
   // How far p is inside of each edge, times the lengths of edge and normal.
   std::array<double, 3> depth(const Vec3& p) const {
     const Vec3 turned = cross(p - corners.a, normal);
@@ -41,6 +51,20 @@ struct SeenAlongNormal {
     return {first, area - first - last, last};
   }
 };
+
+// The squared distance, or infinity where that is surely more than `limit`.
+double squared_within(const SeenAlongNormal& seen, const Vec3& p, double limit) {
+  const double height = dot(seen.normal, p - seen.corners.a), high = limit * seen.area;
+  if (height * height > high) return kTooFar;
+  const std::array<double, 3> depth = seen.depth(p);
+  bool over = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (depth[k] >= 0) continue;
+    if (depth[k] * depth[k] > high * seen.squared_length(k)) return kTooFar;
+    over = false;
+  }
+  return over ? height * (height / seen.area) : squared_distance(seen.corners, p);
+}
 
 // Not numbers where the triangle has no area.
 Vec3 unit_inward(const Corners& t, std::uint32_t k) {
@@ -60,23 +84,15 @@ WitnessSurface::WitnessSurface(const TriangleBvh& bvh, const WitnessSurface& sha
 
 double WitnessSurface::farthest_within(std::span<const Vec3> points, std::uint32_t t,
                                        double most) const {
-  constexpr double kTooFar = std::numeric_limits<double>::infinity();
   const SeenAlongNormal seen(triangle(t));
-  const double limit = most * most, high = limit * seen.area;
+  const bool thin = seen.is_thin();
+  const double limit = most * most;
   double farthest = 0;
   for (const Vec3& p : points) {
-    const double height = dot(seen.normal, p - seen.corners.a);
-    if (height * height > high) return kTooFar;
-    const std::array<double, 3> depth = seen.depth(p);
-    bool over = seen.area > 0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      if (depth[k] >= 0) continue;
-      if (depth[k] * depth[k] > high * dot(seen.edge[k], seen.edge[k])) return kTooFar;
-      over = false;
-    }
-    farthest =
-        std::max(farthest, over ? height * height / seen.area : squared_distance(seen.corners, p));
-    if (farthest > limit) return kTooFar;
+    const double squared =
+        thin ? squared_distance(seen.corners, p) : squared_within(seen, p, limit);
+    if (squared > limit) return kTooFar;
+    farthest = std::max(farthest, squared);
   }
   return std::sqrt(farthest);
 }
@@ -104,7 +120,7 @@ std::uint32_t WitnessSurface::stroll(const Vec3& p, std::uint32_t start) const {
     double most = 0, of = 1;  // squared, as a fraction
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (!(depth[k] < 0)) continue;
-      const double size = dot(seen.edge[k], seen.edge[k]);
+      const double size = seen.squared_length(k);
       if (depth[k] * depth[k] * of <= most * size) continue;
       most = depth[k] * depth[k], of = size, next = across(at, k);
     }

@@ -3,11 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "support/meshes.h"
+#include "support/random_mesh.h"
 
 namespace vitrine::test {
 namespace {
@@ -101,6 +106,73 @@ TEST(PatchCover, TellsWhichTriangleWasNear) {
   failed.cover(kTriangle, 7, 0, 0.05, 1);
   EXPECT_EQ(std::move(covered).overlaps().near(0), 7u);
   EXPECT_EQ(std::move(failed).overlaps().near(0), std::nullopt);
+}
+
+// The largest distance of a grid of points on a triangle.
+double dense_maximum(const Corners& t, const TriangleBvh& to) {
+  constexpr int kGrid = 12;
+  double most = 0;
+  for (int i = 0; i <= kGrid; ++i) {
+    for (int j = 0; i + j <= kGrid; ++j) {
+      const Vec3 p = t.a + (t.b - t.a) * (1.0 * i / kGrid) + (t.c - t.a) * (1.0 * j / kGrid);
+      most = std::max(most, std::sqrt(to.closest(p).squared));
+    }
+  }
+  return most;
+}
+
+// A wavy sheet around the origin, some of it folded over, with holes.
+TriangleMesh crumpled(Dice& dice) {
+  TriangleMesh mesh = sheet(12, 12);
+  const auto unit = [&dice] { return dice.below(1'000'001) * 2e-6 - 1; };
+  const double folds = dice.one_in(2) ? 0.2 : 1.5, waves = dice.one_in(2) ? 0.05 : 0.5;
+  for (Vec3& p : mesh.positions)
+    p = Vec3{p.x - 5.5 + folds * unit(), p.y - 5.5 + folds * unit(), waves * unit()} * 0.4;
+  std::erase_if(mesh.faces, [&](const Triangle&) { return dice.one_in(200); });
+  return mesh;
+}
+
+// What is covered is within the height, and so is what is marked, covered or not.
+TEST(PatchCover, BoundsWhatItCoversAndMarks) {
+  std::size_t covered = 0, marked_without_cover = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    SCOPED_TRACE(seed);
+    Dice dice(seed);
+    const auto unit = [&dice] { return dice.below(1'000'001) * 2e-6 - 1; };
+    TriangleMesh mesh = crumpled(dice);
+    const double thin = dice.one_in(4) ? 1e-3 : 1;
+    const Vec3 turn{unit(), unit(), unit()};
+    const double scale = std::array{1e-20, 1.0, 1e20}[dice.below(3)];
+    // A turn and a mirror image, which keep distances but for the scale.
+    const auto place = [&](const Vec3& p) {
+      return (p - turn * (2 * dot(turn, p) / dot(turn, turn))) * scale;
+    };
+    const Corners triangle{place({unit(), unit(), 0}), place({unit(), unit(), 0.1 * unit()}),
+                           place({unit(), thin * unit(), 0})};
+    for (Vec3& p : mesh.positions)
+      p = place(p);
+    const TriangleBvh bvh(mesh);
+    const WitnessSurface surface(bvh);
+    const Vec3 centre = (triangle.a + triangle.b + triangle.c) * (1.0 / 3);
+    PatchCover patches(surface);
+    const double limit = scale * (0.05 + 0.25 * std::abs(unit()));
+    const auto result = patches.cover(triangle, 0, bvh.closest(centre).triangle, limit, 1);
+    const double bound = result.height * (1 + 1e-12);
+    if (result.covered) {
+      ++covered;
+      ASSERT_LE(dense_maximum(triangle, bvh), bound);
+    }
+    const TriangleBvh alone(
+        {.positions = {triangle.a, triangle.b, triangle.c}, .faces = {{0, 1, 2}}, .colours = {}});
+    const Overlaps overlaps = std::move(patches).overlaps();
+    for (std::uint32_t t = 0; t < bvh.size(); ++t) {
+      if (overlaps.mark[t] == 0) continue;
+      marked_without_cover += result.covered ? 0 : 1;
+      ASSERT_LE(dense_maximum(bvh.triangle(t), alone), bound);
+    }
+  }
+  EXPECT_GT(covered, 300u);
+  EXPECT_GT(marked_without_cover, 50u);
 }
 
 }  // namespace
