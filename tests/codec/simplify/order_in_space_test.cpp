@@ -40,7 +40,7 @@ std::vector<std::array<double, 12>> content(const TriangleMesh& mesh) {
       const Vec3& p = mesh.positions[f[k]];
       corners[k] = {p.x, p.y, p.z, mesh.colours.empty() ? 0.0 : mesh.colours[f[k]][0]};
     }
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     std::array<double, 12>& face = faces.emplace_back();
     for (std::size_t k = 0; k < 12; ++k)
       face[k] = corners[k / 4][k % 4];
