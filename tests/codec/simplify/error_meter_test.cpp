@@ -11,26 +11,11 @@
 #include "codec/mesh/surface_distance.h"
 #include "codec/simplify/hausdorff_bound.h"
 #include "codec/simplify/simplify.h"
+#include "support/dense_distance.h"
 #include "support/meshes.h"
 
 namespace vitrine::test {
 namespace {
-
-// The largest distance of a fine grid of points on every triangle of `from`.
-double dense_maximum(const TriangleMesh& from, const TriangleBvh& to) {
-  constexpr int kGrid = 10;
-  double most = 0;
-  for (const Triangle& f : from.faces) {
-    const Vec3 a = from.positions[f[0]], b = from.positions[f[1]], c = from.positions[f[2]];
-    for (int i = 0; i <= kGrid; ++i) {
-      for (int j = 0; i + j <= kGrid; ++j) {
-        const Vec3 p = a + (b - a) * (1.0 * i / kGrid) + (c - a) * (1.0 * j / kGrid);
-        most = std::max(most, to.closest(p).squared);
-      }
-    }
-  }
-  return std::sqrt(most);
-}
 
 double diagonal(const TriangleMesh& mesh) {
   Vec3 low = mesh.positions.front(), high = low;

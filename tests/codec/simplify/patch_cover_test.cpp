@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/dense_distance.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 
@@ -106,19 +107,6 @@ TEST(PatchCover, TellsWhichTriangleWasNear) {
   failed.cover(kTriangle, 7, 0, 0.05, 1);
   EXPECT_EQ(std::move(covered).overlaps().near(0), 7u);
   EXPECT_EQ(std::move(failed).overlaps().near(0), std::nullopt);
-}
-
-// The largest distance of a grid of points on a triangle.
-double dense_maximum(const Corners& t, const TriangleBvh& to) {
-  constexpr int kGrid = 12;
-  double most = 0;
-  for (int i = 0; i <= kGrid; ++i) {
-    for (int j = 0; i + j <= kGrid; ++j) {
-      const Vec3 p = t.a + (t.b - t.a) * (1.0 * i / kGrid) + (t.c - t.a) * (1.0 * j / kGrid);
-      most = std::max(most, std::sqrt(to.closest(p).squared));
-    }
-  }
-  return most;
 }
 
 // A wavy sheet around the origin, some of it folded over, with holes.
