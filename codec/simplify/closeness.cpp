@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <span>
 
 #include "codec/mesh/closest_point.h"
@@ -13,13 +14,12 @@ namespace {
 // A star and where its real neighbours are.
 struct Ring {
   Ring(const Surface& surface, const Star& around) : star(around) {
-    for (std::uint32_t i = 0; i < star.valence; ++i) {
-      if (!is_virtual(star.vertex[i])) point[i] = surface.point(star.vertex[i]);
-    }
+    for (const VertexId v : star.neighbours())
+      point.push_back(is_virtual(v) ? Vec3{} : surface.point(v));
   }
 
   const Star& star;
-  std::array<Vec3, Star::kCapacity> point;
+  boost::container::static_vector<Vec3, Star::kCapacity> point;
 };
 
 // The faces around an edge, before or after it has collapsed.
@@ -33,24 +33,24 @@ class Patch {
   };
   Patch(const Part& one, const Part& two) {
     add(one);
-    start_[1] = size_;
+    start_[1] = size();
     add(two);
   }
 
-  std::span<const Corners> faces() const { return {face_.data(), size_}; }
+  std::span<const Corners> faces() const { return face_; }
 
   // Points come in the order of the faces, so that the search goes on where the last one ended.
   bool is_near(const Vec3& p, double squared) {
-    for (std::uint32_t i = 0; i < size_; ++i) {
+    for (std::uint32_t i = 0; i < size(); ++i) {
       if (squared_distance(face_[last_], p) <= squared) return true;
-      last_ = last_ + 1 < size_ ? last_ + 1 : 0;
+      last_ = last_ + 1 < size() ? last_ + 1 : 0;
     }
     return false;
   }
 
   // The middles of a ring's edges. `part`: the ring's own.
   bool has_near(const Part& edges, std::uint32_t part, double squared) {
-    last_ = start_[part];
+    last_ = start_[part] < size() ? start_[part] : 0;  // where that part has no faces
     for (std::uint32_t i = 0; i < edges.ring.star.valence; ++i) {
       const VertexId v = edges.ring.star.vertex[i];
       if (v == edges.without || is_virtual(v)) continue;
@@ -68,19 +68,21 @@ class Patch {
   }
 
  private:
+  std::uint32_t size() const { return static_cast<std::uint32_t>(face_.size()); }
+
   void add(const Part& part) {
     const Star& star = part.ring.star;
     std::uint32_t i = star.valence - 1;
     for (std::uint32_t j = 0; j < star.valence; i = j++) {
       const VertexId v = star.vertex[i], w = star.vertex[j];
       if (is_virtual(v) || is_virtual(w) || v == part.without || w == part.without) continue;
-      face_[size_++] = {part.centre, part.ring.point[i], part.ring.point[j]};
+      face_.push_back({part.centre, part.ring.point[i], part.ring.point[j]});
     }
   }
 
-  std::array<Corners, 2 * Star::kCapacity> face_;
+  boost::container::static_vector<Corners, 2 * Star::kCapacity> face_;
   std::array<std::uint32_t, 2> start_{};  // of each part
-  std::uint32_t size_ = 0, last_ = 0;
+  std::uint32_t last_ = 0;
 };
 
 Vec3 normal_of(const Corners& t) {
@@ -115,6 +117,7 @@ bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& targe
   const Ring ring1(surface, edge.star1), ring2(surface, edge.star2);
   Patch after({ring1, to, edge.v2}, {ring2, to, edge.v1});
   Patch before({ring1, p1, edge.v1}, {ring2, p2, edge.v1});  // the faces at the edge: in ring1
+  if (after.faces().empty()) return false;
   const bool inside = !edge.star1.on_border && !edge.star2.on_border;
   if (inside && share_slab(after, before, reach)) return true;
   const double squared = reach * reach;

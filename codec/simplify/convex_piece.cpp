@@ -10,7 +10,7 @@ Vec3 ConvexPiece::centre() const {
   Vec3 sum;
   for (const Vec3& p : corners())
     sum += p;
-  return sum * (1.0 / size_);
+  return sum * (1.0 / static_cast<double>(corners_.size()));
 }
 
 double ConvexPiece::radius(const Vec3& centre) const {
@@ -23,7 +23,7 @@ double ConvexPiece::radius(const Vec3& centre) const {
 ConvexPiece::Cut ConvexPiece::cut(const Vec3& p, const Vec3& normal, double slack) const {
   Cut parts;
   double most = 0, least = 0;
-  Vec3 a = corners_[size_ - 1];
+  Vec3 a = corners_.back();
   double side_a = dot(a - p, normal);
   for (const Vec3& b : corners()) {
     const double side_b = dot(b - p, normal);
@@ -45,10 +45,9 @@ ConvexPiece::Cut ConvexPiece::cut(const Vec3& p, const Vec3& normal, double slac
 ConvexPiece::Cut ConvexPiece::halves() const {
   if (full()) {
     Cut parts;
-    for (std::uint32_t i = 0; i <= size_ / 2; ++i)
-      parts.front.add(corners_[i]);
-    for (std::uint32_t i = size_ / 2; i < size_; ++i)
-      parts.back.add(corners_[i]);
+    const std::size_t half = corners_.size() / 2;
+    parts.front.corners_.assign(corners_.begin(), corners_.begin() + half + 1);
+    parts.back.corners_.assign(corners_.begin() + half, corners_.end());
     parts.back.add(corners_[0]);
     return parts;
   }

@@ -2,7 +2,7 @@
 // A convex piece of a triangle, and its cuts.
 #pragma once
 
-#include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <span>
 
@@ -16,11 +16,11 @@ class ConvexPiece {
   static constexpr std::uint32_t kCapacity = 16;
 
   ConvexPiece() = default;
-  explicit ConvexPiece(const Corners& t) : corners_{t.a, t.b, t.c}, size_(3) {}
+  explicit ConvexPiece(const Corners& t) : corners_{t.a, t.b, t.c} {}
 
-  std::span<const Vec3> corners() const { return {corners_.data(), size_}; }
-  bool empty() const { return size_ == 0; }
-  bool full() const { return size_ + 4 > kCapacity; }  // has no room for three more cuts
+  std::span<const Vec3> corners() const { return corners_; }
+  bool empty() const { return corners_.empty(); }
+  bool full() const { return corners_.size() + 4 > kCapacity; }  // has no room for three more cuts
 
   Vec3 centre() const;                      // mean of the corners
   double radius(const Vec3& centre) const;  // farthest corner
@@ -34,10 +34,9 @@ class ConvexPiece {
   Cut halves() const;
 
  private:
-  void add(const Vec3& p) { corners_[size_++] = p; }
+  void add(const Vec3& p) { corners_.push_back(p); }
 
-  std::array<Vec3, kCapacity> corners_;
-  std::uint32_t size_ = 0;
+  boost::container::static_vector<Vec3, kCapacity> corners_;
 };
 
 struct ConvexPiece::Cut {
