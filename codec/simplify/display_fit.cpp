@@ -28,7 +28,7 @@ class Sampler {
   Sampler(const MeshState& level, const Lattice& lattice, const TriangleBvh& original)
       : level_(level), lattice_(lattice), original_(original) {}
 
-  void add_face(std::uint32_t face, Fit& fit) const {
+  void add_face(std::uint32_t face, Fit& fit) {
     std::array<Vec3, 3> at, shift;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const VertexId v = level_.connectivity.vertex(3 * face + k);
@@ -46,10 +46,11 @@ class Sampler {
   }
 
  private:
-  void add_point(const Vec3& p, const Vec3& shift, const Vec3& normal, double weight,
-                 Fit& fit) const {
+  void add_point(const Vec3& p, const Vec3& shift, const Vec3& normal, double weight, Fit& fit) {
     const Vec3 model = lattice_.origin + p * lattice_.step;
-    const SurfacePoint hit = original_.closest(model);
+    const double bound = squared_distance(original_.triangle(nearest_), model);
+    const SurfacePoint hit = original_.closest(model, {bound, nearest_});
+    nearest_ = hit.triangle;
     const Vec3 nearest = closest_point(original_.triangle(hit.triangle), model);
     const double offset = dot(nearest - model, normal) * (1 / lattice_.step);
     fit.add(offset, dot(shift, normal), weight);
@@ -58,13 +59,14 @@ class Sampler {
   const MeshState& level_;
   const Lattice& lattice_;
   const TriangleBvh& original_;
+  std::uint32_t nearest_ = 0;  // to the last point
 };
 
 }  // namespace
 
 double fit_display_filter(const MeshState& level, const Lattice& lattice,
                           const TriangleBvh& original) {
-  const Sampler sampler(level, lattice, original);
+  Sampler sampler(level, lattice, original);
   const std::uint32_t faces = level.connectivity.face_count();
   const std::uint32_t stride = static_cast<std::uint32_t>(faces / kFaces + 1);
   Fit fit;

@@ -11,7 +11,7 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kSamples = 4'000;  // per direction
+constexpr std::size_t kSamples = 2'000;  // per direction
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kWorst = 32;  // samples per direction that are looked at first
 constexpr double kTolerance = 1.15;
