@@ -13,14 +13,16 @@ namespace vitrine {
 
 class ConvexPiece {
  public:
-  static constexpr std::uint32_t kCapacity = 16;
+  // A cut adds a corner. Where rounding has put corners on both sides of it in turn, it adds half
+  // as many as there are.
+  static constexpr std::size_t kCapacity = 18;
 
   ConvexPiece() = default;
   explicit ConvexPiece(const Corners& t) : corners_{t.a, t.b, t.c} {}
 
   std::span<const Vec3> corners() const { return corners_; }
   bool empty() const { return corners_.empty(); }
-  bool full() const { return corners_.size() + 4 > kCapacity; }  // has no room for three more cuts
+  bool full() const { return corners_.size() + 6 > kCapacity; }  // has no room for a cut
 
   Vec3 centre() const;                      // mean of the corners
   double radius(const Vec3& centre) const;  // farthest corner

@@ -15,7 +15,7 @@ namespace vitrine {
 
 struct LevelError {
   double max_error = 0;  // model units; no point of either surface is farther from the other
-  double rms_error = 0;  // model units; the larger of the two directions, from samples
+  double rms_error = 0;  // model units; the larger direction's, from 2,000 samples
   std::vector<double> region_errors;  // max_error of each region; the largest is max_error
 };
 

@@ -254,8 +254,13 @@ void HausdorffBound::spend() {
 void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
   spend();
   const ConvexPiece::Cut parts = piece.halves();
-  if (!parts.front.empty()) cover(parts.front, start);
-  if (!parts.back.empty()) cover(parts.back, start);
+  if (parts.front.empty() || parts.back.empty()) {  // smaller than coordinates can tell
+    const Vec3 centre = piece.centre();
+    raise(std::sqrt(target_->closest(centre, start).squared) + piece.radius(centre));
+    return;
+  }
+  cover(parts.front, start);
+  cover(parts.back, start);
 }
 
 }  // namespace vitrine

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "server/config/options.h"
@@ -114,10 +115,13 @@ Expected<void> read_config(const std::string& path, const ReadFile& read_file, D
   return {};
 }
 
-// Names with our prefix that others set: Kubernetes describes a service called "vitrine" so, and
-// VITRINE_MODELS is where the benchmarks find meshes.
+constexpr std::array<std::string_view, 3> kOfTests{"VITRINE_MODELS", "VITRINE_FUZZ_SECONDS",
+                                                   "VITRINE_CHROMIUM"};
+
+// Names with our prefix that others set: Kubernetes describes a service called "vitrine" so.
 bool is_foreign(std::string_view name, std::string_view value) {
-  return name == "VITRINE_MODELS" || name.starts_with("VITRINE_SERVICE_") ||
+  return std::ranges::find(kOfTests, name) != kOfTests.end() ||
+         name.starts_with("VITRINE_SERVICE_") ||
          (name.starts_with("VITRINE_PORT") &&
           (name.size() > 12 ? name[12] == '_' : value.starts_with("tcp://")));
 }

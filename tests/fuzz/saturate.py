@@ -12,25 +12,30 @@ ROUND = 300  # seconds
 
 def fuzz(seconds, command):
     """Runs one round and shows what it says. Returns the edges reached before and after."""
-    edges = []
+    before = after = 0
     with subprocess.Popen([*command, f"-max_total_time={seconds}"], stderr=subprocess.PIPE, text=True,
                           errors="replace") as fuzzer:
         for line in fuzzer.stderr:
             print(line, end="", flush=True)
             if reached := re.search(r"\bcov: (\d+)", line):
-                edges.append(int(reached[1]))
+                after = int(reached[1])
+            if "INITED" in line:  # the corpus has been read
+                before = after
     if fuzzer.returncode != 0:
         sys.exit(1)
-    return edges[0], edges[-1]
+    return before, after
 
 
 def main(seconds, command):
+    if seconds < 1:
+        sys.exit("saturate.py: it takes at least a second")
     for start in range(0, seconds, ROUND):
-        before, after = fuzz(min(ROUND, seconds - start), command)
-        if after == before:
+        length = min(ROUND, seconds - start)
+        before, after = fuzz(length, command)
+        if after == before and length == ROUND:
             print(f"saturated: {after} edges, none of them new in the last round")
             return
-    print(f"not saturated: {after - before} of {after} edges are new in the last round")
+    print(f"{after - before} of {after} edges are new in the last {length} s")
 
 
 main(int(sys.argv[1]), sys.argv[2:])

@@ -66,6 +66,10 @@ TEST(CommandLine, VariablesThatKubernetesSetsForAServiceOfThisNameAreIgnored) {
   EXPECT_FALSE(parse({}, {"VITRINE_PORT=8080"}));
 }
 
+TEST(CommandLine, VariablesOfTheTestsAreIgnored) {
+  EXPECT_TRUE(parse({}, {"VITRINE_MODELS=/m", "VITRINE_FUZZ_SECONDS=9", "VITRINE_CHROMIUM=/c"}));
+}
+
 TEST(CommandLine, RefusesValuesOutOfRangeAndSaysWhereTheyCameFrom) {
   const auto port = parse({"--listen", "127.0.0.1:65536"});
   ASSERT_FALSE(port);
