@@ -34,8 +34,9 @@ class Matcher {
   explicit Matcher(const Surface& surface) : surface_(surface) {}
 
   // In ascending lexicographic order of target, no two the same. Costs ascend in the order of
-  // choice, ties go to the smaller vertex ids. A chosen edge keeps its neighbours in other regions
-  // (by_region) or all of its neighbours (pyramid placement) from collapsing in this level.
+  // choice, in steps of an eighth; within one, smaller vertex ids come first. A chosen edge keeps
+  // its neighbours in other regions (by_region) or all of its neighbours (pyramid placement) from
+  // collapsing in this level.
   const std::vector<Pick>& match(const LevelRules& rules);
 
   // True if the collapse turns no face over and stays as near to the surface as the rules of the

@@ -25,6 +25,9 @@ inline void radix_sort(std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& 
   }
   scratch.resize(items.size());
   for (int p = 0; p < kPasses; ++p) {
+    const bool all_same =
+        !items.empty() && start[p][items[0].key >> (kBits * p) & (kBuckets - 1)] == items.size();
+    if (all_same) continue;
     std::uint32_t sum = 0;
     for (std::uint32_t& s : start[p])
       sum += std::exchange(s, sum);
