@@ -24,7 +24,7 @@ constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;   // fewest bytes of a level 
 constexpr std::size_t kChunkBytes = 2 + kHashBytes;  // fewest bytes of a chunk record
 
 Unexpected bad(const std::string& what) {
-  return fail(ErrorCode::kBadInput, "damaged .pmesh header: " + what);
+  return fail(ErrorCode::kBadInput, "damaged .pmesh header: " + what + "; fetch the file again");
 }
 
 float round_up(double v) {  // a bound stays a bound when it is stored in single precision

@@ -143,7 +143,9 @@ Outcome write_outputs(const Arguments& arguments, const Product& product) {
   const auto reported = write_file_atomically(
       arguments.text("--report"),
       {reinterpret_cast<const std::uint8_t*>(product.page.data()), product.page.size()});
-  return reported ? Outcome{} : failed(reported.error());
+  if (reported) return {};
+  return failed(
+      fmt::format("{} ('{}' is written)", reported.error().message, arguments.text("-o")));
 }
 
 Outcome build(const Arguments& arguments) {

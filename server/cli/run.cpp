@@ -41,8 +41,9 @@ Outcome unknown_command(std::string_view name) {
   for (const Command* command : kCommands)
     names.push_back(command->name);
   const std::string_view near = suggest(name, names);
-  return misused(fmt::format("unknown command \"{}\"{}", name,
-                             near.empty() ? "" : fmt::format("; did you mean {}?", near)));
+  return misused(
+      fmt::format("unknown command \"{}\"{}", name,
+                  near.empty() ? "; see vitrine --help" : fmt::format("; did you mean {}?", near)));
 }
 
 bool asks_for_help(std::string_view word) {
