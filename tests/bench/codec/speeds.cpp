@@ -91,7 +91,7 @@ Medians build_and_simplify(const Model& model) {
 
 // The most memory that `vitrine build` holds at a time, with a thread for each core.
 double peak_bytes(const Model& model, const std::string& placement) {
-  const TemporaryFile mesh(model.file), pmesh({});
+  const TemporaryFile mesh(model.file), pmesh({}, ".pmesh");
   const std::string output = output_of(std::string("'" VITRINE_BIN_DIR "/vitrine' build '") +
                                        mesh.path() + "' -o '" + pmesh.path() + "' --bits " +
                                        std::to_string(kBits) + " --json --placement " + placement);

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <stdexcept>
+#include <string>
 
 #include "peers.h"
 
@@ -13,19 +14,20 @@ namespace vitrine::bench {
 // A file that goes with the object.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const Bytes& bytes) {
-    const int fd = ::mkstemp(path_);
+  explicit TemporaryFile(const Bytes& bytes, const std::string& extension = {})
+      : path_("/tmp/bench-codec-XXXXXX" + extension) {
+    const int fd = ::mkstemps(path_.data(), static_cast<int>(extension.size()));
     if (fd < 0 || ::write(fd, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
       throw std::runtime_error("cannot write a temporary file");
     ::close(fd);
   }
-  ~TemporaryFile() { ::unlink(path_); }
+  ~TemporaryFile() { ::unlink(path_.c_str()); }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const char* path() const { return path_; }
+  const char* path() const { return path_.c_str(); }
 
  private:
-  char path_[40] = "/tmp/bench-codec-XXXXXX";
+  std::string path_;
 };
 
 }  // namespace vitrine::bench
