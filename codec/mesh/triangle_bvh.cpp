@@ -30,8 +30,6 @@ double squared_distance(const TriangleBvh::Node& n, const Vec3& p, double slack)
 }
 
 constexpr std::uint32_t kUnnamed = 0xFFFF'FFFFu;
-constexpr int kRounds = 24;      // of a selection: no input makes it slow
-constexpr std::size_t kFew = 8;  // centres that are not worth a round
 
 struct Centre {
   std::array<float, 3> at;
@@ -53,49 +51,14 @@ std::size_t widest_axis(std::span<const Centre> centres) {
   return axis;
 }
 
-// The order along an axis, without branches: which of two comes first is anybody's guess.
-struct Before {
-  std::size_t axis;
-
-  bool operator()(const Centre& a, const Centre& b) const {
-    const bool tie = a.at[axis] == b.at[axis];
-    return (a.at[axis] < b.at[axis]) | (tie & (a.face < b.face));
-  }
-};
-
-// Moves the centres that come before a pivot to the front and returns how many these are.
-std::size_t partition(std::span<Centre> centres, Before before) {
-  std::array<Centre, 3> some{centres.front(), centres[centres.size() / 2], centres.back()};
-  std::ranges::sort(some, before);
-  const Centre pivot = some[1];
-  std::size_t count = 0;
-  for (Centre& c : centres) {
-    const Centre moved = c;
-    c = centres[count];
-    centres[count] = moved;
-    count += before(moved, pivot);
-  }
-  return count;
-}
-
-// Like std::nth_element, faster where branches cannot be foretold.
-void select(std::span<Centre> centres, std::size_t nth, Before before) {
-  for (int round = 0; round < kRounds && centres.size() > kFew; ++round) {
-    const std::size_t count = partition(centres, before);
-    if (nth < count) {
-      centres = centres.first(count);
-    } else {
-      centres = centres.subspan(count), nth -= count;
-    }
-  }
-  std::ranges::nth_element(centres, centres.begin() + static_cast<std::ptrdiff_t>(nth), before);
-}
-
 // Orders centres so that halving a range recursively halves it in space.
 void order(std::span<Centre> centres) {
   if (centres.size() <= TriangleBvh::kLeafSize) return;
   const std::size_t axis = widest_axis(centres), half = centres.size() / 2;
-  select(centres, half, {axis});
+  std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(half),
+                   centres.end(), [axis](const Centre& a, const Centre& b) {
+                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.face < b.face;
+                   });
   order(centres.first(half));
   order(centres.subspan(half));
 }
