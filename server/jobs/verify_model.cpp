@@ -12,7 +12,7 @@
 namespace vitrine {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
+using ByteSpan = std::span<const std::uint8_t>;
 
 constexpr std::uint32_t kOrders = 3;
 constexpr std::size_t kStatesPerOrder = 4;  // how many states on the way are checked
@@ -83,13 +83,13 @@ Expected<void> check_level(const Refiner& refiner, std::uint32_t level) {
   return check_manifold(refiner, fmt::format("level {}", level));
 }
 
-Expected<void> apply(Refiner& refiner, std::size_t chunk, Bytes pmesh) {
+Expected<void> apply(Refiner& refiner, std::size_t chunk, ByteSpan pmesh) {
   const auto bytes = chunks_of(refiner.manifest(), pmesh)(chunk);
   if (!bytes) return tl::unexpected(bytes.error());
   return refiner.apply(chunk, *bytes);
 }
 
-Expected<Refiner> refine_by_level(Bytes pmesh, const ProgressReport& progress) {
+Expected<Refiner> refine_by_level(ByteSpan pmesh, const ProgressReport& progress) {
   auto refiner = open_model(pmesh);
   if (!refiner) return refiner;
   if (auto ok = check_level(*refiner, 0); !ok) return tl::unexpected(ok.error());
@@ -111,7 +111,7 @@ std::vector<std::size_t> ready_chunks(const Refiner& refiner) {
   return ready;
 }
 
-Expected<Refiner> refine_at_random(Bytes pmesh, std::uint32_t seed) {
+Expected<Refiner> refine_at_random(ByteSpan pmesh, std::uint32_t seed) {
   auto refiner = open_model(pmesh);
   if (!refiner) return refiner;
   std::mt19937 random(seed);
@@ -130,7 +130,7 @@ Expected<Refiner> refine_at_random(Bytes pmesh, std::uint32_t seed) {
 }
 
 // Where there is one region there is one order.
-Expected<std::uint32_t> check_orders(Bytes pmesh, const Manifest& manifest,
+Expected<std::uint32_t> check_orders(ByteSpan pmesh, const Manifest& manifest,
                                      const std::vector<FaceKey>& expected,
                                      const ProgressReport& progress) {
   if (manifest.tree.leaves() == 1) return 1;
@@ -159,7 +159,7 @@ Expected<bool> equals_input(const std::vector<FaceKey>& faces, const Manifest& m
 
 }  // namespace
 
-Expected<Verification> verify_model(Bytes pmesh, const std::optional<OriginalFile>& input,
+Expected<Verification> verify_model(ByteSpan pmesh, const std::optional<OriginalFile>& input,
                                     const ProgressReport& progress) {
   const auto refiner = refine_by_level(pmesh, progress);
   if (!refiner) return tl::unexpected(refiner.error());

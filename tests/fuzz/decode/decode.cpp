@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Header, planner and refiner on hostile bytes: what `vitrine decode` and `verify` do, and, as the
-// same sources, the browser's decoder. No checksum is looked at, so that no mutation stops there.
-#include <algorithm>
-#include <cstdlib>
-
+// Header, planner and refiner on hostile bytes: what `vitrine decode` does. No checksum is looked
+// at, so that no mutation stops there.
+#include "../checks.h"
 #include "codec/progressive/planner.h"
 #include "codec/progressive/refiner.h"
 #include "raw_base.h"
@@ -11,17 +9,10 @@
 namespace vitrine {
 namespace {
 
+using fuzz::part;
+using fuzz::require;
+
 constexpr Limits kLimits = {.vertices = 20'000, .faces = 40'000};
-
-std::span<const std::uint8_t> part(std::span<const std::uint8_t> bytes, std::uint64_t offset,
-                                   std::uint64_t length) {
-  const std::uint64_t from = std::min<std::uint64_t>(offset, bytes.size());
-  return bytes.subspan(from, std::min<std::uint64_t>(length, bytes.size() - from));
-}
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 // What the refiner promises of every state that it reports as good.
 void check(const Refiner& refiner) {

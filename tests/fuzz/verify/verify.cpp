@@ -2,8 +2,7 @@
 // What `vitrine verify` does, on hostile headers and chunks. The seeds are those of the decode
 // fuzzer (a raw base mesh instead of a Draco buffer); the base is encoded and every checksum is
 // made right here, so that mutations reach the code behind the checksums.
-#include <algorithm>
-
+#include "../checks.h"
 #include "../decode/raw_base.h"
 #include "codec/base/base_encoder.h"
 #include "codec/progressive/refiner.h"
@@ -12,13 +11,9 @@
 namespace vitrine {
 namespace {
 
-constexpr Limits kLimits = {.vertices = 5'000, .faces = 10'000};
+using fuzz::part;
 
-std::span<const std::uint8_t> part(std::span<const std::uint8_t> bytes, std::uint64_t offset,
-                                   std::uint64_t length) {
-  const std::uint64_t from = std::min<std::uint64_t>(offset, bytes.size());
-  return bytes.subspan(from, std::min<std::uint64_t>(length, bytes.size() - from));
-}
+constexpr Limits kLimits = {.vertices = 5'000, .faces = 10'000};
 
 // The file that says the same with a Draco base and true checksums, or nothing.
 std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> bytes) {
@@ -51,5 +46,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (file.empty()) return 0;
   const auto none = [](std::string_view, double) {};
   const auto verified = vitrine::verify_model(file, std::nullopt, none);
-  return verified || !verified.error().message.empty() ? 0 : 1;
+  vitrine::fuzz::require(verified || !verified.error().message.empty());
+  return 0;
 }

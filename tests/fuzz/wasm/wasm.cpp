@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The browser's model on hostile bytes, through the calls that a page makes. The seeds are those of
+// the decode fuzzer (a raw base mesh, as Draco's own module hands it over); no checksum is looked
+// at. The last bytes also say what is wanted on the way.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "../checks.h"
+#include "../decode/raw_base.h"
+#include "codec/wasm/model.h"
+
+namespace vitrine {
+namespace {
+
+using fuzz::part;
+using fuzz::require;
+
+constexpr std::uint32_t kLevel = 3;  // of Model::want
+
+template <class T>
+T last_bytes(std::span<const std::uint8_t> bytes) {
+  T value{};
+  const std::size_t size = std::min(sizeof value, bytes.size());
+  std::memcpy(&value, bytes.data() + bytes.size() - size, size);
+  return value;
+}
+
+struct Counts {
+  std::uint32_t vertices = 0, faces = 0;
+};
+
+// What is handed out, which is fit for the GPU.
+Counts hand_out(Model& model) {
+  Counts out;
+  model.display();
+  while (const std::uint32_t count = model.next_vertices()) {
+    out.vertices += count;
+    require(model.positions().size() == count && model.normals().size() == count);
+    require(model.colours().empty() || model.colours().size() == count);
+    for (const auto& p : model.positions())
+      require(std::ranges::all_of(p, [](float x) { return std::isfinite(x); }));
+  }
+  while (const std::uint32_t count = model.next_faces()) {
+    out.faces += count;
+    for (const Triangle& f : model.faces())
+      require(std::ranges::all_of(f, [&](VertexId v) { return v < out.vertices; }));
+  }
+  return out;
+}
+
+void expect_whole_surface(Model& model) {
+  const Counts out = hand_out(model);
+  require(out.vertices == model.refiner().vertex_count());
+  require(out.faces == model.refiner().face_count());
+}
+
+// False where a chunk is damaged: then nothing can be applied until there is another want.
+bool fetch(Model& model, std::span<const std::uint8_t> bytes) {
+  for (int next = model.next_chunk(); next >= 0; next = model.next_chunk()) {
+    const auto chunk = static_cast<std::size_t>(next);
+    const ChunkInfo& info = model.manifest().chunks[chunk];
+    if (!model.apply(chunk, part(bytes, info.offset, info.length))) {
+      require(!model.apply(chunk, {}));
+      return false;
+    }
+  }
+  model.trim();
+  return true;
+}
+
+void visit(std::span<const std::uint8_t> bytes) {
+  auto model = Model::open(bytes);
+  if (!model) return;
+  const Manifest& manifest = model->manifest();
+  require(model->summary().size() == 11 + 5 * manifest.levels.size() + 4 * manifest.chunks.size());
+  require(!model->check_chunk(manifest.chunks.size(), {}));
+  const auto base = part(bytes, manifest.base_offset, manifest.base_length);
+  if (!model->start(fuzz::read_raw_base(base, manifest))) return;
+  expect_whole_surface(*model);
+  const auto kind = last_bytes<std::uint8_t>(bytes) % kLevel;
+  for (const auto& [how, much] :
+       {std::pair{kind, last_bytes<double>(bytes)}, {kLevel, 1.0}, {kLevel, 1e9}}) {
+    require(model->want(how, much).has_value());
+    if (fetch(*model, bytes)) {
+      expect_whole_surface(*model);
+    } else {
+      hand_out(*model);
+    }
+    require(model->bytes_held() >= static_cast<double>(manifest.head_bytes()));
+  }
+}
+
+}  // namespace
+}  // namespace vitrine
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  vitrine::visit({data, size});
+  return 0;
+}
