@@ -14,6 +14,11 @@ inline const Vec3& corner(const Corners& t, std::uint32_t k) noexcept {
   return k == 0 ? t.a : k == 1 ? t.b : t.c;
 }
 
+// Its length is twice the area.
+inline Vec3 normal_of(const Corners& t) noexcept {
+  return cross(t.b - t.a, t.c - t.a);
+}
+
 // The closest point on the three edges.
 Vec3 closest_point_of_edges(const Corners& triangle, const Vec3& p) noexcept;
 

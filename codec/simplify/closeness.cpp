@@ -85,10 +85,6 @@ class Patch {
   std::uint32_t last_ = 0;
 };
 
-Vec3 normal_of(const Corners& t) {
-  return cross(t.b - t.a, t.c - t.a);
-}
-
 // True if two patches with the same boundary lie in a thin slab and face one way. Then each covers
 // a point of the slab's plane as often as their boundary winds around it, and where one of them is
 // the other is straight above or below.

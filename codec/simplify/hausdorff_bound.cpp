@@ -22,7 +22,7 @@ Vec3 centre_of(const Corners& t) {
 }
 
 double squared_area(const Corners& t) {  // of the parallelogram
-  const Vec3 normal = cross(t.b - t.a, t.c - t.a);
+  const Vec3 normal = normal_of(t);
   return dot(normal, normal);
 }
 
@@ -164,12 +164,26 @@ void HausdorffBound::visit_leaf(Visit& all, const TriangleBvh::Node& node) {
 
 void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
   const Corners triangle = all.source.bvh.triangle(t);
-  last_ = target_->stroll(centre_of(triangle), last_);
+  const Vec3 centre = centre_of(triangle);
+  last_ = target_->stroll(centre, last_);
   if (fine_ && settle(std::array{triangle.a, triangle.b, triangle.c}, last_)) return;
+  if (lay_patch(all, triangle, t)) return;
+  // The way there may have led to another sheet of the surface.
+  const SurfacePoint nearest = target_->closest(centre, last_);
+  know(std::sqrt(nearest.squared));
+  if (nearest.triangle != last_) {
+    last_ = nearest.triangle;
+    if (lay_patch(all, triangle, t)) return;
+  }
+  cover(ConvexPiece(triangle), last_);
+}
+
+// True if a patch around the newest witness covers triangle t of the source.
+bool HausdorffBound::lay_patch(Visit& all, const Corners& triangle, std::uint32_t t) {
   const PatchCover::Result patch =
       all.patches.cover(triangle, t, last_, limit(), static_cast<std::uint16_t>(region_ + 1));
   raise(patch.height);
-  if (!patch.covered) cover(ConvexPiece(triangle), last_);
+  return patch.covered;
 }
 
 // True if one witness serves the whole box.

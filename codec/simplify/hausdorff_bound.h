@@ -95,6 +95,7 @@ class HausdorffBound {
   struct Visit;
   void visit(Visit& visit, std::uint32_t node);
   void visit_triangle(Visit& visit, std::uint32_t triangle);
+  bool lay_patch(Visit& visit, const Corners& corners, std::uint32_t triangle);
   void visit_leaf(Visit& visit, const TriangleBvh::Node& node);
   bool settle_box(const TriangleBvh::Node& node);
   void approach(const Vec3& p);

@@ -19,10 +19,6 @@ Vec3 inward(const Corners& t, const Vec3& normal, std::uint32_t k) {
   return cross(normal, corner(t, (k + 1) % 3) - corner(t, k));
 }
 
-Vec3 normal_of(const Corners& t) {
-  return cross(t.b - t.a, t.c - t.a);
-}
-
 // A triangle, and where points are seen to be along its normal.
 struct SeenAlongNormal {
   Corners corners;
