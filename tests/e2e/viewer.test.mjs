@@ -137,6 +137,20 @@ test("an open surface is seen from behind, too", async () => {
   await viewer.page.context().close();
 });
 
+test("is drawn whatever display the page gives the element", async () => {
+  const viewer = await ViewerPage.open(browser, pages.plain);
+  await viewer.events("first-paint");
+  for (const display of ["block", "inline-block", "grid"]) {
+    await viewer.page.addStyleTag({
+      content: `progressive-mesh { display: ${display}; flex: none; width: 400px; height: 400px }`,
+    });
+    const { width, height } = await viewer.page.locator("progressive-mesh canvas").boundingBox();
+    assert.equal(width, 400, display);
+    assert.ok(height > 250, `${display}: ${height}`);
+  }
+  await viewer.page.context().close();
+});
+
 test("a page for a narrow, dark screen shows the whole model", async () => {
   const viewer = await ViewerPage.open(browser, pages.coloured, { colorScheme: "dark", width: 360, height: 640 });
   await viewer.releaseLayers();

@@ -7,23 +7,25 @@ const kToggles = ["colours", "facets", "wireframe"] as const;
 export type Toggle = (typeof kToggles)[number];
 
 const kTemplate = `
-  <div class="view">
-    <canvas part="canvas" tabindex="0" role="img"></canvas>
-    <slot name="poster"><img part="poster" class="poster" alt="" hidden></slot>
-    <p class="message" part="message" role="alert" hidden></p>
-  </div>
-  <div class="progress" part="progress" role="progressbar" aria-label="${texts.loading}"><div></div></div>
-  <form class="controls" part="controls">
-    <label class="detail"><span>${texts.detail}</span>
-      <input type="range" name="detail" min="0" max="1000" value="0" disabled></label>
-    <output><span class="triangles"></span><span class="bytes"></span></output>
-    <span class="toggles">
-      <label><input type="checkbox" name="colours" checked><span>${texts.colours}</span></label>
-      <label><input type="checkbox" name="facets"><span>${texts.facets}</span></label>
-      <label><input type="checkbox" name="wireframe"><span>${texts.wireframe}</span></label>
-      <button type="button" name="reset">${texts.resetView}</button>
-    </span>
-  </form>`;
+  <div class="panel">
+    <div class="view">
+      <canvas part="canvas" tabindex="0" role="img"></canvas>
+      <slot name="poster"><img part="poster" class="poster" alt="" hidden></slot>
+      <p class="message" part="message" role="alert" hidden></p>
+    </div>
+    <div class="progress" part="progress" role="progressbar" aria-label="${texts.loading}"><div></div></div>
+    <form class="controls" part="controls">
+      <label class="detail"><span>${texts.detail}</span>
+        <input type="range" name="detail" min="0" max="1000" value="0" disabled></label>
+      <output><span class="triangles"></span><span class="bytes"></span></output>
+      <span class="toggles">
+        <label><input type="checkbox" name="colours" checked><span>${texts.colours}</span></label>
+        <label><input type="checkbox" name="facets"><span>${texts.facets}</span></label>
+        <label><input type="checkbox" name="wireframe"><span>${texts.wireframe}</span></label>
+        <button type="button" name="reset">${texts.resetView}</button>
+      </span>
+    </form>
+  </div>`;
 
 export class Panel {
   onDetail: (fraction: number) => void = () => undefined;
