@@ -183,8 +183,8 @@ Outcome build(const Arguments& arguments) {
   return print(as_text(product->report, *manifest, out));
 }
 
-constexpr std::string_view kOperands[] = {"IN"};
-constexpr Flag kFlags[] = {
+constexpr std::string_view kBuildOperands[] = {"IN"};
+constexpr Flag kBuildFlags[] = {
     {"-o", "OUT.pmesh", "the file to write"},
     kUnitFlag,
     kUpFlag,
@@ -199,6 +199,6 @@ constexpr Flag kFlags[] = {
 }  // namespace
 
 const Command kBuild = {"build", "Builds a .pmesh file from a PLY, OBJ, STL, OFF or GLB mesh.",
-                        kOperands, kFlags, build};
+                        kBuildOperands, kBuildFlags, build};
 
 }  // namespace vitrine::cli

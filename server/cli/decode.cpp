@@ -117,8 +117,8 @@ Outcome decode(const Arguments& arguments) {
       report["vertices"].get<std::uint64_t>(), report["bytes"].get<std::uint64_t>()));
 }
 
-constexpr std::string_view kOperands[] = {"FILE.pmesh"};
-constexpr Flag kFlags[] = {
+constexpr std::string_view kDecodeOperands[] = {"FILE.pmesh"};
+constexpr Flag kDecodeFlags[] = {
     {"-o", "OUT.{ply,glb,obj,stl,drc,wrl}", "the mesh to write; .glb and .wrl are in metres"},
     {"--level", "L", "this level; 0 is the base (default: the finest)"},
     {"--triangles", "N", "the finest state of at most N triangles"},
@@ -128,7 +128,7 @@ constexpr Flag kFlags[] = {
 
 }  // namespace
 
-const Command kDecode = {"decode", "Writes a level of a .pmesh file as a mesh.", kOperands, kFlags,
-                         decode};
+const Command kDecode = {"decode", "Writes a level of a .pmesh file as a mesh.", kDecodeOperands,
+                         kDecodeFlags, decode};
 
 }  // namespace vitrine::cli

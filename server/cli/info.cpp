@@ -67,12 +67,12 @@ Outcome info(const Arguments& arguments) {
   return print(what_is_here(*manifest, file->bytes().size()) + as_text(report, *manifest));
 }
 
-constexpr std::string_view kOperands[] = {"FILE.pmesh"};
-constexpr Flag kFlags[] = {{"--json", "", "print one JSON object"}};
+constexpr std::string_view kInfoOperands[] = {"FILE.pmesh"};
+constexpr Flag kInfoFlags[] = {{"--json", "", "print one JSON object"}};
 
 }  // namespace
 
-const Command kInfo = {"info", "Prints a .pmesh file's header and levels.", kOperands, kFlags,
-                       info};
+const Command kInfo = {"info", "Prints a .pmesh file's header and levels.", kInfoOperands,
+                       kInfoFlags, info};
 
 }  // namespace vitrine::cli

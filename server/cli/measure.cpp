@@ -66,7 +66,7 @@ json describe(const SurfaceDistance& d) {
           {"b_to_a", one_way(d.b_to_a)}};
 }
 
-std::string as_text(const json& r) {
+std::string distances(const json& r) {
   const auto line = [](const char* name, const json& d) {
     return fmt::format("\n{}: rms {:.6g}, p95 {:.6g}, max {:.6g}", name, d["rms"].get<double>(),
                        d["p95"].get<double>(), d["max"].get<double>());
@@ -106,18 +106,18 @@ Outcome run_measure(const Arguments& arguments) {
   });
   if (!product) return tl::unexpected(product.error());
   if (product->report.contains("note")) print_note(product->report["note"].get<std::string>());
-  return arguments.has("--json") ? print_json(product->report) : print(as_text(product->report));
+  return arguments.has("--json") ? print_json(product->report) : print(distances(product->report));
 }
 
-constexpr std::string_view kOperands[] = {"A", "B"};
-constexpr Flag kFlags[] = {{"--samples", "N", "points on each surface (default 200000)"},
-                           {"--align", "", "first move A onto B: rigid, without scale"},
-                           {"--json", "", "print one JSON object"}};
+constexpr std::string_view kMeasureOperands[] = {"A", "B"};
+constexpr Flag kMeasureFlags[] = {{"--samples", "N", "points on each surface (default 200000)"},
+                                  {"--align", "", "first move A onto B: rigid, without scale"},
+                                  {"--json", "", "print one JSON object"}};
 
 }  // namespace
 
 const Command kMeasure = {"measure",
                           "Measures the distance between two surfaces, both ways, in B's unit.",
-                          kOperands, kFlags, run_measure};
+                          kMeasureOperands, kMeasureFlags, run_measure};
 
 }  // namespace vitrine::cli

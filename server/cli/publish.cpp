@@ -86,18 +86,18 @@ Outcome publish_file(const Arguments& arguments) {
   return print_json({{"id", id}, {"url", nullptr}});
 }
 
-constexpr std::string_view kOperands[] = {"IN"};
-constexpr Flag kFlags[] = {{"--data", "DIR", "the daemon's data folder; it may be running"},
-                           kUnitFlag,
-                           kUpFlag,
-                           {"--server", "URL", "a remote server (not in this version)"},
-                           {"--token", "T", "its access token (not in this version)"},
-                           {"--title", "T", "default: the file's name"},
-                           {"--json", "", "print one JSON object: id and url"}};
+constexpr std::string_view kPublishOperands[] = {"IN"};
+constexpr Flag kPublishFlags[] = {{"--data", "DIR", "the daemon's data folder; it may be running"},
+                                  kUnitFlag,
+                                  kUpFlag,
+                                  {"--server", "URL", "a remote server (not in this version)"},
+                                  {"--token", "T", "its access token (not in this version)"},
+                                  {"--title", "T", "default: the file's name"},
+                                  {"--json", "", "print one JSON object: id and url"}};
 
 }  // namespace
 
 const Command kPublish = {"publish", "Makes a mesh or .pmesh file public in an installation.",
-                          kOperands, kFlags, publish_file};
+                          kPublishOperands, kPublishFlags, publish_file};
 
 }  // namespace vitrine::cli

@@ -25,7 +25,7 @@ json describe(const Verification& v) {
           {"orders", v.orders}};
 }
 
-std::string as_text(const json& report) {
+std::string verdict(const json& report) {
   return fmt::format("good: {} levels and {} chunks, {} vertices, {} faces, {} order(s){}",
                      report["levels"].get<std::uint64_t>(), report["chunks"].get<std::uint64_t>(),
                      report["vertices"].get<std::uint64_t>(), report["faces"].get<std::uint64_t>(),
@@ -67,7 +67,7 @@ Outcome verify(const Arguments& arguments) {
   if (!product) return report_fault(as_json, product.error());
   const bool good = product->report["ok"].get<bool>();
   if (as_json || good) {
-    auto printed = as_json ? print_json(product->report) : print(as_text(product->report));
+    auto printed = as_json ? print_json(product->report) : print(verdict(product->report));
     if (!printed || good) return printed;
   }
   return failed(fmt::format(
@@ -76,15 +76,15 @@ Outcome verify(const Arguments& arguments) {
       path, arguments.text("--against"), arguments.text("--up", "y")));
 }
 
-constexpr std::string_view kOperands[] = {"FILE.pmesh"};
-constexpr Flag kFlags[] = {
+constexpr std::string_view kVerifyOperands[] = {"FILE.pmesh"};
+constexpr Flag kVerifyFlags[] = {
     {"--against", "IN", "the mesh it was built from: proves that it is lossless"},
     kUpFlag,
     {"--json", "", "print one JSON object"}};
 
 }  // namespace
 
-const Command kVerify = {"verify", "Decodes and checks everything in a .pmesh file.", kOperands,
-                         kFlags, verify};
+const Command kVerify = {"verify", "Decodes and checks everything in a .pmesh file.",
+                         kVerifyOperands, kVerifyFlags, verify};
 
 }  // namespace vitrine::cli

@@ -7,16 +7,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
-#include <future>
 
 #include "codec/base/model_encoder.h"
 #include "codec/import/repair.h"
-#include "codec/progressive/display_filter.h"
-#include "codec/simplify/display_fit.h"
-#include "codec/simplify/error_meter.h"
 #include "codec/simplify/order_in_space.h"
 #include "codec/simplify/simplify.h"
+#include "server/jobs/level_errors.h"
 
 namespace vitrine {
 namespace {
@@ -55,147 +51,6 @@ int automatic_bits(const TriangleMesh& mesh) {
     ++bits;
   return bits;
 }
-
-// Measures levels, `threads` at a time, while the next ones are being coded.
-class LevelErrors {
- public:
-  LevelErrors(TriangleMesh original, const Hierarchy& hierarchy, unsigned threads)
-      : meter_(std::move(original)),
-        lattice_(hierarchy.base.lattice),
-        tree_(hierarchy.tree),
-        leaf_(hierarchy.leaf),
-        threads_(threads) {}
-
-  // `last`: full resolution is shown as it is, the original rounded to the lattice.
-  void add(const MeshState& level, bool last) {
-    const std::size_t weight = make_room(last ? 0 : level.connectivity.face_count());
-    double filter = last ? 0 : fit_display_filter(level, lattice_, meter_.original());
-    filter = static_cast<float>(filter);  // as the header stores it
-    filters_.push_back(filter);
-    const auto how = threads_ > 1 ? std::launch::async : std::launch::deferred;
-    if (last) {
-      const auto measure = [this, regions = regions_of({})] {
-        return meter_.measure_moved(
-            [this](const Vec3& p) { return lattice_.to_model(lattice_.to_lattice(p)); }, regions);
-      };
-      pending_.push_back({std::async(how, measure), weight});
-    } else {
-      auto measure = [this, mesh = displayed(level, filter),
-                      regions = regions_of(leaves_of(level))]() mutable {
-        return meter_.measure(std::move(mesh), regions);
-      };
-      pending_.push_back({std::async(how, std::move(measure)), weight});
-    }
-    if (threads_ == 1) settle();
-  }
-
-  // Waits for all levels and enters what they showed.
-  void finish(Manifest& manifest) {
-    while (!pending_.empty())
-      settle();
-    for (std::size_t i = 0; i < manifest.levels.size(); ++i) {
-      manifest.levels[i].display_filter = filters_[i];
-      manifest.levels[i].max_error = errors_[i].max_error;
-      manifest.levels[i].rms_error = errors_[i].rms_error;
-    }
-    std::vector<std::size_t> entered(errors_.size());
-    for (ChunkInfo& chunk : manifest.chunks)
-      chunk.max_error = errors_[chunk.level].region_errors[entered[chunk.level]++];
-    for (ChunkInfo& chunk : manifest.chunks)
-      allow_for_finer_neighbours(chunk, manifest);
-  }
-
- private:
-  // A face between a region and one that is a level finer is in the mesh of one of the levels, but
-  // for its own corners' low bits, which come with the region's next chunk.
-  static void allow_for_finer_neighbours(ChunkInfo& chunk, const Manifest& manifest) {
-    const std::uint32_t finer = chunk.level + 1;
-    if (finer >= manifest.levels.size() || manifest.tree.regions_at(finer).size() == 1) return;
-    const std::int32_t cells =
-        (1 << manifest.levels[chunk.level].shift) - (1 << manifest.levels[finer].shift);
-    const RegionNode& region = manifest.region(chunk);
-    for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
-      const ChunkInfo& next = manifest.chunks[manifest.find_chunk(finer, leaf)];
-      chunk.max_error = std::max(chunk.max_error, next.max_error);
-    }
-    chunk.max_error += std::sqrt(0.75) * cells * manifest.lattice.step;
-  }
-
-  // Returns what a level of so many faces weighs. Levels that are measured at the same time take
-  // about as much memory as the original does.
-  std::size_t make_room(std::size_t faces) {
-    const std::size_t original = meter_.original().size(), weight = faces + original / kAtOnce;
-    while (!pending_.empty() && (pending_.size() + 1 >= threads_ || weight_ + weight > original))
-      settle();
-    weight_ += weight;
-    return weight;
-  }
-
-  TriangleMesh displayed(const MeshState& level, double filter) const {
-    TriangleMesh mesh;
-    const LevelInfo shown{.display_filter = filter, .shift = level.shift};
-    mesh.positions.reserve(level.vertex_count());
-    for (VertexId v = 0; v < level.vertex_count(); ++v)
-      mesh.positions.push_back(lattice_.origin + display_position(level, v, shown) * lattice_.step);
-    mesh.faces = level.real_faces();
-    return mesh;
-  }
-
-  // The number of the region of the level at hand that holds a leaf, per leaf.
-  std::vector<std::uint16_t> number_regions(std::uint32_t& count) const {
-    std::vector<std::uint16_t> of_leaf(tree_.leaves());
-    for (const std::uint32_t node :
-         tree_.regions_at(static_cast<std::uint32_t>(filters_.size() - 1))) {
-      const RegionNode& region = tree_.nodes[node];
-      std::fill_n(of_leaf.begin() + region.first, region.leaves,
-                  static_cast<std::uint16_t>(count++));
-    }
-    return of_leaf;
-  }
-
-  static std::vector<std::uint16_t> leaves_of(const MeshState& level) {
-    std::vector<std::uint16_t> leaves;
-    leaves.reserve(level.vertex_count());
-    for (VertexId v = 0; v < level.vertex_count(); ++v)
-      leaves.push_back(level.vertex[v].region);
-    return leaves;
-  }
-
-  // `leaves` is per vertex of the level.
-  LevelRegions regions_of(std::vector<std::uint16_t> leaves) const {
-    LevelRegions out{.of_level = std::move(leaves), .of_original = leaf_, .count = 0};
-    const auto of_leaf = number_regions(out.count);
-    if (out.count == 1) return {};
-    for (auto* regions : {&out.of_level, &out.of_original}) {
-      for (std::uint16_t& region : *regions)
-        region = of_leaf[region];
-    }
-    return out;
-  }
-
-  void settle() {
-    errors_.push_back(pending_.front().error.get());
-    weight_ -= pending_.front().weight;
-    pending_.pop_front();
-  }
-
-  static constexpr std::size_t kAtOnce = 8;  // levels at most
-
-  struct Pending {
-    std::future<LevelError> error;
-    std::size_t weight;
-  };
-
-  ErrorMeter meter_;
-  Lattice lattice_;
-  RegionTree tree_;
-  std::vector<std::uint16_t> leaf_;  // per vertex of the original
-  unsigned threads_;
-  std::deque<Pending> pending_;
-  std::size_t weight_ = 0;          // of all pending
-  std::vector<double> filters_;     // per level
-  std::vector<LevelError> errors_;  // per settled level
-};
 
 // Shares of a build's time, as measured: the time left is told by them.
 constexpr double kRead = 0.02, kSimplified = 0.3, kEncoded = 0.99;

@@ -8,17 +8,17 @@
 namespace vitrine {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
+using ByteSpan = std::span<const std::uint8_t>;
 
-Expected<Bytes> checked_range(Bytes pmesh, std::uint64_t offset, std::uint64_t length,
-                              const Sha256& name, const std::string& what) {
+Expected<ByteSpan> checked_range(ByteSpan pmesh, std::uint64_t offset, std::uint64_t length,
+                                 const Sha256& name, const std::string& what) {
   if (offset > pmesh.size() || length > pmesh.size() - offset) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("the file is cut off at byte {}, before the end of {}; fetch it again "
                             "or ask for a coarser level",
                             pmesh.size(), what));
   }
-  const Bytes bytes = pmesh.subspan(offset, length);
+  const ByteSpan bytes = pmesh.subspan(offset, length);
   if (sha256(bytes) == name) return bytes;
   return fail(ErrorCode::kBadInput, fmt::format("{} at byte {} is damaged (SHA-256 differs); fetch "
                                                 "the file again",
@@ -27,7 +27,7 @@ Expected<Bytes> checked_range(Bytes pmesh, std::uint64_t offset, std::uint64_t l
 
 }  // namespace
 
-Expected<Refiner> open_model(Bytes pmesh) {
+Expected<Refiner> open_model(ByteSpan pmesh) {
   auto manifest = parse_header(pmesh);
   if (!manifest) return tl::unexpected(manifest.error());
   const auto bytes = checked_range(pmesh, manifest->base_offset, manifest->base_length,
@@ -38,8 +38,8 @@ Expected<Refiner> open_model(Bytes pmesh) {
   return Refiner::start(std::move(*manifest), *base);
 }
 
-ChunkReader chunks_of(const Manifest& manifest, Bytes pmesh) {
-  return [&manifest, pmesh](std::size_t index) -> Expected<Bytes> {
+ChunkReader chunks_of(const Manifest& manifest, ByteSpan pmesh) {
+  return [&manifest, pmesh](std::size_t index) -> Expected<ByteSpan> {
     const ChunkInfo& c = manifest.chunks[index];
     return checked_range(pmesh, c.offset, c.length, c.sha256,
                          fmt::format("the chunk of level {}, region {}", c.level, c.region));
