@@ -7,7 +7,6 @@
 
 #include "codec/progressive/birth_pass.h"
 #include "codec/progressive/cell.h"
-#include "support/property.h"
 #include "support/random_mesh.h"
 #include "support/stored_model.h"
 
@@ -81,7 +80,7 @@ TEST(RefinementOrder, ManyRandomModelsForkAndBringComponentsWhole) {
 }
 
 TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
-  const std::uint64_t count = cases(200);
+  const std::uint64_t count = 200;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     ASSERT_NO_THROW(expect_same_in_every_order(seed));
@@ -128,7 +127,7 @@ void expect_chunks_undone(std::uint64_t seed) {
 }
 
 TEST(RefinementOrder, AnyChunkCanBeShownInPartAndTakenBack) {
-  const std::uint64_t count = cases(300);
+  const std::uint64_t count = 300;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     ASSERT_NO_THROW(expect_chunks_undone(seed));

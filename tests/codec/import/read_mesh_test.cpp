@@ -50,7 +50,7 @@ TEST(ReadMesh, RefusesPointsWithoutFaces) {
 
 TEST(ReadMesh, RefusesAFaceWhoseVertexIsMissingAndNamesIt) {
   EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n"),
-              HasSubstr("face 1 refers to vertex 3, but the file has only 3"));
+              HasSubstr("face 1 refers to vertex 3 (counted from 0), but the file has only 3"));
 }
 
 TEST(ReadMesh, RefusesANumberThatIsNotFiniteWhereAFaceUsesIt) {

@@ -82,7 +82,7 @@ TEST(ReadObj, NamesTheLineOfAFault) {
   EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\n"), HasSubstr("line 2: a vertex needs three numbers"));
   EXPECT_THAT(refusal("v 0 0 0\nf 0 1 1\n"), HasSubstr("line 2: a face needs"));
   EXPECT_THAT(refusal("v 0 0 0\nf 1 1 -2\n"), HasSubstr("line 2: a face needs"));
-  EXPECT_THAT(refusal("v 0 0 0\nf 1 1 99999999999\n"), HasSubstr("refers to vertex"));
+  EXPECT_THAT(refusal("v 0 0 0\nf 1 1 99999999999\n"), HasSubstr("refers to a vertex"));
 }
 
 TEST(ReadObj, RefusesAFileThatEndsWithinAFace) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The errors of the levels of a whole build.
+#include "server/jobs/level_errors.h"
+
+#include <gtest/gtest.h>
+
+#include "codec/export/write_mesh.h"
+#include "codec/mesh/surface_distance.h"
+#include "server/jobs/build_model.h"
+#include "server/jobs/open_model.h"
+#include "support/meshes.h"
+
+namespace vitrine::test {
+namespace {
+
+std::vector<std::uint8_t> file() {
+  return *write_mesh(torus(240, 120), MeshFormat::kPly);
+}
+
+TEST(LevelErrors, NoLevelIsFartherOffThanItStatesNorMuchNearer) {
+  const auto built = build_model(file(), {.bits = 16}, {});
+  ASSERT_TRUE(built);
+  auto refiner = open_model(built->file);
+  ASSERT_TRUE(refiner);
+  const ChunkReader read = chunks_of(refiner->manifest(), built->file);
+  const std::size_t levels = refiner->manifest().levels.size();
+  for (std::uint32_t level = 0; level < levels; ++level) {
+    SCOPED_TRACE(level);
+    ASSERT_TRUE(refine(*refiner, WantLevel{level}, read));
+    const double stated = refiner->manifest().levels[level].max_error;
+    const auto sampled = measure(refiner->display_mesh(), torus(240, 120), {.samples = 20'000});
+    EXPECT_LE(sampled->max, stated * (1 + 1e-9));
+    EXPECT_GE(sampled->max, stated * 0.6);
+  }
+}
+
+TEST(LevelErrors, AreTheSameHoweverManyThreadsMeasure) {
+  const auto one = build_model(file(), {.bits = 16, .threads = 1}, {});
+  const auto four = build_model(file(), {.bits = 16, .threads = 4}, {});
+  ASSERT_TRUE(one && four);
+  EXPECT_EQ(one->file, four->file);
+}
+
+}  // namespace
+}  // namespace vitrine::test
