@@ -10,7 +10,7 @@
 namespace vitrine {
 namespace {
 
-Unexpected bad(std::uint64_t index, std::string what) {
+Unexpected bad_accessor(std::uint64_t index, std::string what) {
   return bad_input("GLB accessor " + std::to_string(index) + ' ' + std::move(what) +
                    "; the file is damaged, export it again");
 }
@@ -47,7 +47,7 @@ Expected<Accessor> Accessor::described(const Json& document, std::uint64_t index
   Accessor out;
   out.type_ = static_cast<Type>(std::min<std::uint64_t>(whole(self, "componentType", 0), 0xFFFF));
   out.width_ = width_of(text(self, "type", ""));
-  if (byte_size(out.type_) * out.width_ == 0) return bad(index, "has an unknown type");
+  if (byte_size(out.type_) * out.width_ == 0) return bad_accessor(index, "has an unknown type");
   const Json& normalised = member(self, "normalized");
   out.normalised_ = normalised.is_boolean() && normalised.get<bool>();
   out.count_ = whole(self, "count", 0);
@@ -60,7 +60,7 @@ Expected<void> Accessor::place(const BufferView& view, std::uint64_t begin, std:
   stride_ = view.stride == 0 ? size : view.stride;
   if (count_ == 0 || stride_ < size || stride_ > 256 || begin > end || end - begin < size ||
       (end - begin - size) / stride_ < count_ - 1) {
-    return bad(index, "does not fit its buffer view");
+    return bad_accessor(index, "does not fit its buffer view");
   }
   bytes_ = view.bytes.subspan(begin);
   return {};
@@ -71,7 +71,7 @@ Expected<Accessor> Accessor::open(const Json& document, GltfBuffer& buffer, std:
   if (!out) return out;
   const Json& self = element(document, "accessors", index);
   const std::uint64_t view_index = whole(self, "bufferView", kAbsent);
-  if (view_index == kAbsent) return bad(index, "has no buffer view");
+  if (view_index == kAbsent) return bad_accessor(index, "has no buffer view");
   const auto view = buffer.view(view_index);
   if (!view) return Unexpected(view.error());
   if (auto ok = out->place(*view, whole(self, "byteOffset", 0), index); !ok) {

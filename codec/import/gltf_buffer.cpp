@@ -7,14 +7,14 @@
 namespace vitrine {
 namespace {
 
-constexpr std::uint64_t kMostExpansion = 1024;
+constexpr std::uint64_t kMostExpansionInAll = 1024;
 
 std::string named(std::uint64_t index, const std::string& what) {
   return "GLB buffer view " + std::to_string(index) + ' ' + what +
          "; the file is damaged, export it again";
 }
 
-Unexpected bad(std::uint64_t index, const std::string& what) {
+Unexpected bad_view(std::uint64_t index, const std::string& what) {
   return bad_input(named(index, what));
 }
 
@@ -22,7 +22,7 @@ Unexpected bad(std::uint64_t index, const std::string& what) {
 
 Expected<BufferView> GltfBuffer::view(std::uint64_t index) {
   const Json& self = element(document_, "bufferViews", index);
-  if (!self.is_object()) return bad(index, "does not exist");
+  if (!self.is_object()) return bad_view(index, "does not exist");
   if (const Json& compression = extension(self, "EXT_meshopt_compression");
       compression.is_object()) {
     return decompressed(compression, index);
@@ -34,10 +34,10 @@ Expected<BufferView> GltfBuffer::view(std::uint64_t index) {
 
 Expected<std::span<const std::uint8_t>> GltfBuffer::part(const Json& place,
                                                          std::uint64_t index) const {
-  if (whole(place, "buffer", kAbsent) != 0) return bad(index, "is not in the binary chunk");
+  if (whole(place, "buffer", kAbsent) != 0) return bad_view(index, "is not in the binary chunk");
   const std::uint64_t begin = whole(place, "byteOffset", 0), size = whole(place, "byteLength", 0);
   if (begin > binary_.size() || size > binary_.size() - begin) {
-    return bad(index, "lies beyond the end of the binary chunk");
+    return bad_view(index, "lies beyond the end of the binary chunk");
   }
   return binary_.subspan(begin, size);
 }
@@ -58,7 +58,7 @@ Expected<BufferView> GltfBuffer::decompressed(const Json& extension, std::uint64
 
 Expected<void> GltfBuffer::spend(std::uint64_t bytes) {
   spent_ += bytes;
-  if (spent_ <= kMostExpansion * binary_.size()) return {};
+  if (spent_ <= kMostExpansionInAll * binary_.size()) return {};
   return fail(ErrorCode::kLimit,
               "the GLB's compressed parts make too many bytes; export it without compression");
 }

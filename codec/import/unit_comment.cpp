@@ -42,7 +42,7 @@ std::string_view unit_named(std::string_view word) {
   return it == kSpellings.end() ? std::string_view{} : it->unit;
 }
 
-std::string take_word(std::string_view& line) {
+std::string take_lower_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(kBetweenWords), line.size()));
   std::string word(line.substr(0, line.find_first_of(kBetweenWords)));
   line.remove_prefix(word.size());
@@ -53,17 +53,17 @@ std::string take_word(std::string_view& line) {
 
 // What follows the word "unit" or "units": "mm", "is mm", "are in inches", "= 1 mm".
 std::string_view unit_after(std::string_view line) {
-  std::string word = take_word(line);
+  std::string word = take_lower_word(line);
   for (const std::string_view filler : {"is", "are", "1"}) {
-    if (word == filler) word = take_word(line);
+    if (word == filler) word = take_lower_word(line);
   }
-  const std::string_view unit = unit_named(word), after = unit_named(take_word(line));
+  const std::string_view unit = unit_named(word), after = unit_named(take_lower_word(line));
   return word == "in" && !after.empty() ? after : unit;
 }
 
 std::string_view unit_in_line(std::string_view line) {
   while (!line.empty()) {
-    const std::string word = take_word(line);
+    const std::string word = take_lower_word(line);
     if (word != "unit" && word != "units") continue;
     if (const auto unit = unit_after(line); !unit.empty()) return unit;
   }
