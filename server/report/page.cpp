@@ -106,8 +106,9 @@ class Page {
            "</div>"
            "<figcaption class=\"note\">Each mark of this file is a level, reached after that many "
            "of its bytes; all its marks are one file. The dashed line is what separate files take: "
-           "the input simplified by meshoptimizer and coded by Draco as small as it goes, on the "
-           "grid that suits each best. Each of its marks is one more file to store, and to load "
+           "the input simplified by meshoptimizer, which leaves the vertices it keeps in their "
+           "places, and coded by Draco as small as it goes on each grid; those that no smaller one "
+           "equals are drawn. Each of its marks is one more file to store, and to load "
            "anew.</figcaption></figure>\n</section>\n";
   }
 

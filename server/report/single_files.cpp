@@ -3,8 +3,9 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "codec/export/write_drc.h"
 #include "codec/mesh/surface_distance.h"
@@ -60,19 +61,22 @@ class Simplifier {
   std::vector<std::uint32_t> indices_;
 };
 
-// On the grid where bytes times error are least, from the finest down as long as that pays; nothing
-// where Draco cannot code the mesh.
-std::optional<SingleFile> best_file(const TriangleMesh& mesh, const TriangleBvh& original,
-                                    int most_bits) {
-  const auto cost = [](const SingleFile& f) { return static_cast<double>(f.bytes) * f.rms_error; };
-  std::optional<SingleFile> best;
-  for (int bits = most_bits; bits >= kFewestBits; --bits) {
+// One for each grid from the coarsest on; none where Draco cannot code the mesh.
+void add_files(const TriangleMesh& mesh, const TriangleBvh& original, int most_bits,
+               std::vector<SingleFile>& files) {
+  for (int bits = kFewestBits; bits <= most_bits; ++bits) {
     const TriangleMesh rounded = to_model(quantise(mesh, fit_lattice(mesh.positions, bits)));
-    const auto drc = write_drc(rounded, {.bits = bits, .effort = 10});
-    if (!drc) return best;
-    const SingleFile file{drc->size(), rms_distance(TriangleBvh(rounded), original, kMeasure)};
-    if (best && cost(file) >= cost(*best)) break;
-    best = file;
+    if (const auto drc = write_drc(rounded, {.bits = bits, .effort = 10}))
+      files.push_back({drc->size(), rms_distance(TriangleBvh(rounded), original, kMeasure)});
+  }
+}
+
+// Those that no smaller file is as good as.
+std::vector<SingleFile> best_of(std::vector<SingleFile> files) {
+  std::ranges::sort(files, {}, [](const SingleFile& f) { return std::pair(f.bytes, f.rms_error); });
+  std::vector<SingleFile> best;
+  for (const SingleFile& file : files) {
+    if (best.empty() || file.rms_error < best.back().rms_error) best.push_back(file);
   }
   return best;
 }
@@ -89,14 +93,9 @@ std::vector<SingleFile> single_files(const TriangleMesh& original, std::size_t f
     progress(static_cast<double>(i) / kTargets);
     const double share = std::pow(static_cast<double>(fewest) / all, 1 - i / (kTargets - 1.0));
     const TriangleMesh mesh = simplifier.simplify(static_cast<std::size_t>(std::ceil(share * all)));
-    if (mesh.faces.empty()) continue;
-    const auto file = best_file(mesh, surface, most_bits);
-    if (!file || (!files.empty() && file->rms_error >= files.back().rms_error)) continue;
-    while (!files.empty() && files.back().bytes >= file->bytes)
-      files.pop_back();
-    files.push_back(*file);
+    if (!mesh.faces.empty()) add_files(mesh, surface, most_bits, files);
   }
-  return files;
+  return best_of(std::move(files));
 }
 
 }  // namespace vitrine

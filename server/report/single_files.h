@@ -15,10 +15,9 @@ struct SingleFile {
   double rms_error = 0;  // against the original, the larger of both directions; model units
 };
 
-// Files of about `fewest` to all faces of `original`, simplified by meshoptimizer and coded by
-// Draco as small as it can, each on that grid of 8 to `most_bits` bits where bytes times error are
-// least, without those that another one beats in both: bytes ascend, errors descend. `progress`
-// takes 0..1.
+// Files of about `fewest` to all faces of `original`, simplified by meshoptimizer (which moves no
+// vertex) and coded by Draco as small as it can on each grid of 8 to `most_bits` bits, without
+// those that another one beats in both: bytes ascend, errors descend. `progress` takes 0..1.
 std::vector<SingleFile> single_files(const TriangleMesh& original, std::size_t fewest,
                                      int most_bits, const std::function<void(double)>& progress);
 

@@ -2,6 +2,7 @@
 #include "models.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -28,6 +29,10 @@ std::vector<Model> read_models(std::size_t max_faces) {
   std::vector<Model> models;
   for (const auto& entry :
        fs::directory_iterator(folder ? folder : VITRINE_SOURCE_DIR "/tests/models")) {
+    if (entry.path().extension() == ".xz") {
+      std::fprintf(stderr, "bench-codec: %s is left out; unpack it with xz -d\n",
+                   entry.path().filename().c_str());
+    }
     if (!meshes.contains(entry.path().extension().string())) continue;
     Model model{entry.path().stem().string(), read_file(entry.path()), {}};
     model.clean = read_clean(model.file);

@@ -22,6 +22,8 @@ Report::Report(bool json) : json_(json) {
 void Report::add(const Figure& f) {
   json_out_[f.what][f.key] = f.ratio;
   within_ = within_ && f.ratio <= f.threshold;
+  ++figures_;
+  judged_ += std::isfinite(f.threshold) ? 1 : 0;
   if (json_) return;
   std::printf("%-44s %12s %12s %8.3f", (f.what + "." + f.key).c_str(), number(f.ours).c_str(),
               number(f.peer).c_str(), f.ratio);
@@ -32,7 +34,14 @@ void Report::add(const Figure& f) {
 
 bool Report::finish() {
   json_out_["within_thresholds"] = within_;
-  if (json_) std::puts(json_out_.dump(2).c_str());
+  if (json_) {
+    std::puts(json_out_.dump(2).c_str());
+  } else {
+    std::printf(
+        "%zu of %zu figures have a limit here; more and larger scans in VITRINE_MODELS are "
+        "held to more\n",
+        judged_, figures_);
+  }
   return within_;
 }
 

@@ -25,6 +25,7 @@ class Report {
 
  private:
   bool json_, within_ = true;
+  std::size_t figures_ = 0, judged_ = 0;
   nlohmann::ordered_json json_out_;
 };
 

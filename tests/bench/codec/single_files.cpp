@@ -18,6 +18,7 @@ constexpr int kTargets = 14;
 constexpr double kFewest = 0.004, kMost = 0.65;  // of the faces
 constexpr int kFewestBits = 8, kMostBits = 12;
 constexpr std::size_t kSamples = 50'000;
+constexpr std::size_t kFewestPoints = 12;  // of a curve that others are held against
 
 template <class T>
 void append(Bytes& out, const std::vector<T>& values) {
@@ -91,10 +92,12 @@ RateCurve::RateCurve(std::vector<RatePoint> points) {
   for (const RatePoint& point : points) {
     if (points_.empty() || point.error < points_.back().error) points_.push_back(point);
   }
-  if (points_.size() < 2) throw std::runtime_error("the single files are all alike");
+  if (points_.size() < kFewestPoints) throw std::runtime_error("the single files are too alike");
 }
 
 double RateCurve::bytes_at(double error) const {
+  if (error > points_.front().error || error < points_.back().error)
+    throw std::runtime_error("no single file is as coarse or as fine as the level");
   std::size_t i = 1;
   while (i + 1 < points_.size() && points_[i].error > error)
     ++i;

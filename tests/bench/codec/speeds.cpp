@@ -103,6 +103,19 @@ double at_most(double limit, const Model& model) {
   return model.clean.positions.size() >= kJudgedVertices ? limit : kNoThreshold;
 }
 
+bool is_large(const Model& model) {
+  return model.clean.faces.size() >= kLargeFaces;
+}
+
+void memory_of_builds(Report& report, const Model& model) {
+  const auto triangles = static_cast<double>(model.clean.faces.size());
+  for (const char* placement : {"midpoint", "pyramid"}) {
+    const double bytes = peak_bytes(model, placement);
+    report.add({"build." + model.name, std::string(placement) + "_bytes_per_triangle", bytes,
+                triangles, bytes / triangles, is_large(model) ? kMaxBuildBytes : kNoThreshold});
+  }
+}
+
 }  // namespace
 
 void speeds(Report& report, const Model& model) {
@@ -128,22 +141,16 @@ void speeds(Report& report, const Model& model) {
 void builds(Report& report, const Model& model, const Model& largest) {
   const Medians common = build_and_simplify(model);
   compare(report, "build", "ratio_to_meshopt_simplify", common, at_most(kMaxBuild, model));
+  memory_of_builds(report, largest);
   if (&largest == &model) return;
   const Medians large = build_and_simplify(largest);
   const std::string what = "build." + largest.name;
-  const bool is_large = largest.clean.faces.size() >= kLargeFaces;
   compare(report, what, "ratio_to_meshopt_simplify", large,
-          is_large ? kMaxLargeBuild : kNoThreshold);
-  const auto triangles = static_cast<double>(largest.clean.faces.size());
-  const double own = large.ours / triangles,
+          is_large(largest) ? kMaxLargeBuild : kNoThreshold);
+  const double own = large.ours / static_cast<double>(largest.clean.faces.size()),
                other = common.ours / static_cast<double>(model.clean.faces.size());
   report.add(
       {what, "time_per_triangle_ratio_to_" + model.name, own, other, own / other, kMaxGrowth});
-  for (const char* placement : {"midpoint", "pyramid"}) {
-    const double bytes = peak_bytes(largest, placement);
-    report.add({what, std::string(placement) + "_bytes_per_triangle", bytes, triangles,
-                bytes / triangles, kMaxBuildBytes});
-  }
 }
 
 }  // namespace vitrine::bench

@@ -69,7 +69,7 @@ void variants(Report& report, const Model& model) {
   const Curves standard = measure_levels(model, Placement::kMidpoint, CollapseOrder::kBatch);
   for (const Variant& variant : kVariants) {
     const Curves curves = measure_levels(model, variant.placement, variant.order);
-    const std::string what = std::string("variant.") + variant.name;
+    const std::string what = "variant." + model.name + '.' + variant.name;
     const double faces = mean_ratio(curves.by_faces, standard.by_faces);
     const double bytes = mean_ratio(curves.by_bytes, standard.by_bytes);
     const double total = curves.by_bytes.back().bytes, usual = standard.by_bytes.back().bytes;
