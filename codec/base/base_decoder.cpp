@@ -11,10 +11,6 @@
 namespace vitrine {
 namespace {
 
-Unexpected bad(const std::string& what) {
-  return fail(ErrorCode::kBadInput, "damaged base mesh: " + what);
-}
-
 // Bytes 0-4 "DRACO", 5-6 version, 7 geometry type (1 mesh), 8 method (1 edgebreaker).
 bool is_edgebreaker_mesh(std::span<const std::uint8_t> bytes) {
   constexpr std::uint8_t kName[] = {'D', 'R', 'A', 'C', 'O'};
@@ -38,12 +34,12 @@ bool read_attribute(const draco::Mesh& mesh, const draco::PointAttribute& attrib
 }  // namespace
 
 Expected<BaseMesh> decode_draco(std::span<const std::uint8_t> bytes) {
-  if (!is_edgebreaker_mesh(bytes)) return bad("it is not a Draco edgebreaker mesh");
+  if (!is_edgebreaker_mesh(bytes)) return damaged_base("it is not a Draco edgebreaker mesh");
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Decoder decoder;
   auto result = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!result.ok()) return bad(std::string("Draco says ") + result.status().error_msg());
+  if (!result.ok()) return damaged_base(std::string("Draco says ") + result.status().error_msg());
   const draco::Mesh& mesh = *result.value();
 
   BaseMesh out;
@@ -56,7 +52,7 @@ Expected<BaseMesh> decode_draco(std::span<const std::uint8_t> bytes) {
   const auto* colours = mesh.GetNamedAttribute(draco::GeometryAttribute::COLOR);
   if (positions == nullptr || !read_attribute(mesh, *positions, out.positions) ||
       (colours != nullptr && !read_attribute(mesh, *colours, out.colours))) {
-    return bad("an attribute is missing or of another kind");
+    return damaged_base("an attribute is missing or of another kind");
   }
   return out;
 }
@@ -67,7 +63,7 @@ Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manife
   const LevelInfo& level = manifest.levels[0];
   if (decoded->positions.size() != level.vertices || decoded->faces.size() != level.faces ||
       decoded->colours.empty() == manifest.coloured) {
-    return bad("its counts are not those of the header");
+    return damaged_base("its counts are not those of the header");
   }
   return std::move(*decoded);
 }

@@ -43,8 +43,8 @@ Expected<std::vector<std::uint8_t>> compress(const draco::Mesh& mesh) {
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
   draco::EncoderBuffer buffer;
   if (const auto status = encoder.EncodeMeshToBuffer(mesh, &buffer); !status.ok()) {
-    return fail(ErrorCode::kBadInput,
-                std::string("Draco cannot encode the base mesh: ") + status.error_msg());
+    return fail(ErrorCode::kBadInput, std::string("Draco cannot encode the base mesh: ") +
+                                          status.error_msg() + "; please report this mesh");
   }
   return std::vector<std::uint8_t>(buffer.data(), buffer.data() + buffer.size());
 }

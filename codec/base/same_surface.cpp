@@ -96,7 +96,8 @@ class Matcher {
 
 Expected<std::vector<std::uint32_t>> correspond(const BaseMesh& a, const BaseMesh& b) {
   const auto different = [] {
-    return fail(ErrorCode::kBadInput, "Draco does not keep the base mesh as it is");
+    return fail(ErrorCode::kBadInput,
+                "Draco does not keep the base mesh as it is; please report this mesh");
   };
   if (a.positions.size() != b.positions.size() || a.faces.size() != b.faces.size() ||
       a.colours.size() != b.colours.size()) {

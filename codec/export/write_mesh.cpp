@@ -33,24 +33,27 @@ bool fits_float(const Vec3& p) {
 
 Expected<void> check(const TriangleMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
-  if (mesh.faces.empty()) return fail(ErrorCode::kBadInput, "there are no faces to write");
+  if (mesh.faces.empty())
+    return fail(ErrorCode::kBadInput, "there are no faces to write; ask for a finer level");
   // GLB and STL count bytes in 32 bits; a face takes up to 50 of them.
   if (mesh.faces.size() > 80'000'000 || vertices > 160'000'000) {
     return fail(ErrorCode::kLimit, "the mesh is too large to export; ask for fewer triangles");
   }
   if (!mesh.colours.empty() && mesh.colours.size() != vertices) {
-    return fail(ErrorCode::kBadInput, "the mesh has not one colour per vertex");
+    return fail(ErrorCode::kBadInput,
+                "the mesh has not one colour per vertex; give as many or none");
   }
   for (std::size_t v = 0; v < vertices; ++v) {
     if (!fits_float(mesh.positions[v])) {
-      return fail(ErrorCode::kBadInput, "the position of vertex " + std::to_string(v) +
-                                            " is too large for a single-precision number");
+      return fail(ErrorCode::kBadInput,
+                  "the position of vertex " + std::to_string(v) +
+                      " is too large for a single-precision number; scale the scan down");
     }
   }
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (std::ranges::max(mesh.faces[f]) >= vertices) {
-      return fail(ErrorCode::kBadInput,
-                  "face " + std::to_string(f) + " has a vertex index out of range");
+      return fail(ErrorCode::kBadInput, "face " + std::to_string(f) +
+                                            " has a vertex index out of range; export it again");
     }
   }
   return {};
@@ -93,7 +96,8 @@ Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFor
     case MeshFormat::kVrml:
       return write_vrml(in_metres(mesh, unit));
   }
-  return fail(ErrorCode::kUnsupported, "unknown mesh format");
+  return fail(ErrorCode::kUnsupported,
+              "unknown mesh format; choose PLY, GLB, OBJ, STL, DRC or VRML");
 }
 
 }  // namespace vitrine

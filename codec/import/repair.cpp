@@ -86,7 +86,8 @@ class Repairer {
     }
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       if (std::ranges::max(mesh_.faces[f]) >= mesh_.positions.size()) {
-        return bad_input("face " + std::to_string(f) + " has a vertex index out of range");
+        return bad_input("face " + std::to_string(f) +
+                         " has a vertex index out of range; export it again");
       }
     }
     return {};

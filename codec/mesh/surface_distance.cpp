@@ -17,12 +17,12 @@ constexpr std::size_t kAlignSamples = 5'000;
 Expected<void> check(const TriangleMesh& mesh, const char* name) {
   if (mesh.faces.empty()) {
     return fail(ErrorCode::kBadInput,
-                std::string("mesh ") + name + " has no face: give a mesh with a surface");
+                std::string("mesh ") + name + " has no face; give a mesh with a surface");
   }
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (std::ranges::max(mesh.faces[f]) < mesh.positions.size()) continue;
     return fail(ErrorCode::kBadInput, std::string("mesh ") + name + ": face " + std::to_string(f) +
-                                          " names a vertex that does not exist");
+                                          " names a vertex that does not exist; export it again");
   }
   return {};
 }

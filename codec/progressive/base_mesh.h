@@ -2,8 +2,10 @@
 // Level 0 as integers: what the Draco buffer of a `.pmesh` holds and a Refiner starts from.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "codec/core/expected.h"
 #include "codec/core/vec.h"
 
 namespace vitrine {
@@ -14,5 +16,9 @@ struct BaseMesh {
   std::vector<Triangle> faces;
   std::vector<Vec3i> colours;
 };
+
+inline Unexpected damaged_base(const std::string& what) {
+  return fail(ErrorCode::kBadInput, "damaged base mesh: " + what + "; fetch the file again");
+}
 
 }  // namespace vitrine

@@ -21,7 +21,8 @@ struct ChunkFrame {
 
 inline Unexpected damaged_chunk(const ChunkFrame& frame, const std::string& what) {
   return fail(ErrorCode::kBadInput, "damaged chunk (level " + std::to_string(frame.level) +
-                                        ", region " + std::to_string(frame.region) + "): " + what);
+                                        ", region " + std::to_string(frame.region) + "): " + what +
+                                        "; fetch the file again");
 }
 
 }  // namespace vitrine

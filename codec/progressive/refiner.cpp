@@ -70,14 +70,14 @@ Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) {
   const std::size_t colours = manifest.coloured ? base.positions.size() : 0;
   if (base.positions.size() != level.vertices || base.faces.size() != level.faces ||
       base.colours.size() != colours) {
-    return fail(ErrorCode::kBadInput, "the base mesh does not have the counts of the header");
+    return damaged_base("its counts are not those of the header");
   }
   auto mesh = MeshState::from_base(base, level.shift, manifest.tree.leaves());
-  if (!mesh) return tl::unexpected(mesh.error());
+  if (!mesh) return damaged_base(mesh.error().message);
   // What is born whole may bring more.
   const std::uint32_t loops = mesh->connectivity.loop_count();
   if (loops > manifest.loops || (loops < manifest.loops && !manifest.births)) {
-    return fail(ErrorCode::kBadInput, "the base mesh does not have the loops of the header");
+    return damaged_base("its boundary loops are not those of the header");
   }
   auto state = std::make_unique<State>();
   state->applied.assign(manifest.chunks.size(), false);
@@ -113,7 +113,8 @@ bool Refiner::ready(std::size_t chunk) const {
 Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> bytes) {
   State& s = *state_;
   if (chunk >= s.applied.size() || !ready(chunk)) {
-    return fail(ErrorCode::kState, "this chunk cannot be applied in the present state");
+    return fail(ErrorCode::kState,
+                "this chunk cannot be applied in the present state; apply those before it first");
   }
   const ChunkInfo& info = s.manifest.chunks[chunk];
   if (bytes.size() != info.length) {
@@ -126,7 +127,8 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
   auto change = decode_layer(s.mesh, s.frame(info), s.manifest.tree, info.node, bytes);
   if (!change) return tl::unexpected(change.error());
   if (s.mesh.connectivity.loop_count() > s.manifest.loops) {
-    return fail(ErrorCode::kBadInput, "a chunk brings more boundary loops than the header says");
+    return fail(ErrorCode::kBadInput,
+                "a chunk brings more boundary loops than the header says; fetch the file again");
   }
   s.newest = std::move(*change);
   for (std::size_t i = 0; i < s.newest.splits.size(); ++i)

@@ -44,7 +44,7 @@ std::array<float, 3> to_floats(const Vec3& v) {
 Expected<void> check(const std::string& what, std::span<const std::uint8_t> bytes,
                      const Sha256& expected) {
   if (sha256(bytes) == expected) return {};
-  return fail(ErrorCode::kBadInput, what + " does not match its SHA-256: fetch it again");
+  return fail(ErrorCode::kBadInput, what + " does not match its SHA-256; fetch it again");
 }
 
 std::int16_t to_snorm(double value) {
@@ -66,7 +66,9 @@ Expected<void> Model::check_base(std::span<const std::uint8_t> bytes) const {
 }
 
 Expected<void> Model::check_chunk(std::size_t chunk, std::span<const std::uint8_t> bytes) const {
-  if (chunk >= manifest_->chunks.size()) return fail(ErrorCode::kState, "there is no such chunk");
+  if (chunk >= manifest_->chunks.size())
+    return fail(ErrorCode::kState,
+                "there is no such chunk; the manifest lists those that there are");
   const ChunkInfo& info = manifest_->chunks[chunk];
   return check("the chunk of level " + std::to_string(info.level) + ", region " +
                    std::to_string(info.region),
@@ -97,7 +99,8 @@ Expected<bool> Model::want(std::uint32_t kind, double value) {
 }
 
 Expected<bool> Model::want(const Want& goal) {
-  if (!refiner_) return fail(ErrorCode::kState, "the base mesh must come first");
+  if (!refiner_)
+    return fail(ErrorCode::kState, "the base mesh must come first; give it before the chunks");
   const bool back = trimmed_ || exceeds(goal);
   if (back) {
     if (auto done = restart(); !done) return Unexpected(done.error());
@@ -139,8 +142,11 @@ int Model::next_chunk() {
 }
 
 Expected<void> Model::apply(std::size_t chunk, std::span<const std::uint8_t> bytes) {
-  if (!refiner_ || trimmed_) return fail(ErrorCode::kState, "the base mesh must come first");
-  if (chunk >= applied_.size()) return fail(ErrorCode::kState, "there is no such chunk");
+  if (!refiner_ || trimmed_)
+    return fail(ErrorCode::kState, "the base mesh must come first; give it before the chunks");
+  if (chunk >= applied_.size())
+    return fail(ErrorCode::kState,
+                "there is no such chunk; the manifest lists those that there are");
   auto done = refiner_->apply(chunk, bytes);
   applied_[chunk] = done.has_value();
   trimmed_ = !done;

@@ -24,7 +24,7 @@ tl::unexpected<Fault> unknown_flag(std::string_view name, std::span<const Flag> 
     names.push_back(flag.name);
   const std::string_view near = suggest(name, names);
   return misused(fmt::format("unknown flag {}{}", name,
-                             near.empty() ? "" : fmt::format("; did you mean {}?", near)));
+                             near.empty() ? "" : fmt::format(" (did you mean {}?)", near)));
 }
 
 template <class Number>
@@ -83,22 +83,26 @@ std::string Arguments::text(std::string_view flag, std::string_view otherwise) c
   return it == values_.end() ? std::string(otherwise) : it->second;
 }
 
+tl::unexpected<Fault> Arguments::wrong_value(std::string_view flag, std::string_view wanted) const {
+  return misused(fmt::format("{} cannot be \"{}\"; give {}", flag, text(flag), wanted));
+}
+
 tl::expected<std::optional<std::uint64_t>, Fault> Arguments::number(std::string_view flag,
                                                                     std::uint64_t low,
                                                                     std::uint64_t high) const {
   if (!has(flag)) return std::nullopt;
   const auto value = parse_number<std::uint64_t>(text(flag));
   if (value && *value >= low && *value <= high) return value;
-  return misused(high == UINT64_MAX
-                     ? fmt::format("{} takes a whole number of at least {}", flag, low)
-                     : fmt::format("{} takes a whole number from {} to {}", flag, low, high));
+  return wrong_value(flag, high == UINT64_MAX
+                               ? fmt::format("a whole number of at least {}", low)
+                               : fmt::format("a whole number from {} to {}", low, high));
 }
 
 tl::expected<std::optional<double>, Fault> Arguments::distance(std::string_view flag) const {
   if (!has(flag)) return std::nullopt;
   const auto value = parse_number<double>(text(flag));
   if (value && std::isfinite(*value) && *value >= 0) return value;
-  return misused(fmt::format("{} takes a number of at least 0, in the model's unit", flag));
+  return wrong_value(flag, "a number of at least 0, in the model's unit");
 }
 
 tl::expected<std::size_t, Fault> Arguments::choice(
@@ -106,7 +110,7 @@ tl::expected<std::size_t, Fault> Arguments::choice(
   if (!has(flag)) return 0;
   const auto it = std::find(choices.begin(), choices.end(), text(flag));
   if (it != choices.end()) return static_cast<std::size_t>(it - choices.begin());
-  return misused(fmt::format("{} takes one of: {}", flag, fmt::join(choices, ", ")));
+  return wrong_value(flag, fmt::format("one of {}", fmt::join(choices, ", ")));
 }
 
 }  // namespace vitrine::cli

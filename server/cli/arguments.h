@@ -31,6 +31,8 @@ class Arguments {
   std::string operand(std::size_t index) const { return operands_[index]; }
   bool has(std::string_view flag) const { return values_.contains(flag); }
   std::string text(std::string_view flag, std::string_view otherwise = "") const;
+  // The fault of a value that is not `wanted`.
+  tl::unexpected<Fault> wrong_value(std::string_view flag, std::string_view wanted) const;
 
   // The value as a whole number in [low, high], or nothing where the flag is absent.
   tl::expected<std::optional<std::uint64_t>, Fault> number(std::string_view flag, std::uint64_t low,

@@ -28,7 +28,9 @@ using Clock = std::chrono::steady_clock;
 tl::expected<int, Fault> read_bits(const Arguments& arguments) {
   if (arguments.text("--bits", "auto") == "auto") return 0;
   const auto bits = arguments.number("--bits", kMinBits, kMaxBits);
-  if (!bits) return misused(fmt::format("--bits takes auto or {} to {}", kMinBits, kMaxBits));
+  if (!bits) {
+    return arguments.wrong_value("--bits", fmt::format("auto or {} to {}", kMinBits, kMaxBits));
+  }
   return static_cast<int>(**bits);
 }
 
@@ -149,7 +151,7 @@ Outcome write_outputs(const Arguments& arguments, const Product& product) {
 }
 
 Outcome build(const Arguments& arguments) {
-  if (!arguments.has("-o")) return misused("-o is missing: name the output file");
+  if (!arguments.has("-o")) return misused("-o is missing; name the output file");
   if (!arguments.text("-o").ends_with(".pmesh")) {
     return misused(
         "the output's name must end in .pmesh; vitrine decode makes meshes of that file");

@@ -30,7 +30,8 @@ tl::expected<std::optional<Want>, Fault> read_want(const Arguments& arguments) {
   if (*triangles) wants.emplace_back(WantTriangles{**triangles});
   if (*bytes) wants.emplace_back(WantBytes{**bytes});
   if (*error) wants.emplace_back(WantError{**error});
-  if (wants.size() > 1) return misused("give one of --level, --triangles, --bytes and --error");
+  if (wants.size() > 1)
+    return misused("only one of --level, --triangles, --bytes and --error can be met; give one");
   return wants.empty() ? std::nullopt : std::optional(wants[0]);
 }
 
@@ -90,10 +91,12 @@ Expected<Product> decode_to(std::span<const std::uint8_t> pmesh, const std::opti
 }
 
 Outcome decode(const Arguments& arguments) {
-  if (!arguments.has("-o")) return misused("-o is missing: name the output file");
+  if (!arguments.has("-o")) return misused("-o is missing; name the output file");
   const std::string out = arguments.text("-o");
   const auto format = format_of_extension(std::filesystem::path(out).extension().string());
-  if (!format) return misused("the output's name must end in .ply, .glb, .obj, .stl, .drc or .wrl");
+  if (!format)
+    return misused(
+        "the output's name tells no format; end it in .ply, .glb, .obj, .stl, .drc or .wrl");
   const auto want = read_want(arguments);
   if (!want) return tl::unexpected(want.error());
   if (const auto writable = check_writable(out); !writable) return failed(writable.error());

@@ -29,7 +29,7 @@ SandboxLimits limits(const SpillOptions& spill) {
   return limits;
 }
 
-constexpr std::string_view kNoAnswer = "the isolated process gave no answer";
+constexpr std::string_view kNoAnswer = "the isolated process gave no answer; run the command again";
 
 // Length and bytes.
 void add_part(Bytes& bytes, std::span<const std::uint8_t> part) {

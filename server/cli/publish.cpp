@@ -53,7 +53,7 @@ Outcome publish_file(const Arguments& arguments) {
         "publishing to a remote server is not available in this version; run "
         "vitrine publish IN --data DIR on the server itself");
   }
-  if (!arguments.has("--data")) return misused("--data is missing: name the data folder");
+  if (!arguments.has("--data")) return misused("--data is missing; name the data folder");
   auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
   const std::string path = arguments.operand(0);

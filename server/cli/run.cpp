@@ -56,13 +56,13 @@ Outcome run_command(const Command& command, std::span<const std::string_view> wo
   const auto arguments = Arguments::parse(words, command.flags, command.operands);
   if (!arguments) {
     return misused(
-        fmt::format("{} (see vitrine {} --help)", arguments.error().message, command.name));
+        fmt::format("{}; see vitrine {} --help", arguments.error().message, command.name));
   }
   return command.run(*arguments);
 }
 
 Outcome dispatch(std::span<const std::string_view> words) {
-  if (words.empty()) return misused("no command is given (see vitrine --help)");
+  if (words.empty()) return misused("no command is given; see vitrine --help");
   if (asks_for_help(words[0]) || words[0] == "help") return print(overview());
   if (words[0] == "--version") return print("vitrine " VITRINE_VERSION);
   for (const Command* command : kCommands) {

@@ -30,7 +30,8 @@ export class ViewerPage {
   errors = [];
   held = [];
   holding = true;
-  finishedChunks = 0;
+  askedChunks = 0; // exact once their effect is seen: each request passes through here
+  finishedChunks = 0; // as the browser tells: may lag behind what the page shows
 
   constructor(page) {
     this.page = page;
@@ -67,6 +68,15 @@ export class ViewerPage {
     }, Math.round(1000 * fraction)));
   }
 
+  /** Does `action` and waits until more than `count` triangles are shown and that is reported as reached. */
+  async sharpened(count, action) {
+    await action();
+    await this.page.waitForFunction((few) => {
+      const finer = window.seen.findIndex(({ type, detail }) => type === "refine" && detail.triangles > few);
+      return finer >= 0 && window.seen.slice(finer).some(({ type }) => type === "load");
+    }, count, { timeout: 60_000 });
+  }
+
   async triangles() {
     const shown = (await this.seen()).filter(({ type }) => type === "refine");
     return shown.at(-1).detail.triangles;
@@ -77,10 +87,21 @@ export class ViewerPage {
     return this.page.locator("output .triangles").textContent();
   }
 
-  /** The picture without its controls. */
+  /** Two frames: what was asked for before is drawn. */
+  frames() {
+    return this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  }
+
+  /** The element as it stands still: transitions of its controls are at their end. */
   async picture(path) {
-    await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    return this.page.locator("progressive-mesh").screenshot(path ? { path } : {});
+    await this.frames();
+    return this.page.locator("progressive-mesh").screenshot({ path, animations: "disabled" });
+  }
+
+  /** What the browser has complained of up to now. */
+  async complaints() {
+    await this.frames(); // the answer comes after the messages before it
+    return this.errors;
   }
 
   async #listen() {
@@ -88,7 +109,10 @@ export class ViewerPage {
     page.on("pageerror", (error) => this.errors.push(String(error)));
     page.on("console", (message) => message.type() === "error" && this.errors.push(message.text()));
     page.on("requestfinished", (request) => request.url().includes("/chunks/") && ++this.finishedChunks);
-    await page.context().route("**/api/v1/chunks/*", (route) => (this.holding ? void this.held.push(route) : route.continue()));
+    await page.context().route("**/api/v1/chunks/*", (route) => {
+      ++this.askedChunks;
+      return this.holding ? void this.held.push(route) : route.continue();
+    });
     await page.addInitScript((types) => {
       window.seen = [];
       for (const type of types) {

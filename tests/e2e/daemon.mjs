@@ -26,14 +26,15 @@ export class Daemon {
     );
     let log = "";
     child.stderr.on("data", (text) => (log += text));
-    const ended = once(child, "exit").then(([code]) => Promise.reject(new Error(`vitrined ended with ${code}: ${log}`)));
+    const exit = once(child, "exit").then(([code, signal]) => code ?? signal);
+    const ended = exit.then((code) => Promise.reject(new Error(`vitrined ended with ${code}: ${log}`)));
     ended.catch(() => undefined);
     const port = await Promise.race([appeared, ended]);
-    return new Daemon(bin, folder, data, child, `http://127.0.0.1:${port}`);
+    return new Daemon(bin, folder, data, child, exit, `http://127.0.0.1:${port}`);
   }
 
-  constructor(bin, folder, data, child, url) {
-    Object.assign(this, { bin, folder, data, child, url });
+  constructor(bin, folder, data, child, exit, url) {
+    Object.assign(this, { bin, folder, data, child, exit, url });
   }
 
   /** Publishes a mesh; returns the address of its page. */
@@ -44,9 +45,8 @@ export class Daemon {
 
   /** Ends the daemon as an operator would; it must leave cleanly. */
   async stop() {
-    const exit = this.child.exitCode === null ? once(this.child, "exit") : [this.child.exitCode];
     this.child.kill("SIGTERM");
-    const [code] = await exit;
+    const code = await this.exit;
     await rm(this.folder, { recursive: true, force: true });
     if (code !== 0) throw new Error(`vitrined ended with ${code}`);
   }

@@ -47,7 +47,7 @@ try {
       }
     }
   }
-  assert.deepEqual(viewer.errors, []);
+  assert.deepEqual(await viewer.complaints(), []);
 } finally {
   await browser.close();
   await daemon.stop();

@@ -8,7 +8,11 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using vitrine::testing::bytes_of;
+using vitrine::testing::expect_first_dropped;
+using vitrine::testing::expect_first_named;
 using vitrine::testing::glb;
+using vitrine::testing::GlbBuilder;
+using vitrine::testing::kNotFinite;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 
@@ -55,6 +59,23 @@ TEST(ReadGlb, IndicesOfEveryType) {
                 R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}]})",
             kCorners + indices));
     EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{2, 0, 1})) << type;
+  }
+}
+
+std::string triangle_of_four(float x, std::initializer_list<std::uint16_t> corners) {
+  GlbBuilder builder;
+  const auto positions = builder.floats("VEC3", {x, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0}, 4);
+  const auto indices =
+      builder.accessor("SCALAR", 5123, 3, {{"bufferView", builder.view(bytes_of(corners))}});
+  builder.mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+  return builder.file();
+}
+
+TEST(ReadGlb, CoordinatesThatAreNotFinite) {
+  for (const auto& [text, value] : kNotFinite) {
+    SCOPED_TRACE(text);
+    expect_first_dropped(read_text(triangle_of_four(value, {1, 2, 3})));
+    expect_first_named(triangle_of_four(value, {0, 1, 2}));
   }
 }
 

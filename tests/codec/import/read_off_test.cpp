@@ -6,6 +6,9 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using vitrine::testing::expect_first_dropped;
+using vitrine::testing::expect_first_named;
+using vitrine::testing::kNotFinite;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 
@@ -33,6 +36,15 @@ TEST(ReadOff, VertexColoursAndNormals) {
   EXPECT_EQ(
       read_text("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n").mesh.positions[1],
       (Vec3{1, 0, 0}));
+}
+
+TEST(ReadOff, CoordinatesThatAreNotFinite) {
+  for (const auto& [text, value] : kNotFinite) {
+    SCOPED_TRACE(text);
+    const std::string vertices = std::string("OFF\n4 1 0\n") + text + " 0 0\n0 0 0\n1 0 0\n0 1 0\n";
+    expect_first_dropped(read_text(vertices + "3 1 2 3\n"));
+    expect_first_named(vertices + "3 0 1 2\n");
+  }
 }
 
 TEST(ReadOff, RefusesByName) {

@@ -8,6 +8,9 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using vitrine::testing::bytes_of;
+using vitrine::testing::expect_first_dropped;
+using vitrine::testing::expect_first_named;
+using vitrine::testing::kNotFinite;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 
@@ -35,6 +38,32 @@ TEST(ReadPly, BothBinaryByteOrders) {
                   bytes_of<std::int32_t>({0, 1, 2}, big));
     EXPECT_EQ(result.mesh.positions, kCorners);
     EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
+  }
+}
+
+const std::string kFour =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\n";
+
+TEST(ReadPly, AsciiCoordinatesThatAreNotFinite) {
+  for (const auto& [text, value] : kNotFinite) {
+    SCOPED_TRACE(text);
+    const std::string vertices = header("ascii", kFour) + "0 " + text + " 0\n0 0 0\n1 0 0\n0 1 0\n";
+    expect_first_dropped(read_text(vertices + "3 1 2 3\n"));
+    expect_first_named(vertices + "3 0 1 2\n");
+  }
+}
+
+TEST(ReadPly, BinaryCoordinatesThatAreNotFinite) {
+  for (const auto& [text, value] : kNotFinite) {
+    for (const bool big : {false, true}) {
+      SCOPED_TRACE(std::string(text) + (big ? " big endian" : " little endian"));
+      const std::string vertices =
+          header(big ? "binary_big_endian" : "binary_little_endian", kFour) +
+          bytes_of<float>({0, 0, value, 0, 0, 0, 1, 0, 0, 0, 1, 0}, big) + "\x03";
+      expect_first_dropped(read_text(vertices + bytes_of<std::int32_t>({1, 2, 3}, big)));
+      expect_first_named(vertices + bytes_of<std::int32_t>({0, 1, 2}, big));
+    }
   }
 }
 

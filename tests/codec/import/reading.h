@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,30 @@ inline std::string refusal(std::string_view text) {
   const auto result = read_mesh(as_bytes(text));
   EXPECT_FALSE(result.has_value());
   return result ? "" : result.error().message;
+}
+
+// What scanners and converters write where they know no number, as text and as what it reads as.
+struct NotFinite {
+  const char* text;
+  float value;
+};
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+inline constexpr NotFinite kNotFinite[] = {
+    {"nan", std::numeric_limits<float>::quiet_NaN()}, {"inf", kInfinity}, {"-inf", -kInfinity}};
+
+// Of four vertices the faces use all but the first, which alone is not finite.
+inline void expect_first_dropped(const ImportedMesh& imported) {
+  EXPECT_EQ(imported.mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_THAT(imported.mesh.faces, ::testing::ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_THAT(
+      imported.repairs,
+      ::testing::Contains(::testing::HasSubstr("1 point without finite coordinates dropped")));
+}
+
+// The faces use the first vertex, too.
+inline void expect_first_named(std::string_view file) {
+  EXPECT_THAT(refusal(file), ::testing::HasSubstr("vertex 0 has a coordinate that is not a finite "
+                                                  "number"));
 }
 
 template <class T>

@@ -40,11 +40,23 @@ TEST(Arguments, after_two_dashes_all_words_are_operands) {
 TEST(Arguments, every_fault_names_the_word) {
   EXPECT_EQ(fault_of({}), "IN is missing");
   EXPECT_EQ(fault_of({"a", "b"}), "unexpected word \"b\"");
-  EXPECT_EQ(fault_of({"a", "--levle", "3"}), "unknown flag --levle; did you mean --level?");
+  EXPECT_EQ(fault_of({"a", "--levle", "3"}), "unknown flag --levle (did you mean --level?)");
   EXPECT_EQ(fault_of({"a", "--frobnicate"}), "unknown flag --frobnicate");
   EXPECT_EQ(fault_of({"a", "--level"}), "--level needs a value: L");
   EXPECT_EQ(fault_of({"a", "--json=yes"}), "--json takes no value");
   EXPECT_EQ(fault_of({"a", "--json", "--json"}), "--json is given twice");
+}
+
+TEST(Arguments, a_wrong_value_is_named_with_what_to_give) {
+  const auto arguments = parse({"in", "--level", "ten"});
+  ASSERT_TRUE(arguments);
+  EXPECT_EQ(arguments->number("--level", 0, 9).error().message,
+            "--level cannot be \"ten\"; give a whole number from 0 to 9");
+  EXPECT_EQ(arguments->distance("--level").error().message,
+            "--level cannot be \"ten\"; give a number of at least 0, in the model's unit");
+  constexpr std::string_view kChoices[] = {"low", "high"};
+  EXPECT_EQ(arguments->choice("--level", kChoices).error().message,
+            "--level cannot be \"ten\"; give one of low, high");
 }
 
 TEST(Arguments, numbers_are_checked_to_the_last_character) {

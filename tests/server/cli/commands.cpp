@@ -197,6 +197,26 @@ TEST_F(VitrineCommand, repairs_are_listed) {
   EXPECT_EQ(report["input"]["faces"], 450);
 }
 
+// An octahedron with one face turned, one twice, one without area, a fin and a stray point.
+constexpr const char* kDamagedObj =
+    "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nv 2 2 0\nv 9 9 9\n"
+    "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 6 4\n"
+    "f 3 5 1\nf 2 2 4\nf 1 3 7\n";
+
+TEST_F(VitrineCommand, every_repair_of_a_file_with_many_faults_is_listed) {
+  const std::string in = write("in.obj", kDamagedObj);
+  const json input = vitrine_json({"build", in, "-o", path("out.pmesh")})["input"];
+  EXPECT_EQ(input["repairs"],
+            json::array({"1 degenerate face dropped, first at face 9",
+                         "1 duplicate face dropped, first at face 8",
+                         "1 face reversed to agree with neighbours, first at face 7",
+                         "1 non-manifold edge split, first at face 0",
+                         "2 vertices split to part fans, first at vertex 0",
+                         "1 unreferenced vertex dropped"}));
+  EXPECT_EQ(input["faces"], 9);
+  EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in})["lossless"], true);
+}
+
 TEST_F(VitrineCommand, a_unit_goes_through_the_model_into_what_is_exported) {
   const std::string in = write("in.ply", bumpy_ply(500));
   EXPECT_EQ(vitrine_json({"build", in, "-o", path("out.pmesh")})["unit"], "");

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -66,11 +67,11 @@ class VitrineCommand : public testing::Test {
   }
 };
 
-// One line, as "vitrine: …", and the exit code.
+// One line, as "vitrine: CAUSE; NEXT STEP", and the exit code.
 inline void expect_fault(const ProgramResult& result, int exit_code) {
+  static const std::regex kForm("vitrine: [^;\n]+[^;\n ]; [^;\n]+\n");
   EXPECT_EQ(result.exit_code, exit_code) << result.errors;
-  EXPECT_EQ(result.errors.rfind("vitrine: ", 0), 0u) << result.errors;
-  EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+  EXPECT_TRUE(std::regex_match(result.errors, kForm)) << result.errors;
 }
 
 }  // namespace vitrine::test
