@@ -37,8 +37,9 @@ struct ImportedMesh {
 // GLB is in metres by its standard; the other formats may state a unit in a comment (see
 // unit_comment.h). For untrusted bytes, but in the sandbox: the decoders of
 // Draco data and of pictures are not safe. Allocates at most about 64 times the input, for
-// compressed parts of GLB 1024 times, and nothing on the word of a count alone. Fails (kBadInput,
-// kUnsupported, kLimit) with the place of the fault.
+// GLB, which may repeat its meshes, 128 times, where a compressed part or a picture counts as what
+// it makes (at most 1024 bytes or pixels for each of its own), and nothing on the word of a count
+// alone. Fails (kBadInput, kUnsupported, kLimit) with the place of the fault.
 Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes,
                                  const ReadOptions& options = {});
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/counting_new.h"
 
+#include <sanitizer/asan_interface.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <new>
 
 namespace {
 
-// Each block is preceded by its size, in a place that keeps the alignment of malloc.
+// Each block is preceded by its size, in a place that keeps the alignment of malloc. The address
+// sanitizer is told that the place is nobody's.
 constexpr std::size_t kPrefix = alignof(std::max_align_t);
 std::size_t held = 0, peak = 0;
 std::size_t until_failure = 0;  // 0: none
@@ -19,6 +22,7 @@ void* take(std::size_t size) noexcept {
   *block = size;
   held += size;
   peak = std::max(peak, held);
+  ASAN_POISON_MEMORY_REGION(block, kPrefix);
   return reinterpret_cast<char*>(block) + kPrefix;
 }
 
@@ -30,6 +34,7 @@ void* take_or_throw(std::size_t size) {
 void give_back(void* p) noexcept {
   if (p == nullptr) return;
   auto* block = reinterpret_cast<std::size_t*>(static_cast<char*>(p) - kPrefix);
+  ASAN_UNPOISON_MEMORY_REGION(block, kPrefix);
   held -= *block;
   std::free(block);
 }

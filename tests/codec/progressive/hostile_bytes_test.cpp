@@ -9,6 +9,7 @@
 
 #include "codec/progressive/refiner.h"
 #include "support/counting_new.h"
+#include "support/heap_bound.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 #include "support/stored_model.h"
@@ -18,9 +19,6 @@ namespace {
 
 using test::StoredModel;
 using Bytes = std::span<const std::uint8_t>;
-
-// What refiner.h states, at 16 vertices a byte, and what the header's own records take.
-constexpr std::size_t kHeapPerByte = 2'500, kHeapAlways = 1 << 20;
 
 LatticeMesh small_mesh(bool coloured) {
   LatticeMesh mesh = test::random_mesh(4, 200);
@@ -70,7 +68,7 @@ class HostileBytes : public ::testing::TestWithParam<Placement> {
     test::start_peak();
     const std::size_t before = test::heap_bytes();
     ASSERT_TRUE(survives(bytes, model_.base)) << "at byte " << at;
-    ASSERT_LE(test::peak_heap_bytes() - before, kHeapAlways + kHeapPerByte * bytes.size())
+    ASSERT_LE(test::peak_heap_bytes() - before, test::kDecodingHeap.of(bytes.size()))
         << "at byte " << at;
   }
 
@@ -241,7 +239,7 @@ TEST(HostileHeader, StatesAHundredMillionVerticesAndGetsNoMemory) {
   auto refiner = Refiner::start(*parsed, model.base);
   ASSERT_TRUE(refiner) << refiner.error().message;
   EXPECT_FALSE(refiner->apply(0, std::vector<std::uint8_t>(50)));
-  EXPECT_LT(test::peak_heap_bytes() - before, kHeapAlways);
+  EXPECT_LT(test::peak_heap_bytes() - before, test::kDecodingHeap.always);
 }
 
 }  // namespace

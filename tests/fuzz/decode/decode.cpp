@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Header, planner and refiner on hostile bytes: what `vitrine decode` does. No checksum is looked
 // at, so that no mutation stops there.
+#include "../bounded.h"
 #include "../checks.h"
 #include "codec/progressive/planner.h"
 #include "codec/progressive/refiner.h"
@@ -88,6 +89,8 @@ void decode(std::span<const std::uint8_t> bytes) {
 }  // namespace vitrine
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  vitrine::decode({data, size});
+  vitrine::fuzz::bounded(vitrine::test::kDecodingHeap, size, [&] {
+    vitrine::decode({data, size});
+  });
   return 0;
 }

@@ -4,8 +4,9 @@
 
 // The picture "p" lies beside the input.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size > vitrine::fuzz::kMostBytes) return 0;
-  const vitrine::Companions beside{{"p", vitrine::fuzz::kPicture}};
-  vitrine::fuzz::check({data, size}, vitrine::read_ply({data, size}, beside));
-  return 0;
+  return vitrine::fuzz::check(
+      {data, size}, vitrine::test::kReadingHeap, [](std::span<const std::uint8_t> bytes) {
+        const vitrine::Companions beside{{"p", vitrine::fuzz::kPicture}};
+        return vitrine::fuzz::finished(bytes, vitrine::read_ply(bytes, beside));
+      });
 }

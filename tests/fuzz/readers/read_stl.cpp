@@ -2,7 +2,8 @@
 #include "fuzz/readers/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size <= vitrine::fuzz::kMostBytes)
-    vitrine::fuzz::check({data, size}, vitrine::read_stl({data, size}));
-  return 0;
+  return vitrine::fuzz::check({data, size}, vitrine::test::kReadingHeap,
+                              [](std::span<const std::uint8_t> bytes) {
+                                return vitrine::fuzz::finished(bytes, vitrine::read_stl(bytes));
+                              });
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string>
 
@@ -14,20 +13,15 @@
 #include "codec/import/unit_comment.h"
 #include "codec/mesh/connectivity.h"
 #include "codec/mesh/unit.h"
+#include "fuzz/bounded.h"
+#include "fuzz/checks.h"
 
 namespace vitrine::fuzz {
 
-inline constexpr std::size_t kMostBytes = 1 << 16;
-
-inline void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-inline void check(Expected<ImportedMesh> imported) {
-  if (!imported) return require(imported.error().message.find('\n') == std::string::npos);
-  const TriangleMesh before = imported->mesh;
+inline void check_repaired(ImportedMesh imported) {
+  const TriangleMesh before = imported.mesh;
   require(before.colours.empty() || before.colours.size() == before.positions.size());
-  const auto repaired = repair(*std::move(imported));
+  const auto repaired = repair(std::move(imported));
   if (!repaired) return;
   const TriangleMesh& mesh = repaired->mesh;
   require(mesh.faces.size() <= before.faces.size());
@@ -37,11 +31,24 @@ inline void check(Expected<ImportedMesh> imported) {
 }
 
 // For the readers of text, which may state a unit.
-inline void check(std::span<const std::uint8_t> bytes, Expected<RawMesh> raw) {
+inline Expected<ImportedMesh> finished(std::span<const std::uint8_t> bytes, Expected<RawMesh> raw) {
   const std::string_view unit = unit_in_comments(bytes);
   require(unit.empty() || metres_per(unit));
-  if (!raw) return check(Unexpected(raw.error()));
-  check(std::move(*raw).finish({}));
+  if (!raw) return Unexpected(raw.error());
+  return std::move(*raw).finish({});
+}
+
+// `read` turns the bytes into an ImportedMesh, in memory that their number allows.
+template <class Read>
+int check(std::span<const std::uint8_t> bytes, const test::HeapBound& heap, Read&& read) {
+  if (bytes.size() > 1 << 16) return 0;
+  Expected<ImportedMesh> imported;
+  bounded(heap, bytes.size(), [&] { imported = read(bytes); });
+  if (imported)
+    check_repaired(*std::move(imported));
+  else
+    require(imported.error().message.find('\n') == std::string::npos);
+  return 0;
 }
 
 }  // namespace vitrine::fuzz

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `vitrine verify` does, on hostile headers and chunks. The seeds are those of the decode
 // fuzzer (a raw base mesh instead of a Draco buffer); the base is encoded and every checksum is
-// made right here, so that mutations reach the code behind the checksums.
+// made right here, so that mutations reach the code behind the checksums. Memory is not counted:
+// what verifies has an operator new of its own (spill.h), and the decode fuzzer counts.
 #include "../checks.h"
 #include "../decode/raw_base.h"
 #include "codec/base/base_encoder.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "../bounded.h"
 #include "../checks.h"
 #include "../decode/raw_base.h"
 #include "codec/wasm/model.h"
@@ -95,6 +96,6 @@ void visit(std::span<const std::uint8_t> bytes) {
 }  // namespace vitrine
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  vitrine::visit({data, size});
+  vitrine::fuzz::bounded(vitrine::test::kDecodingHeap, size, [&] { vitrine::visit({data, size}); });
   return 0;
 }

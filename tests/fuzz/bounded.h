@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Memory as an oracle: an input that takes more than its size allows ends the run.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "support/counting_new.h"
+#include "support/heap_bound.h"
+
+namespace vitrine::fuzz {
+
+// Runs `run` on an input of so many bytes. What it leaves on the heap counts, too.
+template <class Run>
+void bounded(const test::HeapBound& bound, std::size_t bytes, Run&& run) {
+  const std::size_t before = test::heap_bytes();
+  test::start_peak();
+  run();
+  const std::size_t held = test::peak_heap_bytes() - before;
+  if (held <= bound.of(bytes)) return;
+  std::fprintf(stderr, "heap: an input of %zu bytes held %zu bytes, %zu at most are allowed\n",
+               bytes, held, bound.of(bytes));
+  std::abort();
+}
+
+}  // namespace vitrine::fuzz
