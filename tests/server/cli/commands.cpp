@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <set>
@@ -43,6 +44,22 @@ TEST_F(VitrineCommand, info_prints_the_levels_that_build_printed) {
   EXPECT_EQ(info["levels"], built["levels"]);
   EXPECT_EQ(info["bytes"], built["bytes"]);
   EXPECT_EQ(info["bits"], built["bits"]);
+}
+
+TEST_F(VitrineCommand, build_and_info_tell_a_reader_the_step_of_the_lattice_in_the_models_unit) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  const ProgramResult plain = vitrine({"build", in, "-o", path("plain.pmesh"), "--bits", "10"});
+  const ProgramResult metric =
+      vitrine({"build", in, "-o", path("mm.pmesh"), "--bits", "11", "--unit", "mm"});
+  const auto step = [&](const char* file) {
+    return fmt::format("{:.6g}", vitrine_json({"info", path(file)})["step"].get<double>());
+  };
+  const std::string units = "10 bits, step " + step("plain.pmesh") + " units",
+                    millimetres = "11 bits, step " + step("mm.pmesh") + " mm";
+  EXPECT_THAT(plain.output, HasSubstr(units));
+  EXPECT_THAT(vitrine({"info", path("plain.pmesh")}).output, HasSubstr(units));
+  EXPECT_THAT(metric.output, HasSubstr(millimetres));
+  EXPECT_THAT(vitrine({"info", path("mm.pmesh")}).output, HasSubstr(millimetres));
 }
 
 TEST_F(VitrineCommand, info_says_how_much_of_a_file_is_there) {
