@@ -12,14 +12,13 @@
 
 namespace vitrine {
 
-// Positions keep single precision (OBJ and VRML: nine digits, which is the same), but in kDrc.
+// Positions keep single precision (OBJ and VRML: nine digits; DRC: 24 bits of the bounding box).
 enum class MeshFormat {
   kPly,   // binary little-endian, uchar colours
   kGlb,   // glTF 2.0, colours as linear light (as glTF asks) in normalised 16-bit numbers
   kObj,   // colours as three numbers after the position
   kStl,   // binary; has no colours and no shared vertices
-  kDrc,   // Draco edgebreaker, positions at 16 bits of the bounding box, colours exact; Draco
-          // reorders vertices and faces
+  kDrc,   // Draco edgebreaker, colours exact; Draco reorders vertices and faces
   kVrml,  // VRML 97, one IndexedFaceSet
 };
 

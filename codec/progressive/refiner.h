@@ -9,8 +9,9 @@
 // colours), 1 KiB per region, 8 bytes per byte of the header (its adjacency and chunk index) and
 // 512 KiB; a chunk brings at most 16 vertices per byte and 256 more (most_born), by splits at most
 // one per vertex that was there, and a component that is born whole has at most two faces per
-// vertex. Nothing is allocated per split. Where memory runs out, start() and apply() throw
-// std::bad_alloc, and a refiner that threw can only be destroyed or replaced.
+// vertex. Nothing is allocated per split: arrays grow by blocks of 2,048 elements. Where memory
+// runs out, start() and apply() throw std::bad_alloc, and a refiner that threw can only be
+// destroyed or replaced.
 #pragma once
 
 #include <cstdint>

@@ -87,9 +87,9 @@ std::string as_text(const json& report, const Manifest& manifest, const std::str
   for (const json& repair : report["input"]["repairs"]) {
     text += fmt::format("repaired: {}\n", repair.get<std::string>());
   }
-  return text + fmt::format("{}: {} bytes, {:.2f} bits per vertex, {} bits a coordinate\n\n{}", out,
+  return text + fmt::format("{}: {} bytes, {:.2f} bits per vertex; {}\n\n{}", out,
                             manifest.file_bytes, report["bits_per_vertex"].get<double>(),
-                            manifest.lattice.bits, levels_text(manifest));
+                            lattice_text(manifest), levels_text(manifest));
 }
 
 // Whether all outputs can be written, asked before long work.

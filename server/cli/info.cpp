@@ -38,11 +38,11 @@ std::string as_text(const json& info, const Manifest& m) {
       m.births ? fmt::format(", {} vertices born whole", born_whole(m)) : std::string();
   return fmt::format(
       "{} bytes: header {}, base mesh {}, {} chunks {}\n"
-      "{} bits, step {:.6g} {}, {} placement, {} region(s), {} boundary loop(s){}{}\n\n{}",
+      "{}, {} placement, {} region(s), {} boundary loop(s){}{}\n\n{}",
       m.file_bytes, m.base_offset, m.base_length, m.chunks.size(),
-      info["bytes"]["layers"].get<std::uint64_t>(), m.lattice.bits, m.lattice.step,
-      m.unit.empty() ? "units" : m.unit, info["placement"].get<std::string>(), m.tree.leaves(),
-      m.loops, births, m.coloured ? ", coloured" : "", levels_text(m));
+      info["bytes"]["layers"].get<std::uint64_t>(), lattice_text(m),
+      info["placement"].get<std::string>(), m.tree.leaves(), m.loops, births,
+      m.coloured ? ", coloured" : "", levels_text(m));
 }
 
 // A prefix of a file is a coarser model.

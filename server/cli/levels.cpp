@@ -5,6 +5,11 @@
 
 namespace vitrine::cli {
 
+std::string lattice_text(const Manifest& m) {
+  return fmt::format("{} bits, step {:.6g} {}", m.lattice.bits, m.lattice.step,
+                     m.unit.empty() ? "units" : m.unit);
+}
+
 nlohmann::json bytes_json(const Manifest& m) {
   return {{"total", m.file_bytes},
           {"base", m.base_length},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sizes and levels as `build` and `info` print it.
+// Lattice, sizes and levels as `build` and `info` print them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,6 +9,7 @@
 
 namespace vitrine::cli {
 
+std::string lattice_text(const Manifest& manifest);   // "12 bits, step 0.02 mm"
 nlohmann::json bytes_json(const Manifest& manifest);  // total, base, layers, header
 nlohmann::json levels_json(const Manifest& manifest);
 std::string levels_text(const Manifest& manifest);

@@ -11,6 +11,7 @@ namespace {
 // Small bases and small regions, so that little meshes have levels and forks too.
 SimplifyOptions random_options(Dice& dice) {
   return {.placement = dice.one_in(2) ? Placement::kPyramid : Placement::kMidpoint,
+          .order = dice.one_in(4) ? CollapseOrder::kHeap : CollapseOrder::kBatch,
           .target_vertices = 4 + dice.below(20),
           .region_vertices = dice.one_in(2) ? 0 : 8 + dice.below(40)};
 }

@@ -12,10 +12,11 @@ namespace {
 // Each block is preceded by its size, in a place that keeps the alignment of malloc. The address
 // sanitizer is told that the place is nobody's.
 constexpr std::size_t kPrefix = alignof(std::max_align_t);
-std::size_t held = 0, peak = 0;
+std::size_t held = 0, peak = 0, calls = 0;
 std::size_t until_failure = 0;  // 0: none
 
 void* take(std::size_t size) noexcept {
+  ++calls;
   if (until_failure > 0 && --until_failure == 0) return nullptr;
   auto* block = static_cast<std::size_t*>(std::malloc(size + kPrefix));
   if (block == nullptr) return nullptr;
@@ -51,6 +52,9 @@ std::size_t peak_heap_bytes() {
 }
 void start_peak() {
   peak = held;
+}
+std::size_t allocations() {
+  return calls;
 }
 void fail_allocation(std::size_t n) {
   until_failure = n;

@@ -140,6 +140,24 @@ TEST(RefinerMemory, StaysWithinItsBytesPerTriangle) {
   }
 }
 
+// A split brings one vertex and six corners, which are in this many arrays.
+constexpr std::size_t kArrayElementsPerSplit = 4 + 2 * 6;
+
+TEST(RefinerMemory, IsAskedForByTheBlockAndNotByTheSplit) {
+  const TriangleMesh torus = test::torus(300, 200);
+  const StoredModel model =
+      test::store_model(quantise(torus, fit_lattice(torus.positions, 12)), {});
+  Refiner refiner = test::start_refiner(model);
+  for (std::size_t i = 0; i < model.manifest.chunks.size(); ++i) {
+    const std::size_t before = test::allocations(), splits = model.manifest.chunks[i].splits;
+    test::apply_chunk(refiner, model, i);
+    EXPECT_LE(test::allocations() - before,
+              24 + splits * kArrayElementsPerSplit / Segments<Vec3i>::kBlock)
+        << splits << " splits";
+  }
+  EXPECT_GT(model.manifest.chunks.back().splits, 10'000u);
+}
+
 const std::vector<std::uint8_t> unsplit(16, 0xFF);  // a chunk in which nothing splits
 
 void add_forks(std::uint32_t leaves, RegionTree& tree) {

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <set>
 
 #include "codec/progressive/cell.h"
 #include "codec/progressive/colour.h"
 #include "codec/progressive/placement.h"
+#include "codec/simplify/collapse_rules.h"
+#include "codec/simplify/surface.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 #include "support/validate.h"
@@ -346,8 +349,65 @@ TEST(Simplify, CoarseLevelsStandOnACoarserLatticeThatIsFinerThanTheirError) {
   }
 }
 
+Surface surface_of(const LatticeMesh& fine) {
+  Surface surface;
+  surface.mesh =
+      *Connectivity::close(static_cast<std::uint32_t>(fine.positions.size()), fine.faces);
+  surface.position = fine.positions;
+  surface.quadric = surface_quadrics(surface.mesh, fine.positions);
+  return surface;
+}
+
+// What the finest level's collapse of the edge costs.
+double cost_of(const Surface& surface, const EdgeStar& edge, const Vec3i& target) {
+  const Vec3 at = to_vec3(target);
+  return surface.quadric[edge.v1].at(at) + surface.quadric[edge.v2].at(at);
+}
+
+double least_cost(const Surface& surface, Placement placement) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Corner c = 0; c < 3 * surface.mesh.face_count(); ++c) {
+    if (is_virtual(surface.mesh.vertex(c)) || is_virtual(surface.mesh.vertex(next(c)))) continue;
+    const EdgeStar edge(surface.mesh, c);
+    if (!keeps_manifold(surface.mesh, edge)) continue;
+    const Vec3i target = merged_position(surface, edge, placement, 0);
+    if (keeps_orientation(surface, edge, target))
+      least = std::min(least, cost_of(surface, edge, target));
+  }
+  return least;
+}
+
+double cost_of(const Surface& surface, const Collapse& collapse, Placement placement) {
+  for (Corner c = 0; c < 3 * surface.mesh.face_count(); ++c) {
+    if (surface.mesh.vertex(c) != collapse.v1 || surface.mesh.vertex(next(c)) != collapse.v2)
+      continue;
+    const EdgeStar edge(surface.mesh, c);
+    return cost_of(surface, edge, merged_position(surface, edge, placement, 0));
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 TEST(Simplify, TheHeapTakesTheCheapestPairFirst) {
-  // A flat sheet with one bump: what costs nothing goes before what carries shape.
+  for (const TriangleMesh& mesh :
+       {sheet(24, 20), tube(24, 18), torus(30, 16), shipped_model("demosthenes.obj")}) {
+    for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
+      const LatticeMesh fine = on_lattice(mesh);
+      const auto vertices = static_cast<std::uint32_t>(fine.positions.size());
+      const auto hierarchy = simplify(
+          fine,
+          {.placement = placement, .order = CollapseOrder::kHeap, .target_vertices = vertices - 1});
+      ASSERT_TRUE(hierarchy.has_value());
+      ASSERT_EQ(hierarchy->levels.size(), 1u);
+      ASSERT_EQ(hierarchy->levels[0].size(), 1u);
+      const Surface surface = surface_of(fine);
+      EXPECT_EQ(cost_of(surface, hierarchy->levels[0][0], placement),
+                least_cost(surface, placement));
+    }
+  }
+}
+
+TEST(Simplify, TheHeapLeavesWhatCarriesShapeToTheLast) {
+  // A flat sheet with one bump.
   TriangleMesh bumped = sheet(30, 30);
   for (Vec3& p : bumped.positions)
     p.z = 0;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <set>
 
 #include "vitrine_command.h"
 
@@ -43,6 +46,22 @@ TEST_F(VitrineCommand, info_prints_the_levels_that_build_printed) {
   EXPECT_EQ(info["bits"], built["bits"]);
 }
 
+TEST_F(VitrineCommand, build_and_info_tell_a_reader_the_step_of_the_lattice_in_the_models_unit) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  const ProgramResult plain = vitrine({"build", in, "-o", path("plain.pmesh"), "--bits", "10"});
+  const ProgramResult metric =
+      vitrine({"build", in, "-o", path("mm.pmesh"), "--bits", "11", "--unit", "mm"});
+  const auto step = [&](const char* file) {
+    return fmt::format("{:.6g}", vitrine_json({"info", path(file)})["step"].get<double>());
+  };
+  const std::string units = "10 bits, step " + step("plain.pmesh") + " units",
+                    millimetres = "11 bits, step " + step("mm.pmesh") + " mm";
+  EXPECT_THAT(plain.output, HasSubstr(units));
+  EXPECT_THAT(vitrine({"info", path("plain.pmesh")}).output, HasSubstr(units));
+  EXPECT_THAT(metric.output, HasSubstr(millimetres));
+  EXPECT_THAT(vitrine({"info", path("mm.pmesh")}).output, HasSubstr(millimetres));
+}
+
 TEST_F(VitrineCommand, info_says_how_much_of_a_file_is_there) {
   const std::string whole = model();
   EXPECT_THAT(vitrine({"info", whole}).output, Not(HasSubstr("cut off")));
@@ -72,16 +91,21 @@ TEST_F(VitrineCommand, verify_proves_lossless_only_against_the_input) {
   EXPECT_EQ(report["faces"], 2'888);
 }
 
-TEST_F(VitrineCommand, open_and_coloured_models_are_lossless_with_both_placements) {
+TEST_F(VitrineCommand, open_and_coloured_models_are_lossless_with_both_placements_and_orders) {
   const std::string in = write("in.ply", bumpy_ply(2'500, true, true));
-  for (const char* placement : {"midpoint", "pyramid"}) {
-    for (const char* bits : {"10", "16"}) {
-      vitrine_json(
-          {"build", in, "-o", path("out.pmesh"), "--placement", placement, "--bits", bits});
-      EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in})["lossless"], true)
-          << placement << ' ' << bits;
+  std::set<std::string> files;
+  for (const std::string placement : {"midpoint", "pyramid"}) {
+    for (const std::string order : {"batch", "heap"}) {
+      for (const std::string bits : {"10", "16"}) {
+        vitrine_json({"build", in, "-o", path("out.pmesh"), "--placement", placement, "--order",
+                      order, "--bits", bits});
+        EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in})["lossless"], true)
+            << placement << ' ' << order << ' ' << bits;
+        files.insert(read("out.pmesh"));
+      }
     }
   }
+  EXPECT_EQ(files.size(), 8u) << "an option had no effect";
 }
 
 TEST_F(VitrineCommand, a_model_with_regions_is_verified_in_several_orders) {
