@@ -25,13 +25,21 @@ void add_level(const MeshState& level, Manifest& manifest) {
       {.vertices = level.vertex_count(), .faces = level.real_face_count(), .shift = level.shift});
 }
 
-// Enlarges the boxes of the regions of `level` by where their vertices are in the state at hand.
+// Enlarges the boxes of the regions of `level` by the faces at their vertices in the state at hand:
+// a face between two regions lies in the boxes of both, whichever is the one that is refined.
 void add_to_boxes(const MeshState& mesh, std::uint32_t level, RegionTree& tree) {
   std::vector<LatticeBox*> box(tree.leaves(), nullptr);
   for (const std::uint32_t node : tree.regions_at(level))
     box[tree.nodes[node].first] = &tree.nodes[node].box;
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
-    box[mesh.vertex[v].region]->add({mesh.positions[v], mesh.positions[v]});
+  const Connectivity& faces = mesh.connectivity;
+  for (std::uint32_t f = 0; f < faces.face_count(); ++f) {
+    if (!faces.is_real(f)) continue;
+    LatticeBox face = LatticeBox::none();
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c)
+      face.add({mesh.positions[faces.vertex(c)], mesh.positions[faces.vertex(c)]});
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c)
+      box[mesh.vertex[faces.vertex(c)].region]->add(face);
+  }
 }
 
 void close_boxes(RegionTree& tree) {

@@ -44,7 +44,7 @@ struct LatticeBox {
 struct RegionNode {
   std::uint32_t fork = 0;  // the first level in which its children take its place; 0: a leaf
   RegionPlane plane;       // of a fork
-  LatticeBox box;          // of all its vertices in all levels, displayed ones excepted
+  LatticeBox box;          // of all faces at its vertices in all levels, as coded
 
   // Filled by RegionTree::link().
   std::uint32_t second = 0;             // the node of its second child; the first is the next one

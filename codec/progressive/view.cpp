@@ -19,6 +19,12 @@ double slope_of(const View& view) {
   return std::tan(view.field_of_view * 0.5 * kDegree);
 }
 
+// How much farther a point in sight is from the eye than it is deep, at most: in the corners.
+double slant_of(const View& view) {
+  const double y = slope_of(view), x = y * view.width / view.height;
+  return std::sqrt(1 + x * x + y * y);
+}
+
 struct Box {
   Vec3 low, high;
 
@@ -48,6 +54,14 @@ bool in_sight(const Box& box, const View& view) {
   return true;
 }
 
+// How deep what is in sight of the box lies at least: as its nearest corner does, or, where that is
+// beside or behind the eye, as a point in the corner of the viewport would.
+double depth_of(const Box& box, const View& view) {
+  const Vec3 back = column(view, 2), eye = column(view, 3);
+  const double distance = std::max(box.distance(eye), kNearest * length(box.high - box.low));
+  return std::max(distance / slant_of(view), (dot(eye, back) - box.reach(back)) / length(back));
+}
+
 }  // namespace
 
 bool is_sane(const View& view) {
@@ -63,9 +77,8 @@ double pixels_of(double error, const LatticeBox& box, const Lattice& lattice, co
   const Vec3 margin{error, error, error};
   const Box grown{lattice.to_model(box.low) - margin, lattice.to_model(box.high) + margin};
   if (!in_sight(grown, view)) return 0;
-  const double nearest = kNearest * length(grown.high - grown.low);
-  const double distance = std::max(grown.distance(column(view, 3)), nearest);
-  return distance > 0 ? error / distance * view.height / (2 * slope_of(view)) : 0;
+  const double depth = depth_of(grown, view);
+  return depth > 0 ? error / depth * view.height / (2 * slope_of(view)) : 0;
 }
 
 }  // namespace vitrine

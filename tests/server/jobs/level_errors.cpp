@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "codec/export/write_mesh.h"
 #include "codec/mesh/surface_distance.h"
 #include "server/jobs/build_model.h"
@@ -24,6 +26,8 @@ TEST(LevelErrors, NoLevelIsFartherOffThanItStatesNorMuchNearer) {
   ASSERT_TRUE(refiner);
   const ChunkReader read = chunks_of(refiner->manifest(), built->file);
   const std::size_t levels = refiner->manifest().levels.size();
+  EXPECT_TRUE(std::ranges::any_of(refiner->manifest().levels,
+                                  [](const LevelInfo& l) { return l.display_filter != 0; }));
   for (std::uint32_t level = 0; level < levels; ++level) {
     SCOPED_TRACE(level);
     ASSERT_TRUE(refine(*refiner, WantLevel{level}, read));
