@@ -25,4 +25,8 @@ std::vector<Simplified> simplify_by_meshopt_update(const TriangleMesh& mesh,
 // OpenMesh's decimater with ModQuadric alone.
 Simplified simplify_by_openmesh(const TriangleMesh& mesh, std::size_t faces);
 
+// CGAL's edge collapses, the policies as they are without options. Only where CMake found CGAL.
+Simplified simplify_by_garland_heckbert(const TriangleMesh& mesh, std::size_t faces);
+Simplified simplify_by_lindstrom_turk(const TriangleMesh& mesh, std::size_t faces);
+
 }  // namespace vitrine::bench

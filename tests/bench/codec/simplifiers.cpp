@@ -27,6 +27,10 @@ constexpr Peer kPeers[] = {
     {"meshopt", simplify_by_meshopt},
     {"meshopt_update", meshopt_update},
     {"openmesh", simplify_by_openmesh},
+#ifdef VITRINE_BENCH_CGAL
+    {"garland_heckbert", simplify_by_garland_heckbert},
+    {"lindstrom_turk", simplify_by_lindstrom_turk},
+#endif
 };
 
 }  // namespace
