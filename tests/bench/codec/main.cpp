@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
     return model.clean.faces.size() <= kSpeedFaces;
   });
   if (large != models.rend()) {
+    simplifiers(report, *large);
     speeds(report, *large);
     builds(report, *large, models.back());
   }

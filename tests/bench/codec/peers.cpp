@@ -104,13 +104,12 @@ MeshoptInput meshopt_input(const TriangleMesh& mesh) {
   return input;
 }
 
-std::size_t meshopt_simplify_to_one_percent(const MeshoptInput& mesh) {
+std::vector<std::uint32_t> meshopt_simplify_to(const MeshoptInput& mesh, std::size_t faces) {
   std::vector<std::uint32_t> out(mesh.indices.size());
-  const std::size_t target = mesh.indices.size() / 300 * 3;
-  return meshopt_simplify(out.data(), mesh.indices.data(), mesh.indices.size(),
-                          mesh.positions.data(), mesh.positions.size() / 3, 3 * sizeof(float),
-                          target, 1.0f) /
-         3;
+  out.resize(meshopt_simplify(out.data(), mesh.indices.data(), mesh.indices.size(),
+                              mesh.positions.data(), mesh.positions.size() / 3, 3 * sizeof(float),
+                              3 * faces, 1.0f));
+  return out;
 }
 
 }  // namespace vitrine::bench

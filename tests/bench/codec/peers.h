@@ -28,7 +28,7 @@ struct MeshoptInput {
 };
 MeshoptInput meshopt_input(const TriangleMesh& mesh);
 
-// One meshopt_simplify to one per cent of the triangles; the number that is left.
-std::size_t meshopt_simplify_to_one_percent(const MeshoptInput& mesh);
+// The indices that one meshopt_simplify to about `faces` triangles leaves.
+std::vector<std::uint32_t> meshopt_simplify_to(const MeshoptInput& mesh, std::size_t faces);
 
 }  // namespace vitrine::bench

@@ -22,6 +22,11 @@ void rate_distortion(Report& report, const std::vector<Model>& models);
 // default: error at equal faces, at equal bytes, and total bytes.
 void variants(Report& report, const Model& model);
 
+// A tenth of the faces by other libraries' simplifiers, whose positions are not rounded: against
+// their rms that of our levels as displayed at the same number of faces, lattice included; against
+// their time that of one build, which makes every level and the file.
+void simplifiers(Report& report, const Model& model);
+
 // What regions cost, and what a close-up needs of the whole; of models with several of them.
 void regions(Report& report, const Model& model);
 

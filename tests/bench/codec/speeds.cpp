@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "processor_time.h"
 #include "sections.h"
 #include "subject.h"
 #include "temporary_file.h"
@@ -27,13 +27,6 @@ constexpr double kMaxWasm = 2;          // times the native decoder
 constexpr double kMaxBytes = 60;        // of the WebAssembly decoder's memory per triangle
 constexpr double kMaxBuildBytes = 250;  // of a build's memory per triangle
 constexpr double kMaxGrowth = 1.5;      // of a build's time per triangle, to a model of common size
-
-// Of processor time: all that is compared runs on one thread, and machines are shared.
-double seconds(const std::function<void()>& work) {
-  const std::clock_t start = std::clock();
-  work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
 
 struct Medians {
   double ours, peer;
@@ -86,8 +79,9 @@ WasmDecode decode_in_wasm(const char* pmesh) {
 
 Medians build_and_simplify(const Model& model) {
   const MeshoptInput flat = meshopt_input(model.clean);
+  const std::size_t one_percent = model.clean.faces.size() / 100;
   return interleave([&] { return seconds([&] { build(model.file, kBits); }); },
-                    [&] { return seconds([&] { meshopt_simplify_to_one_percent(flat); }); });
+                    [&] { return seconds([&] { meshopt_simplify_to(flat, one_percent); }); });
 }
 
 // The most memory that `vitrine build` holds at a time, with a thread for each core.
