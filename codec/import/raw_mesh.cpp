@@ -74,7 +74,7 @@ Expected<void> RawMesh::check_counts(const Limits& limits) const {
                      " but no faces; Vitrine needs a surface, so mesh the points first");
   }
   if (max_index_ >= positions.size()) {
-    const std::string vertex = max_index_ == 0xFFFF'FFFFu ? "a vertex below 0 or beyond 32 bits"
+    const std::string vertex = max_index_ == 0xFFFF'FFFFu ? "a vertex that cannot be"
                                                           : "vertex " + std::to_string(max_index_);
     return bad_input("face " + std::to_string(max_index_face_) + " refers to " + vertex +
                      " (counted from 0), but the file has only " +

@@ -188,8 +188,10 @@ class BodyReader {
 
   Expected<void> read_vertices(const PlyElement& element) {
     const VertexPlan plan(element);
-    if (!plan.has_position()) return bad_input("the PLY vertices lack a property x, y or z");
-    if (!mesh_.positions.empty()) return bad_input("the PLY file has two vertex elements");
+    if (!plan.has_position())
+      return bad_input("the PLY vertices lack a property x, y or z; export them with positions");
+    if (!mesh_.positions.empty())
+      return bad_input("the PLY file has two vertex elements; export it again with one");
     mesh_.has_seams = plan.has_place() || plan.has_normal;
     mesh_.positions.reserve(element.count);
     if (plan.has_colour()) mesh_.colours.reserve(element.count);
@@ -228,7 +230,8 @@ class BodyReader {
         mesh_.repairs.emplace_back("texture coordinates not carried");
       }
     }
-    if (!has_list) return bad_input("the PLY faces have no list vertex_indices");
+    if (!has_list)
+      return bad_input("the PLY faces have no list vertex_indices; export them with one");
     std::vector<std::uint32_t> corners;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) {

@@ -18,6 +18,7 @@ constexpr std::uint64_t kFeatureColours = 1u << 1;
 constexpr std::uint64_t kFeatureBirths = 1u << 2;
 constexpr std::uint64_t kKnownFeatures = kFeaturePyramid | kFeatureColours | kFeatureBirths;
 
+constexpr double kMostStep = 1e30;  // what is displayed stays within single precision
 constexpr std::size_t kMaxUnitBytes = 16;
 constexpr std::size_t kHashBytes = 32;
 constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;   // fewest bytes of a level record
@@ -64,8 +65,9 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
   for (LevelInfo& level : m.levels) {
     const std::uint64_t vertices = in.varint(), faces = in.varint();
     if (vertices > limits.vertices || faces > limits.faces) {
-      return fail(ErrorCode::kLimit,
-                  "the model has more vertices or faces than this reader allows");
+      return fail(
+          ErrorCode::kLimit,
+          "the model has more vertices or faces than this reader allows; ask for a smaller one");
     }
     level.vertices = static_cast<std::uint32_t>(vertices);
     level.faces = static_cast<std::uint32_t>(faces);
@@ -256,8 +258,9 @@ Expected<void> read_frame(ByteReader& in, const Limits& limits, Manifest& m) {
   m.lattice.step = in.f64();
   if (m.lattice.bits < kMinBits || m.lattice.bits > kMaxBits) return bad("lattice bits");
   const bool finite = std::isfinite(m.lattice.origin.x) && std::isfinite(m.lattice.origin.y) &&
-                      std::isfinite(m.lattice.origin.z) && std::isfinite(m.lattice.step);
-  if (!finite || !(m.lattice.step > 0)) return bad("lattice transform");
+                      std::isfinite(m.lattice.origin.z);
+  if (!finite || !(m.lattice.step > 0 && m.lattice.step < kMostStep))
+    return bad("lattice transform");
   const std::size_t unit = in.u8();
   if (unit > kMaxUnitBytes) return bad("unit name too long");
   const auto name = in.bytes(unit);

@@ -68,9 +68,9 @@ bool is_sane(const View& view) {
   const auto positive = [](double v) { return v > 0 && v < 1e9; };
   const bool finite = std::all_of(view.camera.begin(), view.camera.end(),
                                   [](double v) { return v > -1e30 && v < 1e30; });
-  return finite && positive(view.field_of_view) && view.field_of_view < 180 &&
-         positive(view.width) && positive(view.height) && positive(view.pixel_error) &&
-         view.bytes >= 0;
+  return finite && length(column(view, 2)) > 0 && positive(view.field_of_view) &&
+         view.field_of_view < 180 && positive(view.width) && positive(view.height) &&
+         positive(view.pixel_error) && view.bytes >= 0;
 }
 
 double pixels_of(double error, const LatticeBox& box, const Lattice& lattice, const View& view) {

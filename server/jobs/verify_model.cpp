@@ -45,15 +45,20 @@ Expected<void> check_loops(const Refiner& refiner) {
                          refiner.manifest().loops));
 }
 
-// Where vertices are is what a planner goes by.
+// Where the faces of a region are is what a planner goes by.
 Expected<void> check_boxes(const Refiner& refiner, std::uint32_t level) {
   const Manifest& manifest = refiner.manifest();
   std::vector<const LatticeBox*> box(manifest.tree.leaves());
   for (const std::uint32_t node : manifest.tree.regions_at(level + 1))
     box[manifest.tree.nodes[node].first] = &manifest.tree.nodes[node].box;
-  for (VertexId v = 0; v < refiner.vertex_count(); ++v) {
-    if (box[refiner.region_of(v)]->holds(refiner.positions()[v])) continue;
-    return bad(fmt::format("a vertex of level {} is outside of the box of its region", level));
+  const Connectivity& faces = refiner.connectivity();
+  for (Corner c = 0; c < 3 * faces.face_count(); ++c) {
+    if (!faces.is_real(c / 3)) continue;
+    const LatticeBox& around = *box[refiner.region_of(faces.vertex(c))];
+    for (const Corner each : {c, next(c), prev(c)}) {
+      if (around.holds(refiner.positions()[faces.vertex(each)])) continue;
+      return bad(fmt::format("a face of level {} is outside of the box of its region", level));
+    }
   }
   return {};
 }

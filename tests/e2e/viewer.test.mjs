@@ -149,6 +149,9 @@ test("is drawn whatever display the page gives the element", async () => {
     assert.equal(width, 400, display);
     assert.ok(height > 250, `${display}: ${height}`);
   }
+  await viewer.page.addStyleTag({ content: "progressive-mesh { display: inline-block; width: auto }" });
+  const { width } = await viewer.page.locator("progressive-mesh canvas").boundingBox();
+  assert.ok(width >= 280, `without a width: ${width}`);
   await viewer.page.context().close();
 });
 

@@ -20,8 +20,9 @@ void compare(Report& report, const Model& model, const RateCurve& peer) {
   for (const Level& level : decode_levels(build(model.file, kBits))) {
     const double share = static_cast<double>(level.mesh.faces.size()) / all;
     if (share < kCoarsest || share > kFinest) continue;
-    const auto ours = static_cast<double>(level.bytes);
-    const double theirs = peer.bytes_at(rms_percent(level.mesh, model.clean));
+    const auto peer_bytes = peer.bytes_at(rms_percent(level.mesh, model.clean));
+    if (!peer_bytes) continue;
+    const double ours = static_cast<double>(level.bytes), theirs = *peer_bytes;
     char name[64];
     std::snprintf(name, sizeof name, "rate.%s.%04.1f%%", model.name.c_str(), 100 * share);
     report.add(

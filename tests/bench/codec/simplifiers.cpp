@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <string>
+#include <utility>
 
 #include "level_errors.h"
 #include "peer_simplifiers.h"

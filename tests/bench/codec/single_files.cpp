@@ -49,9 +49,8 @@ RateCurve::RateCurve(std::vector<RatePoint> points) {
   if (points_.size() < kFewestPoints) throw std::runtime_error("the single files are too alike");
 }
 
-double RateCurve::bytes_at(double error) const {
-  if (error > points_.front().error || error < points_.back().error)
-    throw std::runtime_error("no single file is as coarse or as fine as the level");
+std::optional<double> RateCurve::bytes_at(double error) const {
+  if (error > points_.front().error || error < points_.back().error) return {};
   std::size_t i = 1;
   while (i + 1 < points_.size() && points_[i].error > error)
     ++i;

@@ -3,6 +3,7 @@
 // meshoptimizer with updated positions and coded by Draco at the best number of bits.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "codec/mesh/triangle_mesh.h"
@@ -19,11 +20,11 @@ double rms_percent(const TriangleMesh& mesh, const TriangleMesh& original);
 
 class RateCurve {
  public:
-  // Keeps the points that no other one beats in both figures; needs two of them.
+  // Keeps the points that no other one beats in both figures; needs twelve of them.
   explicit RateCurve(std::vector<RatePoint> points);
 
-  // Bytes at `error`, log-log between two points, along the outermost pair beyond them.
-  double bytes_at(double error) const;
+  // Bytes at `error`, log-log between two points; none beyond them.
+  std::optional<double> bytes_at(double error) const;
 
  private:
   std::vector<RatePoint> points_;  // bytes ascend, errors descend

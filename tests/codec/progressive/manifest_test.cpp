@@ -234,6 +234,7 @@ TEST(Manifest, RefusesWhatCannotBe) {
   contains(refusal([](Manifest& m) { m.unit = "a unit with a long name"; }), "unit");
   contains(refusal([](Manifest& m) { m.lattice.bits = 17; }), "bits");
   contains(refusal([](Manifest& m) { m.lattice.step = 0; }), "transform");
+  contains(refusal([](Manifest& m) { m.lattice.step = 1e30; }), "transform");
 }
 
 TEST(Manifest, RefusesATreeWhoseChildForksBeforeItsParent) {

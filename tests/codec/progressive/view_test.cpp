@@ -203,6 +203,7 @@ TEST(View, ImpossibleCamerasAreTold) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(bad([&](View& v) { v.camera[5] = nan; }));
+  EXPECT_TRUE(bad([](View& v) { v.camera[8] = v.camera[9] = v.camera[10] = 0; }));
   EXPECT_TRUE(bad([](View& v) { v.field_of_view = 180; }));
   EXPECT_TRUE(bad([](View& v) { v.height = 0; }));
   EXPECT_TRUE(bad([](View& v) { v.pixel_error = 0; }));
