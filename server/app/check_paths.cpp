@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "server/store/atomic_file.h"
+#include "codec/files/atomic_file.h"
 #include "server/store/installation.h"
 
 namespace vitrine {

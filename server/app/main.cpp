@@ -2,8 +2,8 @@
 #include <string_view>
 #include <vector>
 
+#include "codec/files/file_descriptor.h"
 #include "server/app/daemon.h"
-#include "server/store/file_descriptor.h"
 
 extern char** environ;
 

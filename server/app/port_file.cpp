@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "server/store/atomic_file.h"
+#include "codec/files/atomic_file.h"
 
 namespace vitrine {
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "codec/files/atomic_file.h"
 #include "server/cli/command.h"
 #include "server/cli/companion_files.h"
 #include "server/cli/console.h"
@@ -17,7 +18,6 @@
 #include "server/cli/reading.h"
 #include "server/jobs/build_model.h"
 #include "server/report/build_report.h"
-#include "server/store/atomic_file.h"
 
 namespace vitrine::cli {
 namespace {

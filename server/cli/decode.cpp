@@ -4,12 +4,12 @@
 #include <filesystem>
 
 #include "codec/export/write_mesh.h"
+#include "codec/files/atomic_file.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
 #include "server/jobs/open_model.h"
-#include "server/store/atomic_file.h"
 
 namespace vitrine::cli {
 namespace {

@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "codec/files/file_descriptor.h"
 #include "codec/progressive/manifest.h"
-#include "server/store/file_descriptor.h"
 
 namespace vitrine::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
+#include "codec/files/file_descriptor.h"
 #include "server/cli/command.h"
-#include "server/store/file_descriptor.h"
 
 int main(int argc, char** argv) {
   vitrine::keep_standard_streams();

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "codec/files/atomic_file.h"
 #include "server/cli/command.h"
 #include "server/cli/companion_files.h"
 #include "server/cli/console.h"
@@ -13,7 +14,6 @@
 #include "server/cli/reading.h"
 #include "server/jobs/build_model.h"
 #include "server/jobs/verify_model.h"
-#include "server/store/atomic_file.h"
 #include "server/store/installation.h"
 
 namespace vitrine::cli {

@@ -21,8 +21,8 @@
 #include <string>
 #include <thread>
 
+#include "codec/files/file_descriptor.h"
 #include "server/jobs/page_ranges.h"
-#include "server/store/file_descriptor.h"
 
 namespace vitrine {
 namespace {

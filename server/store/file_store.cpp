@@ -9,8 +9,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "server/store/atomic_file.h"
-#include "server/store/file_descriptor.h"
+#include "codec/files/atomic_file.h"
+#include "codec/files/file_descriptor.h"
 
 namespace vitrine {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store/installation.h"
 
+#include "codec/files/atomic_file.h"
 #include "server/catalogue/sqlite_catalogue.h"
-#include "server/store/atomic_file.h"
 #include "server/store/file_store.h"
 
 namespace vitrine {

@@ -146,7 +146,8 @@ def normal(name):
     """Library names as the table spells them."""
     return {"Threads::Threads": "threads", "nlohmann_json::nlohmann_json": "nlohmann-json", "OpenMeshCore": "OpenMesh",
             "OpenMeshTools": "OpenMesh", "SQLite::SQLite3": "SQLite", "${VITRINE_SECCOMP}": "seccomp",
-            "${VITRINE_TURBOJPEG}": "TurboJPEG"}.get(name, name)
+            "${VITRINE_TURBOJPEG}": "TurboJPEG", "PkgConfig::aravis": "Aravis", "PkgConfig::libusb": "libusb",
+            "PkgConfig::umockdev": "umockdev"}.get(name, name)
 
 
 def includes(root, table, reached):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/store/atomic_file.h"
+#include "codec/files/atomic_file.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <random>
 
-#include "server/store/file_descriptor.h"
+#include "codec/files/file_descriptor.h"
 
 namespace vitrine {
 namespace {

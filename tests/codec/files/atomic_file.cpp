@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/store/atomic_file.h"
+#include "codec/files/atomic_file.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

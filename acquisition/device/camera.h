@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A monochrome camera that takes one picture at a time on request.
+#pragma once
+
+#include <string>
+
+#include "acquisition/frame/frame.h"
+#include "codec/core/expected.h"
+
+namespace vitrine {
+
+struct CameraIdentity {
+  std::string vendor, model, serial;
+};
+
+struct CameraSettings {
+  double exposure_us = 5000;  // > 0
+  double gain_db = 0;
+  SensorRegion region;  // width or height 0: the whole sensor
+
+  bool operator==(const CameraSettings&) const = default;
+};
+
+// Owned and called by one thread. An error of any call (kIo) means that the camera is to be closed
+// (by destroying this) and opened anew by its serial; errors name the camera and what to check.
+class Camera {
+ public:
+  virtual ~Camera() = default;
+
+  virtual const CameraIdentity& identity() const = 0;
+  // The region that is read, never empty.
+  virtual SensorRegion region() const = 0;
+
+  // Fails with kBadInput where the camera cannot do that, naming its limits.
+  virtual Expected<void> configure(const CameraSettings& settings) = 0;
+
+  // One software trigger, one frame of region()'s size, exposed wholly after the call began. A
+  // frame that is incomplete or does not come within the exposure plus 500 ms is asked for anew,
+  // three times in all.
+  virtual Expected<Frame> capture() = 0;
+};
+
+}  // namespace vitrine

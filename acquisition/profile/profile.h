@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one position of the table shows: points where the laser plane cuts the object.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "acquisition/calibration/axis.h"
+#include "codec/core/vec.h"
+
+namespace vitrine {
+
+enum PointFlag : std::uint8_t {
+  kSaturated = 1,  // the stripe's peak is at the end of the camera's range
+  kDouble = 2,     // another peak in the row is about as strong
+  kFilled = 4,     // no measurement: between two ends of a gap
+};
+
+struct ProfilePoint {
+  TablePoint at;
+  int row = 0;  // of the image, ascending within a profile
+  std::uint8_t flags = 0;
+};
+
+struct Profile {
+  double theta = 0;  // degrees, of the table, in [0, 360)
+  std::vector<ProfilePoint> points;
+};
+
+// In the frame of the object: z along the axis, mm. The table turned the object by theta, so that a
+// point is turned back by it.
+Vec3 position(const Profile& profile, const ProfilePoint& point);
+
+}  // namespace vitrine
