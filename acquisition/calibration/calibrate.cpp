@@ -27,17 +27,20 @@ std::string now() {
                      utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
 }
 
+bool is_of_target(const TargetView& view, const Target& target) {
+  const int corners = (target.squares_x - 1) * (target.squares_y - 1);
+  const auto known = [&](int id) { return id >= 0 && id < corners; };
+  return view.ids.size() >= 6 && view.ids.size() == view.corners.size() &&
+         std::ranges::all_of(view.ids, known);
+}
+
 Expected<void> check_input(const CalibrationInput& input) {
   if (auto ok = check_target(input.target); !ok) return ok;
-  const int corners = (input.target.squares_x - 1) * (input.target.squares_y - 1);
   for (const TargetPicture& picture : input.pictures) {
-    const auto known = [&](int id) { return id >= 0 && id < corners; };
-    if (picture.view.ids.size() < 6 || picture.view.ids.size() != picture.view.corners.size() ||
-        !std::ranges::all_of(picture.view.ids, known) || !std::isfinite(picture.angle)) {
-      return fail(ErrorCode::kBadInput,
-                  "a picture holds corners that the target does not have; find them with the "
-                  "target that is stated");
-    }
+    if (is_of_target(picture.view, input.target) && std::isfinite(picture.angle)) continue;
+    return fail(ErrorCode::kBadInput,
+                "a picture holds corners that the target does not have; find them with the target "
+                "that is stated");
   }
   return {};
 }

@@ -109,6 +109,7 @@ std::vector<cv::Vec3d> rays(const CameraModel& camera, std::span<const Pixel> pi
                       cv::noArray(),
                       cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-10));
   std::vector<cv::Vec3d> directions;
+  directions.reserve(straight.size());
   for (const cv::Point2d& p : straight)
     directions.push_back(cv::normalize(cv::Vec3d(p.x, p.y, 1)));
   return directions;

@@ -40,6 +40,7 @@ std::vector<Correspondence> sheet_points(std::span<const StripePoint> stripe,
     return cv::Rect2f(left.x, top.y, right.x - left.x, bottom.y - top.y);
   }();
   std::vector<Pixel> pixels;
+  pixels.reserve(hull.size() + (kGrid + 1) * (kGrid + 1));
   for (const cv::Point2f& corner : hull)
     pixels.push_back({corner.x, corner.y});
   for (int i = 0; i <= kGrid; ++i) {

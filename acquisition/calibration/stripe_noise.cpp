@@ -23,7 +23,7 @@ double stripe_noise(std::span<const StripePoint> stripe, const PlaneMap& map) {
   for (const auto& [pose, points] : poses) {
     if (points.size() < kLeastPoints) continue;
     cv::Vec4f line;  // direction, point
-    cv::fitLine(points, line, cv::DIST_HUBER, 0, 0.001, 0.001);
+    cv::fitLine(points, line, cv::DIST_L1, 0, 0.001, 0.001);
     if (std::abs(line[1]) < 0.1f) continue;  // a line that lies down: x tells nothing
     for (const cv::Point2f& p : points)
       deviations.push_back(std::abs(p.x - line[2] - (p.y - line[3]) * line[0] / line[1]));

@@ -118,7 +118,8 @@ Expected<void> check_target(const Target& t) {
 
 Pixel corner_on(const Target& t, int id) {
   const int columns = t.squares_x - 1;
-  return {(id % columns + 1) * t.square_mm, (id / columns + 1) * t.square_mm};
+  const int column = id % columns + 1, row = id / columns + 1;
+  return {column * t.square_mm, row * t.square_mm};
 }
 
 Expected<TargetView> find_target(const Frame& frame, const Target& t) {
