@@ -82,5 +82,30 @@ TEST_F(AtomicFile, a_missing_folder_is_named_with_the_next_step) {
   EXPECT_NE(result.error().message.find("create the folder"), std::string::npos);
 }
 
+TEST_F(AtomicFile, that_is_created_never_replaces_another) {
+  const fs::path path = folder_.path() / "out";
+  const auto first = create_file_atomically(path, Bytes{1, 2, 3});
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_TRUE(*first);
+  const auto second = create_file_atomically(path, Bytes{4});
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_FALSE(*second);
+  EXPECT_EQ(contents(path), (Bytes{1, 2, 3}));
+  EXPECT_EQ(files(), 1);
+  using fs::perms;
+  EXPECT_EQ(fs::status(path).permissions() & (perms::owner_write | perms::others_write),
+            perms::none);
+}
+
+TEST_F(AtomicFile, that_cannot_be_created_is_absent) {
+  const fs::path path = folder_.path() / "out";
+  {
+    const SmallDisk disk(1'000);
+    EXPECT_FALSE(create_file_atomically(path, Bytes(5'000)));
+  }
+  EXPECT_EQ(files(), 0);
+  EXPECT_FALSE(create_file_atomically(folder_.path() / "absent" / "out", Bytes{1}));
+}
+
 }  // namespace
 }  // namespace vitrine
