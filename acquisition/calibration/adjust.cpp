@@ -210,10 +210,12 @@ void adjust(Scene& scene, std::span<const SeenTarget> seen, Adjust what) {
 double misfit(const Scene& scene, const SeenTarget& seen, std::size_t picture) {
   const Part part{scene.camera, scene.axis, scene.placements[seen.placement], scene.slips[picture]};
   const std::vector<cv::Point2d> image = project(part, seen);
-  double sum = 0;
+  std::vector<double> distances;
   for (std::size_t i = 0; i < image.size(); ++i)
-    sum += (image[i] - seen.in_image[i]).dot(image[i] - seen.in_image[i]);
-  return std::sqrt(sum / static_cast<double>(image.size()));
+    distances.push_back(cv::norm(image[i] - seen.in_image[i]));
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::ranges::nth_element(distances, middle);
+  return *middle;
 }
 
 }  // namespace vitrine

@@ -31,7 +31,7 @@ struct Coverage {
 struct CalibrationReport {
   int pictures = 0;
   std::size_t points = 0;     // of the stripe on the target
-  double reprojection = 0;    // pixels, rms of the target's corners; 0 without pictures
+  double reprojection = 0;    // pixels that the target's corners are off; 0 without pictures
   double table_error = 0;     // degrees, rms of the table's angles against the pictures
   ResidualSummary residuals;  // as the calibration has them
   Coverage coverage;

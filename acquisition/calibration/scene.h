@@ -50,7 +50,7 @@ enum class Adjust {
 // off. Needs a scene that is roughly right.
 void adjust(Scene& scene, std::span<const SeenTarget> seen, Adjust what);
 
-// Root mean square in pixels, of one picture.
+// Pixels between corners as seen and as the scene predicts them: the median of one picture.
 double misfit(const Scene& scene, const SeenTarget& seen, std::size_t picture);
 
 // Fails (kBadInput) where the pictures do not determine the scene or contradict each other.

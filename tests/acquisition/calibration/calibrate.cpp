@@ -100,8 +100,8 @@ TEST(Calibrate, BearsCornersAndStripePointsThatAreFarOff) {
   const SyntheticScanner scanner;
   CalibrationInput input = scanner.pictures(3, 7, {});
   for (TargetPicture& picture : input.pictures) {
-    for (std::size_t i = 0; i < picture.view.corners.size(); i += 29)
-      picture.view.corners[i].u += 2;
+    for (std::size_t i = 0; i < picture.view.corners.size(); i += 11)
+      picture.view.corners[i].u += 10;
     for (std::size_t i = 0; i < picture.stripe.size(); i += 5)
       picture.stripe[i].u += 40;
   }
@@ -124,7 +124,7 @@ TEST(Calibrate, ReportsWhatHeldOutPosesSay) {
   EXPECT_LT(c.residuals.rms, 0.03);
   EXPECT_LE(c.residuals.rms, c.residuals.p95);
   EXPECT_LT(c.residuals.p95, c.residuals.max);
-  EXPECT_NEAR(report.reprojection, 0.05 * std::sqrt(2), 0.01);
+  EXPECT_NEAR(report.reprojection, 0.05 * std::sqrt(2 * std::log(2)), 0.01);
   EXPECT_NEAR(report.table_error, 0.05, 0.02);
   EXPECT_GT(report.coverage.image_share, 0.15);
   EXPECT_LT(report.coverage.image_share, 1);
@@ -148,6 +148,14 @@ TEST(Calibrate, JudgesPosesThatItWasNotFittedTo) {
     if (p.size() > 0.1) off.insert(p.pose);
   }
   EXPECT_EQ(off.size(), 1u);
+}
+
+TEST(Calibrate, HoldsAroundWhatTheStripeWasSeenInToo) {
+  const CalibrationInput input = SyntheticScanner().pictures(2, 5, {});
+  const auto without = calibrate(input, {.margin = 0}), with = calibrate(input, {.margin = 20});
+  ASSERT_TRUE(without && with);
+  EXPECT_GT(with->report.coverage.image_share, without->report.coverage.image_share + 0.01);
+  EXPECT_LT(error_of(SyntheticScanner(), with->calibration).radial, 0.02);
 }
 
 TEST(Calibrate, WritesItsReportAsJsonAndAsAPicture) {
