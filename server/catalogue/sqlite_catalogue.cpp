@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "server/catalogue/migrations.h"
 #include "server/catalogue/sqlite.h"
 
 namespace vitrine {
@@ -15,47 +16,9 @@ using sqlite::Database;
 using sqlite::Statement;
 using sqlite::Transaction;
 
-// Migration i leads from schema version i to i + 1. Never edit one that has been released.
-constexpr const char* kMigrations[] = {
-    R"sql(
-CREATE TABLE model (
-  id BLOB PRIMARY KEY, state INTEGER NOT NULL, created INTEGER NOT NULL,
-  title TEXT NOT NULL, creator TEXT NOT NULL, rights TEXT NOT NULL, licence TEXT NOT NULL,
-  unit TEXT NOT NULL, file BLOB NOT NULL, file_bytes INTEGER NOT NULL,
-  head_bytes INTEGER NOT NULL, faces INTEGER NOT NULL, vertices INTEGER NOT NULL
-) WITHOUT ROWID;
-CREATE TABLE chunk (
-  sha256 BLOB NOT NULL, model BLOB NOT NULL REFERENCES model(id) ON DELETE CASCADE,
-  offset INTEGER NOT NULL, length INTEGER NOT NULL,
-  PRIMARY KEY (sha256, model)
-) WITHOUT ROWID;
-CREATE INDEX chunk_of_model ON chunk(model);
-)sql",
-};
-constexpr std::int64_t kSchemaVersion = std::size(kMigrations);
-
 constexpr std::string_view kColumns =
     "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
     "faces, vertices";
-
-// Returns the version found where that is newer than ours, else ours.
-std::int64_t migrate(Database& database) {
-  Transaction transaction(database);
-  database.run(
-      "CREATE TABLE IF NOT EXISTS migration (version INTEGER PRIMARY KEY, "
-      "applied TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP)");
-  Statement newest(database, "SELECT coalesce(max(version), 0) FROM migration");
-  newest.step();
-  const std::int64_t found = newest.integer(0);
-  newest.reset();
-  Statement record(database, "INSERT INTO migration(version) VALUES (?)");
-  for (std::int64_t version = found; version < kSchemaVersion; ++version) {
-    database.run(kMigrations[version]);
-    record.reset().bind(version + 1).step();
-  }
-  transaction.commit();
-  return std::max(found, kSchemaVersion);
-}
 
 ModelRecord read_model(const Statement& row) {
   ModelRecord model;
@@ -100,13 +63,6 @@ std::vector<std::string> patterns(std::string_view text) {
   if (!word.empty()) words.push_back('%' + word + '%');
   words.resize(std::min(words.size(), kMaxWords));
   return words;
-}
-
-Unexpected refused(const std::string& what, const sqlite::Failure& failure) {
-  return fail(ErrorCode::kIo,
-              fmt::format("{}: {}; {}", what, failure.what(),
-                          failure.disk_full ? "free some space or choose another data folder"
-                                            : "check the data folder"));
 }
 
 class SqliteCatalogue final : public Catalogue {
@@ -214,7 +170,7 @@ class SqliteCatalogue final : public Catalogue {
     try {
       return action();
     } catch (const sqlite::Failure& failure) {
-      return refused("the catalogue refuses", failure);
+      return sqlite::refused("the catalogue refuses", failure);
     }
   }
 
@@ -254,18 +210,9 @@ class SqliteCatalogue final : public Catalogue {
 }  // namespace
 
 Expected<std::unique_ptr<Catalogue>> open_sqlite_catalogue(const std::filesystem::path& file) {
-  try {
-    Database database(file.string());
-    database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
-    if (migrate(database) > kSchemaVersion) {
-      return fail(ErrorCode::kUnsupported,
-                  fmt::format("{} was written by a newer version of Vitrine; install that version",
-                              file.string()));
-    }
-    return std::make_unique<SqliteCatalogue>(std::move(database));
-  } catch (const sqlite::Failure& failure) {
-    return refused("cannot open the catalogue " + file.string(), failure);
-  }
+  auto database = sqlite::open_database(file);
+  if (!database) return Unexpected(database.error());
+  return std::make_unique<SqliteCatalogue>(std::move(*database));
 }
 
 }  // namespace vitrine
