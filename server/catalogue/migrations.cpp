@@ -40,6 +40,14 @@ CREATE TABLE idempotency (
   key TEXT PRIMARY KEY, request BLOB NOT NULL, job BLOB NOT NULL REFERENCES job(id)
 ) WITHOUT ROWID;
 )sql",
+    R"sql(
+CREATE TABLE token (
+  id BLOB PRIMARY KEY, role INTEGER NOT NULL, hash BLOB NOT NULL UNIQUE, label TEXT NOT NULL,
+  created INTEGER NOT NULL, revoked INTEGER,
+  prefix BLOB NOT NULL GENERATED ALWAYS AS (substr(hash, 1, 4)) VIRTUAL
+) WITHOUT ROWID;
+CREATE INDEX token_by_prefix ON token(prefix);
+)sql",
 };
 constexpr std::int64_t kSchemaVersion = std::size(kMigrations);
 

@@ -49,6 +49,14 @@ void bind_model(Statement& row, const ModelRecord& m) {
   row.bind(number(m.faces)).bind(number(m.vertices));
 }
 
+TokenRecord read_token(const Statement& row) {
+  return {.id = ModelId::from_bytes(row.blob<16>(0)),
+          .role = static_cast<Role>(row.integer(1)),
+          .hash = row.blob<32>(2),
+          .label = row.text(3),
+          .created = row.integer(4)};
+}
+
 // Words become patterns of LIKE in which the user's own % and _ mean themselves.
 std::vector<std::string> patterns(std::string_view text) {
   constexpr std::size_t kMaxWords = 8;
@@ -82,6 +90,15 @@ class SqliteCatalogue final : public Catalogue {
         find_chunk_(database_,
                     "SELECT model, offset, length FROM chunk JOIN model ON model.id = chunk.model "
                     "WHERE sha256 = ? AND state = 1 LIMIT 1"),
+        insert_token_(database_,
+                      "INSERT OR IGNORE INTO token(id, role, hash, label, created) "
+                      "VALUES (?,?,?,?,?) RETURNING 1"),
+        tokens_like_(database_,
+                     "SELECT id, role, hash, label, created FROM token "
+                     "WHERE prefix = ? AND revoked IS NULL"),
+        revoke_token_(database_,
+                      "UPDATE token SET revoked = unixepoch() * 1000 "
+                      "WHERE id = ? AND revoked IS NULL RETURNING 1"),
         data_version_(database_, "PRAGMA data_version") {}
 
   Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
@@ -107,10 +124,7 @@ class SqliteCatalogue final : public Catalogue {
   Expected<void> set_state(const ModelId& id, ModelState state) override {
     return guarded<void>([&]() -> Expected<void> {
       update_state_.reset().bind(id.bytes()).bind(static_cast<std::int64_t>(state));
-      bool found = false;
-      while (update_state_.step())
-        found = true;
-      if (!found) {
+      if (!changes(update_state_)) {
         return fail(ErrorCode::kState,
                     fmt::format("there is no model {}; list the models", id.to_string()));
       }
@@ -153,6 +167,38 @@ class SqliteCatalogue final : public Catalogue {
     });
   }
 
+  Expected<void> add_token(const TokenRecord& token) override {
+    return guarded<void>([&]() -> Expected<void> {
+      insert_token_.reset().bind(token.id.bytes()).bind(static_cast<std::int64_t>(token.role));
+      insert_token_.bind(token.hash).bind(token.label).bind(token.created);
+      if (!changes(insert_token_)) {
+        return fail(ErrorCode::kState,
+                    fmt::format("token {} exists; create another", token.id.to_string()));
+      }
+      return {};
+    });
+  }
+
+  Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
+    return guarded<std::vector<TokenRecord>>([&]() -> Expected<std::vector<TokenRecord>> {
+      tokens_like_.reset().bind(std::span(hash).first<4>());
+      std::vector<TokenRecord> tokens;
+      while (tokens_like_.step())
+        tokens.push_back(read_token(tokens_like_));
+      return tokens;
+    });
+  }
+
+  Expected<void> revoke_token(const ModelId& id) override {
+    return guarded<void>([&]() -> Expected<void> {
+      if (!changes(revoke_token_.reset().bind(id.bytes()))) {
+        return fail(ErrorCode::kState,
+                    fmt::format("there is no token {} in force; check the id", id.to_string()));
+      }
+      return {};
+    });
+  }
+
   Expected<std::uint64_t> revision() override {
     return guarded<std::uint64_t>([&]() -> Expected<std::uint64_t> {
       data_version_.reset().step();
@@ -172,6 +218,14 @@ class SqliteCatalogue final : public Catalogue {
     } catch (const sqlite::Failure& failure) {
       return sqlite::refused("the catalogue refuses", failure);
     }
+  }
+
+  // Runs a statement that returns a row for each that it changed: whether there was one.
+  static bool changes(Statement& statement) {
+    bool changed = false;
+    while (statement.step())
+      changed = true;
+    return changed;
   }
 
   ModelPage search_locked(const ModelQuery& query) {
@@ -203,7 +257,7 @@ class SqliteCatalogue final : public Catalogue {
   std::mutex mutex_;
   Database database_;
   Statement insert_model_, insert_chunk_, update_state_, find_model_, find_same_, find_chunk_,
-      data_version_;
+      insert_token_, tokens_like_, revoke_token_, data_version_;
   std::uint64_t own_changes_ = 0;  // `PRAGMA data_version` counts the changes of others only
 };
 

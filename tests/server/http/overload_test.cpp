@@ -22,7 +22,7 @@ Response wait_for_the_test(const Request&, Services&) {
   return {};
 }
 
-constexpr Route kRoutes[] = {{"/slow", wait_for_the_test, Place::kExport}};
+constexpr Route kRoutes[] = {{Method::kGet, "/slow", wait_for_the_test, Place::kExport}};
 
 // A server with one seat for exports.
 class Server {
@@ -46,9 +46,10 @@ class Server {
   ExportCache exports_{0};
   WebPages pages_{{}};
   Metrics metrics_{std::vector<std::string_view>{"/slow"}};
+  Authenticator tokens_{*installation_.catalogue};
   Log log_ = Log::open("").value();
   Services services_{
-      *installation_.catalogue, models_, exports_, pages_, metrics_, log_, log_, true};
+      *installation_.catalogue, tokens_, models_, exports_, pages_, metrics_, log_, log_, true};
   asio::io_context io_;
   Workers workers_{2, 1};
   HttpServer server_{io_, services_, workers_, {.routes = kRoutes, .max_connections = 8}};
