@@ -12,14 +12,14 @@ namespace {
 
 using beast::http::field;
 
-tl::unexpected<Response> unauthorised(std::string_view detail, std::string_view challenge,
-                                      std::string_view request_id) {
+Response unauthorised(std::string_view detail, std::string_view challenge,
+                      std::string_view request_id) {
   Response response = problem(401, detail, request_id);
   response.fields = {{"WWW-Authenticate", std::string(challenge)}};
-  return tl::unexpected(std::move(response));
+  return response;
 }
 
-tl::unexpected<Response> unknown_token(const Credentials& credentials, Services& services) {
+Response unknown_token(const Credentials& credentials, Services& services) {
   services.metrics.unknown_tokens.fetch_add(1, std::memory_order_relaxed);
   const auto wait = services.tokens.throttle().failed(credentials.remote);
   if (wait.count() == 0) {
@@ -28,7 +28,7 @@ tl::unexpected<Response> unknown_token(const Credentials& credentials, Services&
   }
   Response response = problem(429, "too many unknown tokens; wait", credentials.request_id);
   response.fields = {{"Retry-After", fmt::format("{}", wait.count())}};
-  return tl::unexpected(std::move(response));
+  return response;
 }
 
 // The token of "Bearer TOKEN", empty where the field is anything else.
@@ -50,26 +50,22 @@ bool needs_authorisation(const Route& route, const RequestHeader& header) {
   return route.place != Place::kInline && header.count(field::authorization) > 0;
 }
 
-tl::expected<std::optional<Caller>, Response> authorise(const Route& route,
-                                                        const Credentials& credentials,
-                                                        Services& services) {
+Authorisation authorise(const Route& route, const Credentials& credentials, Services& services) {
   const std::string_view id = credentials.request_id;
   if (credentials.header.count(field::authorization) == 0) {
-    if (route.role == Role::kNone) return std::nullopt;
-    return unauthorised("send a token: Authorization: Bearer TOKEN", "Bearer", id);
+    if (route.role == Role::kNone) return {};
+    return {{}, unauthorised("send a token: Authorization: Bearer TOKEN", "Bearer", id)};
   }
   const auto caller = services.tokens.find(bearer_token(credentials.header));
   if (!caller) {
     services.errors.event(Severity::kError,
                           fmt::format("request {}: {}", id, caller.error().message));
-    return tl::unexpected(problem(500, "", id));
+    return {{}, problem(500, "", id)};
   }
-  if (!*caller) return unknown_token(credentials, services);
-  if ((*caller)->role < route.role) {
-    return tl::unexpected(
-        problem(403, fmt::format("this needs a token with the role {}", name_of(route.role)), id));
-  }
-  return *caller;
+  if (!*caller) return {{}, unknown_token(credentials, services)};
+  if ((*caller)->role >= route.role) return {*caller, {}};
+  const auto detail = fmt::format("this needs a token with the role {}", name_of(route.role));
+  return {*caller, problem(403, detail, id)};
 }
 
 }  // namespace vitrine

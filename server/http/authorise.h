@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <tl/expected.hpp>
 
 #include "server/http/router.h"
 
@@ -19,10 +18,11 @@ struct Credentials {
 // Whether `authorise` has anything to find out: it waits for the catalogue.
 bool needs_authorisation(const Route& route, const RequestHeader& header);
 
-// The caller, nobody for a public route without a token; or the answer: 401 without a token in
-// force, 403 where its role does not suffice, 429 where the address has tried too many wrong ones.
-tl::expected<std::optional<Caller>, Response> authorise(const Route& route,
-                                                        const Credentials& credentials,
-                                                        Services& services);
+struct Authorisation {
+  std::optional<Caller> caller;     // nobody for a public route without a token
+  std::optional<Response> refusal;  // 401 without a token in force, 403 where its role does not
+                                    // suffice, 429 where the address has tried too many wrong ones
+};
+Authorisation authorise(const Route& route, const Credentials& credentials, Services& services);
 
 }  // namespace vitrine

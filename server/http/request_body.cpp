@@ -46,6 +46,8 @@ tl::expected<Json, BodyFault> parse_body(std::string_view media_type, std::strin
   if (text.size() > kMaxRequestBody) return tl::unexpected(BodyFault{413, "the body is too large"});
   if (!is_json(media_type))
     return tl::unexpected(BodyFault{415, "send the body as application/json"});
+  // The library would take this byte for the end.
+  if (text.find('\0') != text.npos) return tl::unexpected(BodyFault{400, "the body is not JSON"});
   Watch watch;
   Json json = Json::parse(text, std::ref(watch), /*allow_exceptions=*/false);
   if (watch.too_deep()) return tl::unexpected(BodyFault{400, "the body is nested too deep"});

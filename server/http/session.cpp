@@ -262,17 +262,14 @@ class Session {
   }
 
   asio::awaitable<bool> authorise_caller(const Parser::value_type& message, Exchange& exchange) {
-    tl::expected<std::optional<Caller>, Response> authorised;
+    Authorisation found;
     const Credentials credentials{message, connection_->remote, exchange.id};
     co_await on_worker(Place::kWorker, text(message.target()), [&] {
-      authorised = authorise(*exchange.route, credentials, server_.services());
+      found = authorise(*exchange.route, credentials, server_.services());
     });
-    if (authorised) {
-      exchange.caller = *authorised;
-    } else {
-      exchange.response = std::move(authorised.error());
-    }
-    co_return authorised.has_value();
+    exchange.caller = found.caller;
+    if (found.refusal) exchange.response = std::move(*found.refusal);
+    co_return !found.refusal;
   }
 
   asio::awaitable<void> handle(const Request& request, Exchange& exchange) {

@@ -85,7 +85,7 @@ TEST_F(AuthoriseTest, WhatIsNoBearerTokenIsNobodys) {
   const std::string text = good.substr(22, 47);
   for (const std::string& field :
        {"Authorization: Basic " + text + "\r\n", "Authorization: " + text + "\r\n", good + good,
-        "Authorization: Bearer\r\n", "Authorization: Bearer " + text + "A\r\n",
+        std::string("Authorization: Bearer\r\n"), "Authorization: Bearer " + text + "A\r\n",
         "Authorization: Bearer  " + text + "\r\n", "Authorization: Bearer x" + text + "\r\n"}) {
     EXPECT_EQ(get("/viewer", field).status, 401) << field;
   }
