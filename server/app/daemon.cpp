@@ -51,8 +51,15 @@ class Daemon {
         exports_(settings.export_cache_bytes),
         pages_(web_assets()),
         metrics_(Router(public_routes()).templates()),
-        services_{
-            *installation_.catalogue, models_, exports_, pages_, metrics_, access_log_, events_},
+        tokens_(*installation_.catalogue),
+        services_{*installation_.catalogue,
+                  tokens_,
+                  models_,
+                  exports_,
+                  pages_,
+                  metrics_,
+                  access_log_,
+                  events_},
         connections_(connections_within_limit(settings.max_connections)),
         threads_(settings.threads > 0 ? settings.threads
                                       : std::max(1u, std::thread::hardware_concurrency())),
@@ -163,6 +170,7 @@ class Daemon {
   ExportCache exports_;
   const WebPages pages_;
   Metrics metrics_;
+  Authenticator tokens_;
   Services services_;
   const std::uint32_t connections_;
   const unsigned threads_;

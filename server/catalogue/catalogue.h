@@ -43,6 +43,17 @@ struct ChunkLocation {
   ChunkPlace place;
 };
 
+// What a token may do; each role includes those before it.
+enum class Role : std::uint8_t { kNone = 0, kViewer = 1, kOperator = 2, kAdmin = 3 };
+
+struct TokenRecord {
+  ModelId id;
+  Role role = Role::kNone;
+  Sha256 hash{};             // of the token's text, which is stored nowhere
+  std::string label;         // for people
+  std::int64_t created = 0;  // milliseconds since 1970, UTC
+};
+
 struct ModelQuery {
   std::string text;              // every word occurs in title or creator; empty: all models
   std::optional<ModelId> after;  // the cursor: `next` of the page before
@@ -78,6 +89,16 @@ class Catalogue {
 
   // Where a chunk's bytes lie; published models only.
   virtual Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) = 0;
+
+  // Adds a token. kState where the id or the hash exists.
+  virtual Expected<void> add_token(const TokenRecord& token) = 0;
+
+  // The tokens, none of them revoked, whose hashes start with the same four bytes as `hash`: the
+  // caller compares the rest, in constant time.
+  virtual Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) = 0;
+
+  // Makes a token worthless for good. kState where there is none, or it was revoked before.
+  virtual Expected<void> revoke_token(const ModelId& id) = 0;
 
   // A number that differs once anybody, this process or another, has changed the catalogue. Cheap:
   // what is cached from the catalogue holds as long as it stays.

@@ -72,6 +72,11 @@ Statement& Statement::bind(std::int64_t value) {
   return *this;
 }
 
+Statement& Statement::bind_real(double value) {
+  check(sqlite3_bind_double(handle_.get(), ++bound_, value));
+  return *this;
+}
+
 Statement& Statement::bind(std::string_view text) {
   check(sqlite3_bind_text64(handle_.get(), ++bound_, text.data(), text.size(), SQLITE_TRANSIENT,
                             SQLITE_UTF8));

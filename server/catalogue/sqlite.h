@@ -41,11 +41,17 @@ class Statement {
 
   Statement& reset();
   Statement& bind(std::int64_t value);
+  Statement& bind_real(double value);
+  Statement& bind_null() { return ++bound_, *this; }  // what nothing was bound to is null
   Statement& bind(std::string_view text);
   Statement& bind(std::span<const std::uint8_t> blob);
   bool step();  // true: there is a row
 
   std::int64_t integer(int column) const { return sqlite3_column_int64(handle_.get(), column); }
+  double real(int column) const { return sqlite3_column_double(handle_.get(), column); }
+  bool is_null(int column) const {
+    return sqlite3_column_type(handle_.get(), column) == SQLITE_NULL;
+  }
   std::string text(int column) const;
   template <std::size_t N>
   std::array<std::uint8_t, N> blob(int column) const {

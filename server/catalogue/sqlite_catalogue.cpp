@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "server/catalogue/migrations.h"
 #include "server/catalogue/sqlite.h"
 
 namespace vitrine {
@@ -15,47 +16,9 @@ using sqlite::Database;
 using sqlite::Statement;
 using sqlite::Transaction;
 
-// Migration i leads from schema version i to i + 1. Never edit one that has been released.
-constexpr const char* kMigrations[] = {
-    R"sql(
-CREATE TABLE model (
-  id BLOB PRIMARY KEY, state INTEGER NOT NULL, created INTEGER NOT NULL,
-  title TEXT NOT NULL, creator TEXT NOT NULL, rights TEXT NOT NULL, licence TEXT NOT NULL,
-  unit TEXT NOT NULL, file BLOB NOT NULL, file_bytes INTEGER NOT NULL,
-  head_bytes INTEGER NOT NULL, faces INTEGER NOT NULL, vertices INTEGER NOT NULL
-) WITHOUT ROWID;
-CREATE TABLE chunk (
-  sha256 BLOB NOT NULL, model BLOB NOT NULL REFERENCES model(id) ON DELETE CASCADE,
-  offset INTEGER NOT NULL, length INTEGER NOT NULL,
-  PRIMARY KEY (sha256, model)
-) WITHOUT ROWID;
-CREATE INDEX chunk_of_model ON chunk(model);
-)sql",
-};
-constexpr std::int64_t kSchemaVersion = std::size(kMigrations);
-
 constexpr std::string_view kColumns =
     "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
     "faces, vertices";
-
-// Returns the version found where that is newer than ours, else ours.
-std::int64_t migrate(Database& database) {
-  Transaction transaction(database);
-  database.run(
-      "CREATE TABLE IF NOT EXISTS migration (version INTEGER PRIMARY KEY, "
-      "applied TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP)");
-  Statement newest(database, "SELECT coalesce(max(version), 0) FROM migration");
-  newest.step();
-  const std::int64_t found = newest.integer(0);
-  newest.reset();
-  Statement record(database, "INSERT INTO migration(version) VALUES (?)");
-  for (std::int64_t version = found; version < kSchemaVersion; ++version) {
-    database.run(kMigrations[version]);
-    record.reset().bind(version + 1).step();
-  }
-  transaction.commit();
-  return std::max(found, kSchemaVersion);
-}
 
 ModelRecord read_model(const Statement& row) {
   ModelRecord model;
@@ -86,6 +49,14 @@ void bind_model(Statement& row, const ModelRecord& m) {
   row.bind(number(m.faces)).bind(number(m.vertices));
 }
 
+TokenRecord read_token(const Statement& row) {
+  return {.id = ModelId::from_bytes(row.blob<16>(0)),
+          .role = static_cast<Role>(row.integer(1)),
+          .hash = row.blob<32>(2),
+          .label = row.text(3),
+          .created = row.integer(4)};
+}
+
 // Words become patterns of LIKE in which the user's own % and _ mean themselves.
 std::vector<std::string> patterns(std::string_view text) {
   constexpr std::size_t kMaxWords = 8;
@@ -100,13 +71,6 @@ std::vector<std::string> patterns(std::string_view text) {
   if (!word.empty()) words.push_back('%' + word + '%');
   words.resize(std::min(words.size(), kMaxWords));
   return words;
-}
-
-Unexpected refused(const std::string& what, const sqlite::Failure& failure) {
-  return fail(ErrorCode::kIo,
-              fmt::format("{}: {}; {}", what, failure.what(),
-                          failure.disk_full ? "free some space or choose another data folder"
-                                            : "check the data folder"));
 }
 
 class SqliteCatalogue final : public Catalogue {
@@ -126,6 +90,15 @@ class SqliteCatalogue final : public Catalogue {
         find_chunk_(database_,
                     "SELECT model, offset, length FROM chunk JOIN model ON model.id = chunk.model "
                     "WHERE sha256 = ? AND state = 1 LIMIT 1"),
+        insert_token_(database_,
+                      "INSERT OR IGNORE INTO token(id, role, hash, label, created) "
+                      "VALUES (?,?,?,?,?) RETURNING 1"),
+        tokens_like_(database_,
+                     "SELECT id, role, hash, label, created FROM token "
+                     "WHERE prefix = ? AND revoked IS NULL"),
+        revoke_token_(database_,
+                      "UPDATE token SET revoked = unixepoch() * 1000 "
+                      "WHERE id = ? AND revoked IS NULL RETURNING 1"),
         data_version_(database_, "PRAGMA data_version") {}
 
   Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
@@ -151,10 +124,7 @@ class SqliteCatalogue final : public Catalogue {
   Expected<void> set_state(const ModelId& id, ModelState state) override {
     return guarded<void>([&]() -> Expected<void> {
       update_state_.reset().bind(id.bytes()).bind(static_cast<std::int64_t>(state));
-      bool found = false;
-      while (update_state_.step())
-        found = true;
-      if (!found) {
+      if (!changes(update_state_)) {
         return fail(ErrorCode::kState,
                     fmt::format("there is no model {}; list the models", id.to_string()));
       }
@@ -197,6 +167,38 @@ class SqliteCatalogue final : public Catalogue {
     });
   }
 
+  Expected<void> add_token(const TokenRecord& token) override {
+    return guarded<void>([&]() -> Expected<void> {
+      insert_token_.reset().bind(token.id.bytes()).bind(static_cast<std::int64_t>(token.role));
+      insert_token_.bind(token.hash).bind(token.label).bind(token.created);
+      if (!changes(insert_token_)) {
+        return fail(ErrorCode::kState,
+                    fmt::format("token {} exists; create another", token.id.to_string()));
+      }
+      return {};
+    });
+  }
+
+  Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
+    return guarded<std::vector<TokenRecord>>([&]() -> Expected<std::vector<TokenRecord>> {
+      tokens_like_.reset().bind(std::span(hash).first<4>());
+      std::vector<TokenRecord> tokens;
+      while (tokens_like_.step())
+        tokens.push_back(read_token(tokens_like_));
+      return tokens;
+    });
+  }
+
+  Expected<void> revoke_token(const ModelId& id) override {
+    return guarded<void>([&]() -> Expected<void> {
+      if (!changes(revoke_token_.reset().bind(id.bytes()))) {
+        return fail(ErrorCode::kState,
+                    fmt::format("there is no token {} in force; check the id", id.to_string()));
+      }
+      return {};
+    });
+  }
+
   Expected<std::uint64_t> revision() override {
     return guarded<std::uint64_t>([&]() -> Expected<std::uint64_t> {
       data_version_.reset().step();
@@ -214,8 +216,16 @@ class SqliteCatalogue final : public Catalogue {
     try {
       return action();
     } catch (const sqlite::Failure& failure) {
-      return refused("the catalogue refuses", failure);
+      return sqlite::refused("the catalogue refuses", failure);
     }
+  }
+
+  // Runs a statement that returns a row for each that it changed: whether there was one.
+  static bool changes(Statement& statement) {
+    bool changed = false;
+    while (statement.step())
+      changed = true;
+    return changed;
   }
 
   ModelPage search_locked(const ModelQuery& query) {
@@ -247,25 +257,16 @@ class SqliteCatalogue final : public Catalogue {
   std::mutex mutex_;
   Database database_;
   Statement insert_model_, insert_chunk_, update_state_, find_model_, find_same_, find_chunk_,
-      data_version_;
+      insert_token_, tokens_like_, revoke_token_, data_version_;
   std::uint64_t own_changes_ = 0;  // `PRAGMA data_version` counts the changes of others only
 };
 
 }  // namespace
 
 Expected<std::unique_ptr<Catalogue>> open_sqlite_catalogue(const std::filesystem::path& file) {
-  try {
-    Database database(file.string());
-    database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
-    if (migrate(database) > kSchemaVersion) {
-      return fail(ErrorCode::kUnsupported,
-                  fmt::format("{} was written by a newer version of Vitrine; install that version",
-                              file.string()));
-    }
-    return std::make_unique<SqliteCatalogue>(std::move(database));
-  } catch (const sqlite::Failure& failure) {
-    return refused("cannot open the catalogue " + file.string(), failure);
-  }
+  auto database = sqlite::open_database(file);
+  if (!database) return Unexpected(database.error());
+  return std::make_unique<SqliteCatalogue>(std::move(*database));
 }
 
 }  // namespace vitrine

@@ -18,9 +18,10 @@ struct Connection : std::enable_shared_from_this<Connection> {
   explicit Connection(Tcp::socket s) : socket(std::move(s)) {}
 
   Tcp::socket socket;
-  std::string remote;              // the peer's address
-  bool idle = false;               // between two requests: may be closed without loss
-  bool draining = false;           // the answer under way is the last one
+  std::string remote;       // the peer's address
+  bool idle = false;        // between two requests: may be closed without loss
+  bool reads_body = false;  // is told of its deadline before it is cut: it has an answer to give
+  bool draining = false;    // the answer under way is the last one
   std::function<void()> on_drain;  // how an upgraded connection says goodbye; empty before
 
   // The sweeper closes the socket once this has passed; one store per step is all it costs.

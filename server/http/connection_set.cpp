@@ -14,7 +14,13 @@ void close(Connection& connection) {
 
 // It may have moved on since the sweep saw it.
 void close_if_expired(Connection& connection) {
-  if (connection.expired()) close(connection);
+  if (!connection.expired()) return;
+  boost::system::error_code ignored;
+  if (connection.reads_body) {
+    connection.socket.cancel(ignored);
+  } else {
+    close(connection);
+  }
 }
 
 void end(Connection& connection) {

@@ -40,24 +40,25 @@ Expected<void> check_address(const Endpoint& endpoint) {
 }
 
 Workers::Workers(unsigned threads, std::size_t max_exports)
-    : pool_(threads), exports_(threads), max_exports_(max_exports) {
+    : pool_(threads), exports_(threads), export_seats_(std::make_shared<Seats>(max_exports)) {
   for (std::size_t i = 0; i < kLanes; ++i)
     lanes_.push_back(asio::make_strand(exports_.executor()));
 }
 
 asio::any_io_executor Workers::executor(Place place, std::string_view target) {
+  if (place == Place::kDevice) return devices_.executor();
   if (place != Place::kExport) return pool_.executor();
   return lanes_[std::hash<std::string_view>{}(target) % kLanes];
 }
 
 std::shared_ptr<const void> Workers::reserve(Place place) {
-  if (place != Place::kExport) return exports_taken_;  // bounded by the number of connections
-  if (exports_taken_->fetch_add(1) >= max_exports_) {
-    exports_taken_->fetch_sub(1);
+  if (place == Place::kWorker) return export_seats_;  // bounded by the number of connections
+  const auto& seats = place == Place::kExport ? export_seats_ : device_seats_;
+  if (seats->taken.fetch_add(1) >= seats->capacity) {
+    seats->taken.fetch_sub(1);
     return nullptr;
   }
-  const auto give_back = [taken = exports_taken_](const void*) { taken->fetch_sub(1); };
-  return {exports_taken_.get(), give_back};
+  return {seats.get(), [seats](const void*) { seats->taken.fetch_sub(1); }};
 }
 
 HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& workers,

@@ -34,19 +34,27 @@ class Workers {
   // is done.
   std::shared_ptr<const void> reserve(Place place);
 
-  // Any thread for Place::kWorker; for Place::kExport, equal targets run one after the other.
+  // Any thread for Place::kWorker, one of kDeviceThreads for Place::kDevice; for Place::kExport,
+  // equal targets run one after the other.
   asio::any_io_executor executor(Place place, std::string_view target);
-  void stop() { pool_.stop(), exports_.stop(); }
-  void join() { pool_.join(), exports_.join(); }
+  void stop() { pool_.stop(), exports_.stop(), devices_.stop(); }
+  void join() { pool_.join(), exports_.join(), devices_.join(); }
 
  private:
+  // Tasks that run or wait at a time. Shared with the seats: connections may outlive the workers.
+  struct Seats {
+    explicit Seats(std::size_t n) : capacity(n) {}
+    const std::size_t capacity;
+    std::atomic<std::size_t> taken{0};
+  };
+  static constexpr std::size_t kDeviceThreads = 4, kDeviceSeats = 32;
+
   asio::thread_pool pool_;
   asio::thread_pool exports_;
+  asio::thread_pool devices_{kDeviceThreads};
   std::vector<asio::strand<asio::thread_pool::executor_type>> lanes_;
-  const std::size_t max_exports_;
-  // Shared with the seats: connections may outlive this.
-  const std::shared_ptr<std::atomic<std::size_t>> exports_taken_ =
-      std::make_shared<std::atomic<std::size_t>>(0);
+  const std::shared_ptr<Seats> export_seats_;
+  const std::shared_ptr<Seats> device_seats_ = std::make_shared<Seats>(kDeviceSeats);
 };
 
 struct HttpOptions {

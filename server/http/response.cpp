@@ -50,19 +50,20 @@ std::string response_head(const Response& response, const HeadOptions& options) 
   fmt::format_to(out, "HTTP/1.1 {} {}\r\nDate: {}\r\nServer: vitrine\r\nX-Request-Id: {}\r\n",
                  response.status, reason(response.status), http_date(), options.request_id);
   if (!response.type.empty()) fmt::format_to(out, "Content-Type: {}\r\n", response.type);
-  if (response.status != 204 && response.status != 304) {
+  if (response.status != 204 && response.status != 304 && !response.events) {
     fmt::format_to(out, "Content-Length: {}\r\n", body_size(response.body));
   }
   fmt::format_to(out, "Cache-Control: {}\r\n", cache_control(response.caching));
   if (!response.etag.empty()) {
     fmt::format_to(out, "ETag: {}\r\nAccept-Ranges: bytes\r\n", response.etag);
   }
-  // Everything here is a public read: any page may embed it.
-  head +=
-      "Access-Control-Allow-Origin: *\r\n"
-      "Access-Control-Expose-Headers: Content-Range, ETag, Link, X-Request-Id\r\n"
-      "Cross-Origin-Resource-Policy: cross-origin\r\n"
-      "X-Content-Type-Options: nosniff\r\n";
+  if (options.public_read) {
+    head +=
+        "Access-Control-Allow-Origin: *\r\n"
+        "Access-Control-Expose-Headers: Content-Range, ETag, Link, X-Request-Id\r\n"
+        "Cross-Origin-Resource-Policy: cross-origin\r\n";
+  }
+  head += "X-Content-Type-Options: nosniff\r\n";
   for (const auto& [name, value] : response.fields)
     fmt::format_to(out, "{}: {}\r\n", name, value);
   if (!options.keep_alive) {

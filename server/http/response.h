@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/http/body.h"
+#include "server/http/event_source.h"
 
 namespace vitrine {
 
@@ -24,12 +25,15 @@ struct Response {
   std::string etag;  // a strong entity tag with its quotes; empty: none
   std::vector<std::pair<std::string_view, std::string>> fields;  // further ones
   Body body;
+  // Server-sent events instead of a body, until they end; then the connection does. For 200.
+  std::shared_ptr<EventSource> events;
 };
 
 struct HeadOptions {
   std::string_view request_id;
   bool keep_alive = true;
-  unsigned version = 11;  // of the request: HTTP/1.0 keeps a connection only where both say so
+  bool public_read = true;  // pages of any origin may embed it
+  unsigned version = 11;    // of the request: HTTP/1.0 keeps a connection only where both say so
 };
 
 // The status line and the fields, up to and including the empty line.

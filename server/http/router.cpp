@@ -2,12 +2,24 @@
 #include "server/http/router.h"
 
 #include <algorithm>
+#include <charconv>
 
 namespace vitrine {
 namespace {
 
 bool is_lower(char c) {
   return c >= 'a' && c <= 'z';
+}
+
+bool is_name(std::string_view text) {
+  const auto fits = [](char c) { return is_lower(c) || (c >= '0' && c <= '9') || c == '-'; };
+  return !text.empty() && text.size() <= 32 && std::ranges::all_of(text, fits);
+}
+
+bool parse_number(std::string_view text, std::uint32_t& out) {
+  if (text.empty() || text.size() > 6 || text.front() == '0') return false;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return fault == std::errc{} && end == text.data() + text.size();
 }
 
 bool parse_parameter(std::string_view kind, std::string_view text, PathParameters& out) {
@@ -17,6 +29,11 @@ bool parse_parameter(std::string_view kind, std::string_view text, PathParameter
     return id.has_value();
   }
   if (kind == "{sha256}") return from_hex(text, out.sha256);
+  if (kind == "{number}") return parse_number(text, out.number);
+  if (kind == "{name}") {
+    out.name = text;
+    return is_name(text);
+  }
   out.format = text;
   return !text.empty() && text.size() <= 8 && std::ranges::all_of(text, is_lower);
 }
@@ -42,13 +59,26 @@ std::optional<PathParameters> match_template(std::string_view pattern, std::stri
   return path.empty() ? std::optional(parameters) : std::nullopt;
 }
 
+std::string_view allowed_by(Method method) {
+  switch (method) {
+    case Method::kGet:
+      return "GET, HEAD, ";
+    case Method::kPost:
+      return "POST, ";
+    case Method::kDelete:
+      return "DELETE, ";
+  }
+  return "";
+}
+
 }  // namespace
 
-std::vector<std::string_view> Router::templates() const {
-  std::vector<std::string_view> paths;
-  for (const Route& route : routes_)
-    paths.push_back(route.path);
-  return paths;
+Router::Router(std::span<const Route> routes) : routes_(routes) {
+  for (const Route& route : routes) {
+    const auto known = std::ranges::find(templates_, route.path);
+    template_of_.push_back(static_cast<std::size_t>(known - templates_.begin()));
+    if (known == templates_.end()) templates_.push_back(route.path);
+  }
 }
 
 std::optional<RouteMatch> Router::match(std::string_view path) const {
@@ -56,6 +86,21 @@ std::optional<RouteMatch> Router::match(std::string_view path) const {
     if (auto parameters = match_template(routes_[i].path, path)) return RouteMatch{i, *parameters};
   }
   return std::nullopt;
+}
+
+std::optional<std::size_t> Router::find(const RouteMatch& match, Method method) const {
+  for (std::size_t i = match.index; i < routes_.size(); ++i) {
+    if (template_of_[i] == template_of_[match.index] && routes_[i].method == method) return i;
+  }
+  return std::nullopt;
+}
+
+std::string Router::allow(const RouteMatch& match) const {
+  std::string methods;
+  for (const Method method : {Method::kGet, Method::kPost, Method::kDelete}) {
+    if (find(match, method)) methods += allowed_by(method);
+  }
+  return methods + "OPTIONS";
 }
 
 }  // namespace vitrine

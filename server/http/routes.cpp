@@ -6,26 +6,27 @@
 namespace vitrine {
 namespace {
 
+using enum Method;
 using enum Place;
 
 constexpr Route kPublic[] = {
-    {"/api/v1/chunks/{sha256}", show_chunk, kWorker, show_held_chunk},
-    {"/api/v1/models", list_models, kWorker},
-    {"/api/v1/models/{id}", show_model, kWorker},
-    {"/api/v1/models/{id}/manifest", show_manifest, kWorker},
-    {"/api/v1/models/{id}/head", show_head, kWorker},
-    {"/api/v1/models/{id}/file.pmesh", show_file, kWorker},
-    {"/api/v1/models/{id}/stream", open_stream, kWorker},
-    {"/api/v1/models/{id}/export.{format}", export_model, kExport},
-    {"/", show_gallery, kInline},
-    {"/models/{id}", show_viewer, kWorker},
-    {"/{rest}", show_asset, kInline},
+    {kGet, "/api/v1/chunks/{sha256}", show_chunk, kWorker, Role::kNone, show_held_chunk},
+    {kGet, "/api/v1/models", list_models, kWorker},
+    {kGet, "/api/v1/models/{id}", show_model, kWorker},
+    {kGet, "/api/v1/models/{id}/manifest", show_manifest, kWorker},
+    {kGet, "/api/v1/models/{id}/head", show_head, kWorker},
+    {kGet, "/api/v1/models/{id}/file.pmesh", show_file, kWorker},
+    {kGet, "/api/v1/models/{id}/stream", open_stream, kWorker},
+    {kGet, "/api/v1/models/{id}/export.{format}", export_model, kExport},
+    {kGet, "/", show_gallery, kInline},
+    {kGet, "/models/{id}", show_viewer, kWorker},
+    {kGet, "/{rest}", show_asset, kInline},
 };
 
 constexpr Route kAdmin[] = {
-    {"/livez", show_livez, kInline},
-    {"/readyz", show_readyz, kWorker},
-    {"/metrics", show_metrics, kInline},
+    {kGet, "/livez", show_livez, kInline},
+    {kGet, "/readyz", show_readyz, kWorker},
+    {kGet, "/metrics", show_metrics, kInline},
 };
 
 }  // namespace

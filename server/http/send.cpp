@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-Bytes bytes_of(const std::string& text) {
+Bytes bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -107,6 +107,12 @@ asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string
     co_return co_await send_memory(connection, shared->bytes, 0, patience);
   }
   co_return co_await send_stored(connection, std::get<StoredBytes>(body), patience);
+}
+
+asio::awaitable<std::uint64_t> send_text(Connection& connection, std::string_view text,
+                                         std::chrono::seconds patience) {
+  connection.expires_after(patience);
+  co_return co_await send_memory(connection, bytes_of(text), 0, patience);
 }
 
 }  // namespace vitrine

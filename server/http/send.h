@@ -15,4 +15,8 @@ namespace vitrine {
 asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string head, Body body,
                                              std::chrono::seconds patience);
 
+// Returns the bytes of `text` sent, on the same terms. `text` must live until then.
+asio::awaitable<std::uint64_t> send_text(Connection& connection, std::string_view text,
+                                         std::chrono::seconds patience);
+
 }  // namespace vitrine

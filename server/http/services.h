@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "server/auth/authenticator.h"
 #include "server/catalogue/catalogue.h"
 #include "server/http/export_cache.h"
 #include "server/http/web_pages.h"
@@ -15,6 +16,7 @@ namespace vitrine {
 
 struct Services {
   Catalogue& catalogue;
+  Authenticator& tokens;
   PublishedModels& models;
   ExportCache& exports;
   const WebPages& pages;

@@ -3,10 +3,13 @@
 
 #include <boost/beast/core/error.hpp>
 
+#include "server/http/authorise.h"
 #include "server/http/conditional.h"
+#include "server/http/event_stream.h"
 #include "server/http/framing.h"
 #include "server/http/problem.h"
 #include "server/http/query.h"
+#include "server/http/request_body.h"
 #include "server/http/send.h"
 #include "server/http/services.h"
 #include "server/log/request_id.h"
@@ -19,7 +22,6 @@ using beast::http::verb;
 using Parser = beast::http::request_parser<beast::http::string_body>;
 
 constexpr std::uint32_t kMaxHeader = 16 * 1024;
-constexpr std::uint64_t kMaxBody = 64 * 1024;  // read and ignored: no route takes a body yet
 constexpr std::size_t kMaxTarget = 8 * 1024;
 constexpr std::size_t kMaxBuffer = 64 * 1024;  // the extensions of a chunked body have no limit
 constexpr std::size_t kIdleBuffer = 4 * 1024;  // what a connection that waits may keep
@@ -33,10 +35,14 @@ std::string_view text(beast::string_view view) {
 struct Exchange {
   std::string id = next_request_id();
   Connection::Clock::time_point start = Connection::Clock::now();
-  std::size_t route = SIZE_MAX;  // an index into the router's routes; past the end where none
+  std::size_t route_template = SIZE_MAX;  // an index into the router's; past the end where none
   PathParameters parameters;
+  const Route* route = nullptr;  // null where the answer is known without one
+  std::optional<Caller> caller;
+  nlohmann::json body = nlohmann::json::object();
   Response response;
   bool keep_alive = true;
+  bool public_read = true;
 };
 
 enum class ReadResult { kRequest, kRejected, kClosed };
@@ -47,18 +53,37 @@ unsigned status_of(const boost::system::error_code& error) {
   return 400;
 }
 
-Response preflight() {
+std::optional<Method> method_of(verb method) {
+  switch (method) {
+    case verb::get:
+    case verb::head:
+      return Method::kGet;
+    case verb::post:
+      return Method::kPost;
+    case verb::delete_:
+      return Method::kDelete;
+    default:
+      return std::nullopt;
+  }
+}
+
+// What a path takes; pages of other origins may read it where everybody may, and do nothing else.
+Response options(std::string allow, bool public_read) {
   Response response;
   response.status = 204;
-  response.fields = {{"Access-Control-Allow-Methods", "GET, HEAD, OPTIONS"},
-                     {"Access-Control-Allow-Headers", "If-None-Match, If-Range, Range"},
-                     {"Access-Control-Max-Age", "86400"}};
+  response.fields = {{"Allow", std::move(allow)}};
+  if (public_read) {
+    response.fields.insert(response.fields.end(),
+                           {{"Access-Control-Allow-Methods", "GET, HEAD, OPTIONS"},
+                            {"Access-Control-Allow-Headers", "If-None-Match, If-Range, Range"},
+                            {"Access-Control-Max-Age", "86400"}});
+  }
   return response;
 }
 
-Response not_allowed(std::string_view id) {
-  Response response = problem(405, "this resource can only be read", id);
-  response.fields = {{"Allow", "GET, HEAD, OPTIONS"}};
+Response not_allowed(std::string allow, std::string_view id) {
+  Response response = problem(405, "the path does not take this method", id);
+  response.fields = {{"Allow", std::move(allow)}};
   return response;
 }
 
@@ -87,23 +112,29 @@ class Session {
   asio::awaitable<bool> serve_one() {
     Parser parser;
     parser.header_limit(kMaxHeader);
-    parser.body_limit(kMaxBody);
+    parser.body_limit(kMaxRequestBody);
     Exchange exchange;
-    const ReadResult result = co_await read(parser, exchange);
+    const ReadResult result = co_await read_header(parser, exchange);
     if (result == ReadResult::kClosed) co_return false;
     if (result == ReadResult::kRequest) {
-      const Route* route = find_route(parser.get(), exchange);
-      if (route != nullptr) co_await answer(*route, parser.get(), exchange);
+      find_route(parser.get(), exchange);
+      if (exchange.route != nullptr) {
+        const bool answered = co_await answer(parser, exchange);
+        if (!answered) co_return false;
+      }
     }
-    if (exchange.response.status == 101) {
+    // A body that nobody has read: where the next request would start is unknown.
+    if (!parser.is_done()) exchange.keep_alive = false;
+    if (exchange.response.status == 101 && parser.is_done()) {
       co_await stream(parser.release(), exchange);
       co_return false;
     }
+    if (exchange.response.status == 101) reject(exchange, 400, "an upgrade has no body");
     const bool sent = co_await send(parser.get(), exchange);
     co_return sent ? exchange.keep_alive : false;
   }
 
-  asio::awaitable<ReadResult> read(Parser& parser, Exchange& exchange) {
+  asio::awaitable<ReadResult> read_header(Parser& parser, Exchange& exchange) {
     connection_->expires_after(server_.options().patience);
     connection_->idle = buffer_.size() == 0;
     if (connection_->idle && buffer_.capacity() > kIdleBuffer) buffer_.shrink_to_fit();
@@ -117,18 +148,45 @@ class Session {
       reject(exchange, 400, fault);
       co_return ReadResult::kRejected;
     }
-    if (parser.is_done()) co_return ReadResult::kRequest;
-    const ReadResult skipped = co_await skip_body(parser, exchange);
-    co_return skipped;
+    co_return ReadResult::kRequest;
   }
 
-  asio::awaitable<ReadResult> skip_body(Parser& parser, Exchange& exchange) {
-    if (parser.get().count(field::expect) > 0) {
-      reject(exchange, 417, "no resource here takes a body");
+  // Takes the request's body, where it has one: from callers alone that may send it.
+  asio::awaitable<ReadResult> read_body(Parser& parser, Exchange& exchange) {
+    if (!parser.is_done()) {
+      connection_->expires_after(server_.options().patience);
+      const ReadResult read = co_await receive_body(parser, exchange);
+      if (read != ReadResult::kRequest) co_return read;
+    }
+    const auto& request = parser.get();
+    auto body = parse_body(text(request[field::content_type]), request.body());
+    if (!body) {
+      exchange.response = problem(body.error().status, body.error().detail, exchange.id);
       co_return ReadResult::kRejected;
     }
+    exchange.body = std::move(*body);
+    co_return ReadResult::kRequest;
+  }
+
+  asio::awaitable<ReadResult> receive_body(Parser& parser, Exchange& exchange) {
+    if (parser.get().count(field::expect) > 0) {
+      if (!beast::iequals(parser.get()[field::expect], "100-continue")) {
+        reject(exchange, 417, "the only expectation met is 100-continue");
+        co_return ReadResult::kRejected;
+      }
+      constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+      const std::uint64_t sent =
+          co_await send_text(*connection_, kContinue, server_.options().patience);
+      if (sent < kContinue.size()) co_return ReadResult::kClosed;
+    }
+    connection_->reads_body = true;
     const auto [error, bytes] =
         co_await beast::http::async_read(connection_->socket, buffer_, parser, kNoThrow);
+    connection_->reads_body = false;
+    if (error == asio::error::operation_aborted && connection_->socket.is_open()) {
+      reject(exchange, 408, "the body did not come in time");
+      co_return ReadResult::kRejected;
+    }
     co_return error ? rejected(error, exchange) : ReadResult::kRequest;
   }
 
@@ -150,42 +208,78 @@ class Session {
     return ReadResult::kRejected;
   }
 
-  // Null where the answer is known already.
-  const Route* find_route(const Parser::value_type& request, Exchange& exchange) {
+  // Sets the route, or the answer where that is known already.
+  void find_route(const Parser::value_type& request, Exchange& exchange) {
     const auto target = split_target(text(request.target()));
     if (!target || request.target().size() > kMaxTarget) {
-      reject(exchange, target ? 414 : 400, "the target is not a path");
-      return nullptr;
+      return reject(exchange, target ? 414 : 400, "the target is not a path");
     }
-    const auto match = server_.router().match(target->path);
+    const Router& router = server_.router();
+    const auto match = router.match(target->path);
     if (!match) {
       exchange.response = problem(404, "there is nothing at this path", exchange.id);
-      return nullptr;
+      return;
     }
-    exchange.route = match->index;
+    exchange.route_template = router.template_of(match->index);
     exchange.parameters = match->parameters;
-    if (request.method() == verb::get || request.method() == verb::head) {
-      return &server_.router().routes()[match->index];
+    const auto method = method_of(request.method());
+    const auto route = method ? router.find(*match, *method) : std::nullopt;
+    if (route) {
+      exchange.route = &router.routes()[*route];
+    } else if (request.method() == verb::options) {
+      const auto get = router.find(*match, Method::kGet);
+      exchange.public_read = get && is_public_read(router.routes()[*get]);
+      exchange.response = options(router.allow(*match), exchange.public_read);
+    } else {
+      exchange.response = not_allowed(router.allow(*match), exchange.id);
     }
-    exchange.response = request.method() == verb::options ? preflight() : not_allowed(exchange.id);
-    return nullptr;
   }
 
-  asio::awaitable<void> answer(const Route& route, const Parser::value_type& message,
-                               Exchange& exchange) {
+  // Sets the answer of the request's route. False where the peer has gone.
+  asio::awaitable<bool> answer(Parser& parser, Exchange& exchange) {
+    const Parser::value_type& message = parser.get();
+    const Route& route = *exchange.route;
+    exchange.public_read = is_public_read(route);
     const auto target = split_target(text(message.target()));
-    const Request request{message, target->path, target->query, exchange.parameters, exchange.id};
+    const Request request{message,     target->path,  target->query,  exchange.parameters,
+                          exchange.id, exchange.body, exchange.caller};
     if (route.quick != nullptr) {
       if (auto quick = route.quick(request, server_.services())) {
         exchange.response = apply_conditions(message, std::move(*quick), exchange.id);
-        co_return;
+        co_return true;
       }
     }
-    const auto handle = [&] {
-      return apply_conditions(message, guarded(route.handler, request), exchange.id);
+    if (needs_authorisation(route, message)) {
+      const bool authorised = co_await authorise_caller(message, exchange);
+      if (!authorised) co_return true;
+    }
+    if (route.method == Method::kPost) {
+      const ReadResult read = co_await read_body(parser, exchange);
+      if (read != ReadResult::kRequest) co_return read == ReadResult::kRejected;
+    }
+    co_await handle(request, exchange);
+    co_return true;
+  }
+
+  asio::awaitable<bool> authorise_caller(const Parser::value_type& message, Exchange& exchange) {
+    Authorisation found;
+    const Credentials credentials{message, connection_->remote, exchange.id};
+    co_await on_worker(Place::kWorker, text(message.target()), [&] {
+      found = authorise(*exchange.route, credentials, server_.services());
+    });
+    exchange.caller = found.caller;
+    if (found.refusal) exchange.response = std::move(*found.refusal);
+    co_return !found.refusal;
+  }
+
+  asio::awaitable<void> handle(const Request& request, Exchange& exchange) {
+    const Route& route = *exchange.route;
+    const auto run = [&] {
+      exchange.response =
+          apply_conditions(request.header, guarded(route.handler, request), exchange.id);
     };
     if (route.place == Place::kInline) {
-      exchange.response = handle();
+      run();
       co_return;
     }
     const auto seat = server_.workers().reserve(route.place);
@@ -193,13 +287,18 @@ class Session {
       exchange.response = busy(exchange.id);
       co_return;
     }
+    co_await on_worker(route.place, text(request.header.target()), run);
+  }
+
+  // Runs `task` there, while this connection waits and others go on.
+  template <class Task>
+  asio::awaitable<void> on_worker(Place place, std::string_view target, const Task& task) {
     connection_->never_expires();
-    const auto executor = server_.workers().executor(route.place, text(message.target()));
     auto work = [&]() -> asio::awaitable<void> {
-      exchange.response = handle();
+      task();
       co_return;
     };
-    co_await asio::co_spawn(executor, work, asio::use_awaitable);
+    co_await asio::co_spawn(server_.workers().executor(place, target), work, asio::use_awaitable);
   }
 
   // A handler that throws (out of memory, a JSON library's surprise) costs its request alone.
@@ -227,35 +326,55 @@ class Session {
   asio::awaitable<bool> send(const Parser::value_type& request, Exchange& exchange) {
     if (connection_->draining) exchange.keep_alive = false;
     Response& response = exchange.response;
-    const HeadOptions options{exchange.id, exchange.keep_alive, request.version()};
+    if (response.events) exchange.keep_alive = false;  // their end is the connection's
+    const HeadOptions options{exchange.id, exchange.keep_alive, exchange.public_read,
+                              request.version()};
     std::string head = response_head(response, options);
     const unsigned status = response.status;
     const bool with_body = request.method() != verb::head;
     Body body = with_body ? std::move(response.body) : Body();
     const std::uint64_t size = body_size(body);
-    const std::uint64_t sent = co_await send_response(*connection_, std::move(head),
-                                                      std::move(body), server_.options().patience);
+    std::uint64_t sent = co_await send_response(*connection_, std::move(head), std::move(body),
+                                                server_.options().patience);
+    if (response.events && with_body)
+      sent = co_await send_events(*connection_, *response.events, server_.options().patience);
     record(exchange, text(request.method_string()), text(request.target()), status, sent);
     const bool last = !exchange.keep_alive || connection_->draining;
-    lingers_ = sent == size && last;
-    co_return sent == size;
+    lingers_ = sent >= size && last;
+    co_return sent >= size;
   }
 
   void record(const Exchange& exchange, std::string_view method, std::string_view target,
               unsigned status, std::uint64_t bytes) {
+    const auto& templates = server_.router().templates();
+    const std::string_view route =
+        exchange.route_template < templates.size() ? templates[exchange.route_template] : "-";
+    if (exchange.route != nullptr && exchange.route->method != Method::kGet)
+      audit(exchange, route, method, target, status);
     if (!server_.options().recorded) return;
-    const auto routes = server_.router().routes();
     const std::chrono::duration<double> seconds = Connection::Clock::now() - exchange.start;
-    server_.services().metrics.request(exchange.route, status, bytes, seconds.count());
-    server_.services().log.access(
-        {.request_id = exchange.id,
-         .remote = connection_->remote,
-         .method = method,
-         .route = exchange.route < routes.size() ? routes[exchange.route].path : "-",
-         .target = target,
-         .status = status,
-         .bytes = bytes,
-         .seconds = seconds.count()});
+    server_.services().metrics.request(exchange.route_template, status, bytes, seconds.count());
+    server_.services().log.access({.request_id = exchange.id,
+                                   .remote = connection_->remote,
+                                   .method = method,
+                                   .route = route,
+                                   .target = target,
+                                   .status = status,
+                                   .bytes = bytes,
+                                   .seconds = seconds.count()});
+  }
+
+  // In the operator's log, which nothing switches off.
+  void audit(const Exchange& exchange, std::string_view route, std::string_view method,
+             std::string_view target, unsigned status) {
+    const std::string token = exchange.caller ? exchange.caller->token.to_string() : "-";
+    server_.services().errors.audit({.request_id = exchange.id,
+                                     .remote = connection_->remote,
+                                     .token = token,
+                                     .method = method,
+                                     .route = route,
+                                     .target = target,
+                                     .status = status});
   }
 
   // Closing while the peer still sends would reset the connection, and the peer might lose our

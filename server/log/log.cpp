@@ -119,6 +119,21 @@ void Log::access(const AccessRecord& record) const {
   write_line(descriptor_, line);
 }
 
+void Log::audit(const AuditRecord& record) const {
+  if (descriptor_ < 0) return;
+  Line line;
+  append_time(line);
+  append(line, "event", "audit");
+  append(line, "id", record.request_id);
+  append(line, "remote", record.remote);
+  append(line, "token", record.token);
+  append(line, "method", record.method);
+  append(line, "route", record.route);
+  append(line, "target", record.target);
+  fmt::format_to(std::back_inserter(line), " status={}", record.status);
+  write_line(descriptor_, line);
+}
+
 void Log::event(Severity severity, std::string_view message) const {
   if (descriptor_ < 0) return;
   Line line;

@@ -24,6 +24,17 @@ struct AccessRecord {
   double seconds = 0;
 };
 
+// A call that was to change something, whoever made it. The strings are borrowed for the call.
+struct AuditRecord {
+  std::string_view request_id;
+  std::string_view remote;  // address of the peer
+  std::string_view token;   // the token's id, "-" where there was none in force
+  std::string_view method;
+  std::string_view route;   // the route's template
+  std::string_view target;  // as sent: hostile text
+  unsigned status = 0;
+};
+
 enum class Severity { kInfo, kWarning, kError };
 
 // Thread-safe: a line is one write(2) to a descriptor opened for appending, so that lines of
@@ -38,6 +49,7 @@ class Log {
   ~Log();
 
   void access(const AccessRecord& record) const;
+  void audit(const AuditRecord& record) const;
   void event(Severity severity, std::string_view message) const;
 
  private:

@@ -49,6 +49,8 @@ std::string Metrics::text() const {
                "Connections closed because there were too many.", refused.load(kRelaxed));
   append_plain(text, "vitrine_stream_bytes_total", "counter", "Chunk bytes sent over streams.",
                stream_bytes.load(kRelaxed));
+  append_plain(text, "vitrine_unknown_tokens_total", "counter",
+               "Requests with a token that is nobody's.", unknown_tokens.load(kRelaxed));
   return text;
 }
 

@@ -24,10 +24,11 @@ class Metrics {
   // `route` is an index into `routes`, or routes.size() where none matched.
   void request(std::size_t route, unsigned status, std::uint64_t bytes, double seconds);
 
-  std::atomic<std::int64_t> connections{0};    // open now
-  std::atomic<std::int64_t> streams{0};        // WebSocket streams open now
-  std::atomic<std::uint64_t> refused{0};       // connections closed by max-connections
-  std::atomic<std::uint64_t> stream_bytes{0};  // chunk bytes sent over streams
+  std::atomic<std::int64_t> connections{0};      // open now
+  std::atomic<std::int64_t> streams{0};          // WebSocket streams open now
+  std::atomic<std::uint64_t> refused{0};         // connections closed by max-connections
+  std::atomic<std::uint64_t> stream_bytes{0};    // chunk bytes sent over streams
+  std::atomic<std::uint64_t> unknown_tokens{0};  // presented and nobody's
 
   std::string text() const;
 

@@ -226,5 +226,36 @@ TEST_F(CatalogueSuite, several_connections_write_at_once_and_lose_nothing) {
   EXPECT_EQ(search({.limit = kMaxPage}).size(), static_cast<std::size_t>(kWriters * kEach));
 }
 
+TEST_F(CatalogueSuite, a_token_is_found_by_the_start_of_its_hash_until_it_is_revoked) {
+  Sha256 hash = digest(7), near = digest(7), far = digest(7);
+  near[4] = 0;
+  far[3] = 0;
+  const TokenRecord token{id_of(1), Role::kOperator, hash, "Anna's \"laptop\"", 17};
+  ASSERT_TRUE(catalogue_->add_token(token));
+  ASSERT_TRUE(catalogue_->add_token({id_of(2), Role::kViewer, near, "", 18}));
+  const auto found = backend_->connect()->tokens_like(hash).value();
+  ASSERT_EQ(found.size(), 2u);
+  const auto& same = found[found[0].id == id_of(1) ? 0 : 1];
+  EXPECT_EQ(same.hash, hash);
+  EXPECT_EQ(same.role, Role::kOperator);
+  EXPECT_EQ(same.label, token.label);
+  EXPECT_EQ(same.created, 17);
+  EXPECT_TRUE(catalogue_->tokens_like(far).value().empty());
+  ASSERT_TRUE(catalogue_->revoke_token(id_of(1)));
+  ASSERT_EQ(catalogue_->tokens_like(hash).value().size(), 1u);
+  EXPECT_EQ(catalogue_->tokens_like(hash).value()[0].id, id_of(2));
+}
+
+TEST_F(CatalogueSuite, a_token_is_added_once_and_revoked_once) {
+  const TokenRecord token{id_of(1), Role::kAdmin, digest(1), "", 0};
+  ASSERT_TRUE(catalogue_->add_token(token));
+  EXPECT_EQ(catalogue_->add_token(token).error().code, ErrorCode::kState);
+  EXPECT_EQ(catalogue_->add_token({id_of(2), Role::kAdmin, digest(1), "", 0}).error().code,
+            ErrorCode::kState);
+  EXPECT_EQ(catalogue_->revoke_token(id_of(2)).error().code, ErrorCode::kState);
+  ASSERT_TRUE(catalogue_->revoke_token(id_of(1)));
+  EXPECT_EQ(catalogue_->revoke_token(id_of(1)).error().code, ErrorCode::kState);
+}
+
 }  // namespace
 }  // namespace vitrine::test

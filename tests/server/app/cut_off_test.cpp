@@ -37,9 +37,10 @@ TEST_F(CutOffTest, AHeaderThatDoesNotEnd) {
   EXPECT_TRUE(client.is_closed());
 }
 
-TEST_F(CutOffTest, ABodyThatDoesNotEnd) {
+TEST_F(CutOffTest, ABodyThatNobodyTakes) {
   HttpClient client(daemon.port());
   client.send("POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\nhalf");
+  EXPECT_EQ(client.receive().status, 405);
   EXPECT_TRUE(client.is_closed());
 }
 

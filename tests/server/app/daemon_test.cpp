@@ -161,7 +161,7 @@ TEST_F(DaemonTest, ClosesAfterARequestWhoseEndIsAmbiguousOrThatIsTooLarge) {
       {"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 1000000\r\n\r\n", 413},
       {"POST / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n1;" +
            std::string(100'000, 'x'),
-       400},
+       405},
       {"GET nowhere HTTP/1.1\r\nHost: a\r\n\r\n", 400},
   };
   for (const auto& [request, status] : cases) {

@@ -3,18 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <semaphore>
-#include <thread>
 
-#include "server/http/http_server.h"
-#include "server/http/services.h"
-#include "server/store/installation.h"
+#include "local_server.h"
 #include "support/http_client.h"
-#include "support/temporary_folder.h"
 
 namespace vitrine {
 namespace {
 
-std::binary_semaphore entered{0}, may_end{0};
+std::counting_semaphore<8> entered{0}, may_end{0};
 
 Response wait_for_the_test(const Request&, Services&) {
   entered.release();
@@ -22,42 +18,20 @@ Response wait_for_the_test(const Request&, Services&) {
   return {};
 }
 
-constexpr Route kRoutes[] = {{"/slow", wait_for_the_test, Place::kExport}};
+Response at_once(const Request&, Services&) {
+  return {};
+}
 
-// A server with one seat for exports.
-class Server {
- public:
-  Server() : port_(server_.listen({"127.0.0.1", 0}).value()) {
-    server_.start();
-    thread_ = std::thread([this] { io_.run(); });
-  }
-  ~Server() {
-    io_.stop();
-    thread_.join();
-    workers_.stop();
-    workers_.join();
-  }
-  std::uint16_t port() const { return port_; }
-
- private:
-  test::TemporaryFolder folder_;
-  Installation installation_ = open_installation(folder_.path()).value();
-  PublishedModels models_{*installation_.store, *installation_.catalogue};
-  ExportCache exports_{0};
-  WebPages pages_{{}};
-  Metrics metrics_{std::vector<std::string_view>{"/slow"}};
-  Log log_ = Log::open("").value();
-  Services services_{
-      *installation_.catalogue, models_, exports_, pages_, metrics_, log_, log_, true};
-  asio::io_context io_;
-  Workers workers_{2, 1};
-  HttpServer server_{io_, services_, workers_, {.routes = kRoutes, .max_connections = 8}};
-  std::uint16_t port_;
-  std::thread thread_;
+constexpr Route kRoutes[] = {
+    {Method::kGet, "/slow", wait_for_the_test, Place::kExport},
+    {Method::kPost, "/work", wait_for_the_test, Place::kWorker},
+    {Method::kPost, "/device", wait_for_the_test, Place::kDevice},
+    {Method::kGet, "/quick", at_once, Place::kInline},
+    {Method::kPost, "/quick", at_once, Place::kWorker},
 };
 
 TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
-  const Server server;
+  const test::LocalServer server(kRoutes);  // one seat for exports
   test::HttpClient first(server.port());
   first.send("GET /slow HTTP/1.1\r\nHost: a\r\n\r\n");
   entered.acquire();
@@ -69,6 +43,32 @@ TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
   EXPECT_EQ(first.receive().status, 200);
   may_end.release();
   EXPECT_EQ(test::http_get(server.port(), "/slow").status, 200);
+}
+
+TEST(Overload, ACallThatWaitsHoldsUpNoOtherConnection) {
+  const test::LocalServer server(kRoutes);  // one thread for connections
+  for (const std::string path : {"/work", "/device"}) {
+    test::HttpClient waiting(server.port());
+    waiting.send("POST " + path + " HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
+    entered.acquire();
+    EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200);
+    may_end.release();
+    EXPECT_EQ(waiting.receive().status, 200);
+  }
+}
+
+TEST(Overload, CallsThatWaitForDevicesLeaveTheWorkersToOthers) {
+  const test::LocalServer server(kRoutes);
+  std::vector<std::unique_ptr<test::HttpClient>> waiting;
+  for (int i = 0; i < 4; ++i) {  // as many as there are threads for devices
+    waiting.push_back(std::make_unique<test::HttpClient>(server.port()));
+    waiting.back()->send("POST /device HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
+    entered.acquire();
+  }
+  EXPECT_EQ(test::http_get(server.port(), "/quick", "Content-Length: 0\r\n", "POST").status, 200);
+  may_end.release(4);
+  for (const auto& client : waiting)
+    EXPECT_EQ(client->receive().status, 200);
 }
 
 }  // namespace

@@ -58,5 +58,62 @@ TEST(Router, APathWithoutALeadingSlashMatchesNothing) {
   EXPECT_EQ(reached("models"), "");
 }
 
+Response nothing(const Request&, Services&) {
+  return {};
+}
+
+constexpr Route kRoutes[] = {
+    {Method::kGet, "/x/{name}/at/{number}", nothing, Place::kInline},
+    {Method::kGet, "/x/{name}", nothing, Place::kInline, Role::kViewer},
+    {Method::kPost, "/x/{name}/stop", nothing, Place::kInline, Role::kOperator},
+    {Method::kDelete, "/x/{name}", nothing, Place::kInline, Role::kAdmin},
+    {Method::kGet, "/{rest}", nothing, Place::kInline},
+};
+constexpr std::size_t kCatchAll = 4;
+
+TEST(Router, ParsesNamesAndNumbers) {
+  const Router router(kRoutes);
+  const std::string path = "/x/rig-2/at/999999";
+  const auto match = router.match(path);
+  ASSERT_TRUE(match);
+  EXPECT_EQ(match->parameters.name, "rig-2");
+  EXPECT_EQ(match->parameters.number, 999'999u);
+  EXPECT_EQ(router.match("/x/" + std::string(32, 'a'))->index, 1u);
+  for (const std::string& bad :
+       {std::string("/x/"), "/x/" + std::string(33, 'a'), std::string("/x/Rig"),
+        std::string("/x/a_b"), std::string("/x/a%20b"), std::string("/x/.."),
+        std::string("/x/a/at/0"), std::string("/x/a/at/01"), std::string("/x/a/at/1000000"),
+        std::string("/x/a/at/-1"), std::string("/x/a/at/1a"), std::string("/x/a/at/")}) {
+    EXPECT_EQ(router.match(bad)->index, kCatchAll) << bad;
+  }
+}
+
+TEST(Router, FindsTheRouteOfAMethodAmongThoseOfOneTemplate) {
+  const Router router(kRoutes);
+  const auto both = router.match("/x/a");
+  EXPECT_EQ(router.find(*both, Method::kGet), 1u);
+  EXPECT_EQ(router.find(*both, Method::kDelete), 3u);
+  EXPECT_FALSE(router.find(*both, Method::kPost));
+  EXPECT_EQ(router.allow(*both), "GET, HEAD, DELETE, OPTIONS");
+  const auto stop = router.match("/x/a/stop");
+  EXPECT_FALSE(router.find(*stop, Method::kGet)) << "the catch-all is another template";
+  EXPECT_EQ(router.allow(*stop), "POST, OPTIONS");
+}
+
+TEST(Router, NamesEachTemplateOnce) {
+  const Router router(kRoutes);
+  EXPECT_EQ(router.templates().size(), 4u);
+  EXPECT_EQ(router.template_of(3), router.template_of(1));
+  EXPECT_EQ(router.templates()[router.template_of(kCatchAll)], "/{rest}");
+}
+
+TEST(Router, WhatIsNotAPublicReadAsksForARole) {
+  for (const Route& route : public_routes()) {
+    if (route.method == Method::kGet && route.role == Role::kNone) continue;
+    EXPECT_EQ(route.quick, nullptr) << route.path;
+    EXPECT_NE(route.role, Role::kNone) << route.path;
+  }
+}
+
 }  // namespace
 }  // namespace vitrine

@@ -45,6 +45,21 @@ TEST(Log, WritesOneLinePerRequest) {
   EXPECT_THAT(text, HasSubstr("event=warning message=\"all is well\"\n"));
 }
 
+TEST(Log, WritesWhoChangedWhat) {
+  const std::filesystem::path file = ::testing::TempDir() + "vitrine-audit.log";
+  std::filesystem::remove(file);
+  Log::open(file)->audit({.request_id = "0123",
+                          .remote = "127.0.0.1",
+                          .token = "01hf",
+                          .method = "POST",
+                          .route = "/x/{name}/stop",
+                          .target = "/x/a/stop?\nevent=audit",
+                          .status = 200});
+  EXPECT_THAT(slurp(file),
+              HasSubstr("event=audit id=0123 remote=127.0.0.1 token=01hf method=POST "
+                        "route=/x/{name}/stop target=\"/x/a/stop?\\x0aevent=audit\" status=200\n"));
+}
+
 TEST(Log, NamesTheFileThatItCannotOpen) {
   const auto log = Log::open("/nowhere/access.log");
   ASSERT_FALSE(log);

@@ -89,6 +89,11 @@ class FullCatalogue final : public Catalogue {
   Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
     return before_.find_chunk(chunk);
   }
+  Expected<void> add_token(const TokenRecord& token) override { return before_.add_token(token); }
+  Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
+    return before_.tokens_like(hash);
+  }
+  Expected<void> revoke_token(const ModelId& id) override { return before_.revoke_token(id); }
   Expected<std::uint64_t> revision() override { return before_.revision(); }
 
  private:

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which jobs and scans there are and how far they have come: what outlives the daemon.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/core/sha256.h"
+#include "server/catalogue/model_id.h"
+
+namespace vitrine {
+
+using JobId = ModelId;   // jobs and scans are named
+using ScanId = ModelId;  // as models are
+
+enum class JobKind : std::uint8_t { kScan = 0, kCalibrate = 1, kReprocess = 2 };
+
+enum class JobState : std::uint8_t {
+  kQueued = 0,
+  kRunning = 1,
+  kPaused = 2,
+  kDone = 3,
+  kFailed = 4,
+  kCancelled = 5
+};
+
+constexpr bool has_ended(JobState state) {
+  return state >= JobState::kDone;
+}
+
+struct JobRecord {
+  JobId id;
+  JobKind kind = JobKind::kScan;
+  JobState state = JobState::kQueued;
+  std::string scanner;  // its name
+  std::optional<ScanId> scan;
+  std::optional<ModelId> model;         // what came of it
+  std::string stage;                    // what it is at, in a word; empty before it starts
+  double progress = 0;                  // 0..1, of the whole job
+  std::string error;                    // one line; empty unless it failed
+  std::string parameters;               // JSON, for who runs it
+  std::int64_t created = 0, ended = 0;  // milliseconds since 1970, UTC; 0: not yet
+
+  bool operator==(const JobRecord&) const = default;
+};
+
+struct ScanRecord {
+  ScanId id;
+  JobId job;  // the newest that works on it
+  std::string scanner;
+  bool is_public = false;  // everybody may see it grow
+  std::string title;
+  std::string parameters;   // JSON
+  int steps = 0, step = 0;  // of a turn; done so far
+  std::uint64_t points = 0;
+  int calibration = 0;  // its number
+  std::optional<ModelId> model;
+  std::int64_t created = 0;
+
+  bool operator==(const ScanRecord&) const = default;
+};
+
+// A request that is to have its effect once, however often it is sent.
+struct OnceKey {
+  std::string key;   // the client's
+  Sha256 request{};  // of what it asked for
+};
+
+// Newest first.
+struct PageOf {
+  std::optional<ModelId> after;  // the last of the page before
+  std::uint32_t limit = 50;      // 1..kMaxPage of catalogue.h
+};
+
+// Safe to use from several threads at once, and by several processes on the same data. Errors are
+// kIo where the database refuses, kState as stated.
+class JobCatalogue {
+ public:
+  virtual ~JobCatalogue() = default;
+
+  // Adds a job, and its scan where one is given or writes over the scan of that id, in one
+  // transaction. kState where the job's id or the key exists.
+  virtual Expected<void> add(const JobRecord& job, const std::optional<ScanRecord>& scan,
+                             const std::optional<OnceKey>& once) = 0;
+
+  // Write over the record of that id. kState where there is none.
+  virtual Expected<void> update(const JobRecord& job) = 0;
+  virtual Expected<void> update(const ScanRecord& scan) = 0;
+
+  virtual Expected<std::optional<JobRecord>> find_job(const JobId& id) = 0;
+  virtual Expected<std::optional<ScanRecord>> find_scan(const ScanId& id) = 0;
+  virtual Expected<std::vector<JobRecord>> jobs(const PageOf& page) = 0;
+  virtual Expected<std::vector<ScanRecord>> scans(const PageOf& page) = 0;
+  virtual Expected<std::vector<JobRecord>> unfinished_jobs() = 0;  // oldest first
+
+  // The job that was added with this key, and the request of then.
+  struct Earlier {
+    JobId job;
+    Sha256 request{};
+  };
+  virtual Expected<std::optional<Earlier>> find_once(const std::string& key) = 0;
+};
+
+}  // namespace vitrine

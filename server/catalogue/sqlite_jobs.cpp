@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/catalogue/sqlite_jobs.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "server/catalogue/catalogue.h"
+#include "server/catalogue/migrations.h"
+#include "server/catalogue/sqlite.h"
+
+namespace vitrine {
+namespace {
+
+using sqlite::Database;
+using sqlite::Statement;
+using sqlite::Transaction;
+
+constexpr std::string_view kJobColumns =
+    "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended";
+constexpr std::string_view kScanColumns =
+    "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, created";
+
+void bind_id(Statement& row, const std::optional<ModelId>& id) {
+  if (id) {
+    row.bind(id->bytes());
+  } else {
+    row.bind_null();
+  }
+}
+
+std::optional<ModelId> read_id(const Statement& row, int column) {
+  if (row.is_null(column)) return std::nullopt;
+  return ModelId::from_bytes(row.blob<16>(column));
+}
+
+std::int64_t number(auto value) {
+  return static_cast<std::int64_t>(value);
+}
+
+Statement& bind_record(Statement& row, const JobRecord& job) {
+  row.bind(job.id.bytes()).bind(number(job.kind)).bind(number(job.state)).bind(job.scanner);
+  bind_id(row, job.scan);
+  bind_id(row, job.model);
+  row.bind(job.stage).bind_real(job.progress).bind(job.error).bind(job.parameters);
+  return row.bind(job.created).bind(job.ended);
+}
+
+Statement& bind_record(Statement& row, const ScanRecord& scan) {
+  row.bind(scan.id.bytes()).bind(scan.job.bytes()).bind(scan.scanner).bind(number(scan.is_public));
+  row.bind(scan.title).bind(scan.parameters).bind(number(scan.steps)).bind(number(scan.step));
+  row.bind(number(scan.points)).bind(number(scan.calibration));
+  bind_id(row, scan.model);
+  return row.bind(scan.created);
+}
+
+void read(const Statement& row, JobRecord& job) {
+  job.id = ModelId::from_bytes(row.blob<16>(0));
+  job.kind = static_cast<JobKind>(row.integer(1));
+  job.state = static_cast<JobState>(row.integer(2));
+  job.scanner = row.text(3);
+  job.scan = read_id(row, 4);
+  job.model = read_id(row, 5);
+  job.stage = row.text(6);
+  job.progress = row.real(7);
+  job.error = row.text(8);
+  job.parameters = row.text(9);
+  job.created = row.integer(10);
+  job.ended = row.integer(11);
+}
+
+void read(const Statement& row, ScanRecord& scan) {
+  scan.id = ModelId::from_bytes(row.blob<16>(0));
+  scan.job = ModelId::from_bytes(row.blob<16>(1));
+  scan.scanner = row.text(2);
+  scan.is_public = row.integer(3) != 0;
+  scan.title = row.text(4);
+  scan.parameters = row.text(5);
+  scan.steps = static_cast<int>(row.integer(6));
+  scan.step = static_cast<int>(row.integer(7));
+  scan.points = static_cast<std::uint64_t>(row.integer(8));
+  scan.calibration = static_cast<int>(row.integer(9));
+  scan.model = read_id(row, 10);
+  scan.created = row.integer(11);
+}
+
+// "a = ?1, b = ?2, …" of "a, b, …".
+std::string assignments(std::string_view columns) {
+  std::string text;
+  for (int i = 1; !columns.empty(); ++i) {
+    const auto name = columns.substr(0, columns.find(','));
+    text += fmt::format("{}{} = ?{}", text.empty() ? "" : ", ", name, i);
+    columns.remove_prefix(std::min(columns.size(), name.size() + 2));
+  }
+  return text;
+}
+
+class SqliteJobs final : public JobCatalogue {
+ public:
+  explicit SqliteJobs(Database database) : database_(std::move(database)) {}
+
+  Expected<void> add(const JobRecord& job, const std::optional<ScanRecord>& scan,
+                     const std::optional<OnceKey>& once) override {
+    return guarded<void>([&]() -> Expected<void> {
+      Transaction transaction(database_);
+      if (!insert("INSERT OR IGNORE INTO job", kJobColumns, job)) {
+        return fail(ErrorCode::kState,
+                    fmt::format("job {} exists; use another id", job.id.to_string()));
+      }
+      if (scan) insert("INSERT OR REPLACE INTO scan", kScanColumns, *scan);
+      if (once && !insert_once(*once, job.id)) {
+        return fail(ErrorCode::kState, "the key was used meanwhile; send the request again");
+      }
+      transaction.commit();
+      return {};
+    });
+  }
+
+  Expected<void> update(const JobRecord& job) override { return write("job", kJobColumns, job); }
+  Expected<void> update(const ScanRecord& scan) override {
+    return write("scan", kScanColumns, scan);
+  }
+
+  Expected<std::optional<JobRecord>> find_job(const JobId& id) override {
+    return find<JobRecord>("job", kJobColumns, id);
+  }
+  Expected<std::optional<ScanRecord>> find_scan(const ScanId& id) override {
+    return find<ScanRecord>("scan", kScanColumns, id);
+  }
+  Expected<std::vector<JobRecord>> jobs(const PageOf& page) override {
+    return list<JobRecord>("job", kJobColumns, page);
+  }
+  Expected<std::vector<ScanRecord>> scans(const PageOf& page) override {
+    return list<ScanRecord>("scan", kScanColumns, page);
+  }
+
+  Expected<std::vector<JobRecord>> unfinished_jobs() override {
+    return guarded<std::vector<JobRecord>>([&]() -> Expected<std::vector<JobRecord>> {
+      Statement rows(database_,
+                     fmt::format("SELECT {} FROM job WHERE state < ? ORDER BY id", kJobColumns));
+      return all<JobRecord>(rows.bind(number(JobState::kDone)));
+    });
+  }
+
+  Expected<std::optional<Earlier>> find_once(const std::string& key) override {
+    return guarded<std::optional<Earlier>>([&]() -> Expected<std::optional<Earlier>> {
+      Statement row(database_, "SELECT job, request FROM idempotency WHERE key = ?");
+      if (!row.bind(key).step()) return std::nullopt;
+      return Earlier{ModelId::from_bytes(row.blob<16>(0)), row.blob<32>(1)};
+    });
+  }
+
+ private:
+  // Runs `action` alone on the connection.
+  template <class T, class Action>
+  Expected<T> guarded(Action action) {
+    const std::scoped_lock lock(mutex_);
+    try {
+      return action();
+    } catch (const sqlite::Failure& failure) {
+      return sqlite::refused("the catalogue refuses", failure);
+    }
+  }
+
+  // Whether the row was written.
+  bool insert(std::string_view how, std::string_view columns, const auto& record) {
+    Statement row(database_,
+                  fmt::format("{}({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?) RETURNING 1", how, columns));
+    return any(bind_record(row, record));
+  }
+
+  bool insert_once(const OnceKey& once, const JobId& job) {
+    Statement row(database_, "INSERT OR IGNORE INTO idempotency VALUES (?,?,?) RETURNING 1");
+    return any(row.bind(once.key).bind(once.request).bind(job.bytes()));
+  }
+
+  template <class Record>
+  Expected<void> write(std::string_view table, std::string_view columns, const Record& record) {
+    return guarded<void>([&]() -> Expected<void> {
+      Statement row(database_, fmt::format("UPDATE {} SET {} WHERE id = ?1 RETURNING 1", table,
+                                           assignments(columns)));
+      if (any(bind_record(row, record))) return {};
+      return fail(ErrorCode::kState,
+                  fmt::format("there is no {} {}; list them", table, record.id.to_string()));
+    });
+  }
+
+  template <class Record>
+  Expected<std::optional<Record>> find(std::string_view table, std::string_view columns,
+                                       const ModelId& id) {
+    return guarded<std::optional<Record>>([&]() -> Expected<std::optional<Record>> {
+      Statement row(database_, fmt::format("SELECT {} FROM {} WHERE id = ?", columns, table));
+      if (!row.bind(id.bytes()).step()) return std::nullopt;
+      Record record;
+      read(row, record);
+      return record;
+    });
+  }
+
+  template <class Record>
+  Expected<std::vector<Record>> list(std::string_view table, std::string_view columns,
+                                     const PageOf& page) {
+    return guarded<std::vector<Record>>([&]() -> Expected<std::vector<Record>> {
+      Statement rows(database_, fmt::format("SELECT {} FROM {} {} ORDER BY id DESC LIMIT ?",
+                                            columns, table, page.after ? "WHERE id < ?" : ""));
+      if (page.after) rows.bind(page.after->bytes());
+      return all<Record>(rows.bind(number(std::clamp(page.limit, 1u, kMaxPage))));
+    });
+  }
+
+  template <class Record>
+  static std::vector<Record> all(Statement& rows) {
+    std::vector<Record> records;
+    while (rows.step())
+      read(rows, records.emplace_back());
+    return records;
+  }
+
+  // Runs a statement to its end; whether it had a row.
+  static bool any(Statement& rows) {
+    bool found = false;
+    while (rows.step())
+      found = true;
+    return found;
+  }
+
+  std::mutex mutex_;
+  Database database_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<JobCatalogue>> open_sqlite_jobs(const std::filesystem::path& file) {
+  auto database = sqlite::open_database(file);
+  if (!database) return Unexpected(database.error());
+  return std::make_unique<SqliteJobs>(std::move(*database));
+}
+
+}  // namespace vitrine

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include "server/auth/authenticator.h"
+#include "server/auth/role.h"
+#include "server/cli/command.h"
+#include "server/cli/console.h"
+#include "server/store/installation.h"
+
+namespace vitrine::cli {
+namespace {
+
+constexpr std::string_view kActions[] = {"create", "revoke"};
+
+Outcome create(const Arguments& arguments) {
+  if (!arguments.has("--role")) return misused("--role is missing; give viewer, operator or admin");
+  if (arguments.has("--id")) return misused("--id goes with revoke; leave it out");
+  const auto choice = arguments.choice("--role", kRoleNames);
+  if (!choice) return tl::unexpected(choice.error());
+  const auto installation = open_installation(arguments.text("--data"));
+  if (!installation) return failed(installation.error());
+  const Role role = *parse_role(kRoleNames[*choice]);
+  const auto token = create_token(*installation->catalogue, role, arguments.text("--label"));
+  if (!token) return failed(token.error());
+  if (arguments.has("--json")) {
+    return print_json({{"id", token->id.to_string()},
+                       {"role", name_of(role)},
+                       {"label", arguments.text("--label")},
+                       {"token", token->text}});
+  }
+  print_note(fmt::format("token {} is shown this once; keep it where only its user can read it",
+                         token->id.to_string()));
+  return print(token->text);
+}
+
+Outcome revoke(const Arguments& arguments) {
+  if (arguments.has("--role") || arguments.has("--label"))
+    return misused("--role and --label go with create; leave them out");
+  const auto id = ModelId::parse(arguments.text("--id"));
+  if (!id) return misused("--id is missing or no id; give the one that create has printed");
+  const auto installation = open_installation(arguments.text("--data"));
+  if (!installation) return failed(installation.error());
+  if (const auto revoked = installation->catalogue->revoke_token(*id); !revoked)
+    return failed(revoked.error());
+  if (!arguments.has("--json")) return print(id->to_string());
+  return print_json({{"id", id->to_string()}});
+}
+
+Outcome change_tokens(const Arguments& arguments) {
+  const std::string action = arguments.operand(0);
+  if (action != kActions[0] && action != kActions[1])
+    return misused(fmt::format("unknown action \"{}\"; give create or revoke", action));
+  if (arguments.has("--server") || arguments.has("--token")) {
+    return failed(
+        "tokens of a remote server are not available in this version; run vitrine token with "
+        "--data DIR on the server itself");
+  }
+  if (!arguments.has("--data")) return misused("--data is missing; name the data folder");
+  return action == "create" ? create(arguments) : revoke(arguments);
+}
+
+constexpr std::string_view kOperands[] = {"create|revoke"};
+constexpr Flag kFlags[] = {{"--data", "DIR", "the daemon's data folder; it may be running"},
+                           {"--role", "R", "create: viewer, operator or admin"},
+                           {"--label", "L", "create: whose token it is, for people"},
+                           {"--id", "ID", "revoke: the id that create has printed"},
+                           {"--server", "URL", "a remote server (not in this version)"},
+                           {"--token", "T", "its access token (not in this version)"},
+                           {"--json", "", "print one JSON object: id, role, label and token"}};
+
+}  // namespace
+
+const Command kToken = {"token",
+                        "Creates and revokes the tokens with which people call the server.",
+                        kOperands, kFlags, change_tokens};
+
+}  // namespace vitrine::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/authorise.h"
+
+#include <fmt/format.h>
+
+#include "server/auth/role.h"
+#include "server/http/problem.h"
+#include "server/http/services.h"
+
+namespace vitrine {
+namespace {
+
+using beast::http::field;
+
+Response unauthorised(std::string_view detail, std::string_view challenge,
+                      std::string_view request_id) {
+  Response response = problem(401, detail, request_id);
+  response.fields = {{"WWW-Authenticate", std::string(challenge)}};
+  return response;
+}
+
+Response unknown_token(const Credentials& credentials, Services& services) {
+  services.metrics.unknown_tokens.fetch_add(1, std::memory_order_relaxed);
+  const auto wait = services.tokens.throttle().failed(credentials.remote);
+  if (wait.count() == 0) {
+    return unauthorised("the token is unknown or revoked; ask for a new one",
+                        "Bearer error=\"invalid_token\"", credentials.request_id);
+  }
+  Response response = problem(429, "too many unknown tokens; wait", credentials.request_id);
+  response.fields = {{"Retry-After", fmt::format("{}", wait.count())}};
+  return response;
+}
+
+// The token of "Bearer TOKEN", empty where the field is anything else.
+std::string_view bearer_token(const RequestHeader& header) {
+  constexpr std::string_view kScheme = "Bearer ";
+  const auto value = header[field::authorization];
+  if (header.count(field::authorization) != 1 || value.size() <= kScheme.size() ||
+      !beast::iequals(value.substr(0, kScheme.size()), kScheme)) {
+    return {};
+  }
+  const auto token = value.substr(kScheme.size());
+  return {token.data(), token.size()};
+}
+
+}  // namespace
+
+bool needs_authorisation(const Route& route, const RequestHeader& header) {
+  if (route.role != Role::kNone) return true;
+  return route.place != Place::kInline && header.count(field::authorization) > 0;
+}
+
+Authorisation authorise(const Route& route, const Credentials& credentials, Services& services) {
+  const std::string_view id = credentials.request_id;
+  if (credentials.header.count(field::authorization) == 0) {
+    if (route.role == Role::kNone) return {};
+    return {{}, unauthorised("send a token: Authorization: Bearer TOKEN", "Bearer", id)};
+  }
+  const auto caller = services.tokens.find(bearer_token(credentials.header));
+  if (!caller) {
+    services.errors.event(Severity::kError,
+                          fmt::format("request {}: {}", id, caller.error().message));
+    return {{}, problem(500, "", id)};
+  }
+  if (!*caller) return {{}, unknown_token(credentials, services)};
+  if ((*caller)->role >= route.role) return {*caller, {}};
+  const auto detail = fmt::format("this needs a token with the role {}", name_of(route.role));
+  return {*caller, problem(403, detail, id)};
+}
+
+}  // namespace vitrine

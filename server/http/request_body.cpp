@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/request_body.h"
+
+#include <set>
+
+#include "server/http/http_header.h"
+
+namespace vitrine {
+namespace {
+
+using Json = nlohmann::json;
+
+// Parameters ("; charset=utf-8") do not matter: JSON is UTF-8.
+bool is_json(std::string_view media_type) {
+  std::string_view name = media_type.substr(0, media_type.find(';'));
+  while (name.ends_with(' ') || name.ends_with('\t'))
+    name.remove_suffix(1);
+  return beast::iequals(name, "application/json");
+}
+
+// Watches the parser's events: what is wrong is known before it has been built.
+class Watch {
+ public:
+  bool operator()(int depth, Json::parse_event_t event, const Json& value) {
+    using Event = Json::parse_event_t;
+    const bool starts = event == Event::object_start || event == Event::array_start;
+    if (starts && depth >= kMaxBodyDepth) too_deep_ = true;
+    if (event == Event::object_start) names_.emplace_back();
+    if (event == Event::key && !names_.back().insert(value.get_ref<const std::string&>()).second)
+      repeated_ = true;
+    if (event == Event::object_end) names_.pop_back();
+    return !too_deep_ && !repeated_;
+  }
+  bool too_deep() const { return too_deep_; }
+  bool repeated() const { return repeated_; }
+
+ private:
+  std::vector<std::set<std::string>> names_;  // of the objects that are open
+  bool too_deep_ = false, repeated_ = false;
+};
+
+}  // namespace
+
+tl::expected<Json, BodyFault> parse_body(std::string_view media_type, std::string_view text) {
+  if (text.empty()) return Json::object();
+  if (text.size() > kMaxRequestBody) return tl::unexpected(BodyFault{413, "the body is too large"});
+  if (!is_json(media_type))
+    return tl::unexpected(BodyFault{415, "send the body as application/json"});
+  // The library would take this byte for the end.
+  if (text.find('\0') != text.npos) return tl::unexpected(BodyFault{400, "the body is not JSON"});
+  Watch watch;
+  Json json = Json::parse(text, std::ref(watch), /*allow_exceptions=*/false);
+  if (watch.too_deep()) return tl::unexpected(BodyFault{400, "the body is nested too deep"});
+  if (watch.repeated()) return tl::unexpected(BodyFault{400, "the body has a name twice"});
+  if (!json.is_object()) return tl::unexpected(BodyFault{400, "the body is not a JSON object"});
+  return json;
+}
+
+}  // namespace vitrine

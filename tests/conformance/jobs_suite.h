@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a back end of the jobs' catalogue supplies to be tested.
+#pragma once
+
+#include <memory>
+
+#include "server/catalogue/jobs.h"
+
+namespace vitrine::test {
+
+class JobsBackend {
+ public:
+  virtual ~JobsBackend() = default;
+  // A new connection to the same catalogue, empty at first.
+  virtual std::unique_ptr<JobCatalogue> connect() = 0;
+};
+
+std::unique_ptr<JobsBackend> make_jobs_backend();
+
+}  // namespace vitrine::test

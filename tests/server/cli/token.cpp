@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "server/auth/authenticator.h"
+#include "server/store/installation.h"
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+// What a daemon on the data folder would find.
+std::optional<Caller> find(const std::string& data, const std::string& token) {
+  const auto installation = open_installation(data).value();
+  return Authenticator(*installation.catalogue).find(token).value();
+}
+
+TEST_F(VitrineCommand, a_token_is_created_offline_and_shown_once) {
+  const ProgramResult result =
+      vitrine({"token", "create", "--role", "admin", "--data", path("data")});
+  expect_fault(result, 0);  // the note's form is a fault's
+  EXPECT_THAT(result.errors, HasSubstr("is shown this once"));
+  ASSERT_EQ(result.output.size(), 48u);
+  const auto caller = find(path("data"), result.output.substr(0, 47));
+  ASSERT_TRUE(caller);
+  EXPECT_EQ(caller->role, Role::kAdmin);
+  EXPECT_THAT(result.errors, HasSubstr(caller->token.to_string()));
+}
+
+TEST_F(VitrineCommand, a_token_as_json_says_all_there_is_to_it) {
+  const nlohmann::json token = vitrine_json(
+      {"token", "create", "--role", "viewer", "--data", path("data"), "--label", "Anna"});
+  EXPECT_EQ(token["role"], "viewer");
+  EXPECT_EQ(token["label"], "Anna");
+  const auto caller = find(path("data"), token["token"].get<std::string>());
+  ASSERT_TRUE(caller);
+  EXPECT_EQ(caller->token.to_string(), token["id"]);
+}
+
+TEST_F(VitrineCommand, a_revoked_token_is_nobodys) {
+  const nlohmann::json token =
+      vitrine_json({"token", "create", "--role", "operator", "--data", path("data")});
+  const std::string id = token["id"].get<std::string>();
+  EXPECT_EQ(vitrine({"token", "revoke", "--id", id, "--data", path("data")}).output, id + "\n");
+  EXPECT_FALSE(find(path("data"), token["token"].get<std::string>()));
+  expect_fault(vitrine({"token", "revoke", "--id", id, "--data", path("data")}), 1);
+}
+
+TEST_F(VitrineCommand, a_token_needs_an_action_a_role_and_a_place) {
+  const std::vector<std::vector<std::string>> lines = {
+      {"token"},
+      {"token", "make", "--data", "d"},
+      {"token", "create", "--data", "d"},
+      {"token", "create", "--role", "root", "--data", "d"},
+      {"token", "create", "--role", "admin"},
+      {"token", "create", "--role", "admin", "--id", "x", "--data", "d"},
+      {"token", "revoke", "--data", "d"},
+      {"token", "revoke", "--id", "x", "--data", "d"},
+      {"token", "revoke", "--role", "admin", "--data", "d"}};
+  for (const auto& words : lines)
+    expect_fault(vitrine(words), 2);
+  const std::string file = write("file", "");
+  expect_fault(vitrine({"token", "create", "--role", "admin", "--data", file}), 1);
+  const ProgramResult remote = vitrine(
+      {"token", "create", "--role", "admin", "--server", "http://127.0.0.1:1", "--token", "t"});
+  expect_fault(remote, 1);
+  EXPECT_THAT(remote.errors, HasSubstr("not available in this version"));
+  EXPECT_THAT(files(), ::testing::ElementsAre("file"));
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A server of a test's own routes in this process, with one thread for all connections.
+#pragma once
+
+#include <fstream>
+#include <future>
+#include <iterator>
+#include <thread>
+
+#include "server/http/http_server.h"
+#include "server/http/services.h"
+#include "server/store/installation.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine::test {
+
+class LocalServer {
+ public:
+  explicit LocalServer(std::span<const Route> routes,
+                       std::chrono::seconds patience = std::chrono::seconds(30))
+      : metrics_(Router(routes).templates()),
+        server_(io_, services_, workers_,
+                {.routes = routes, .max_connections = 64, .patience = patience}),
+        port_(server_.listen({"127.0.0.1", 0}).value()) {
+    server_.start();
+    thread_ = std::thread([this] { io_.run(); });
+  }
+  ~LocalServer() {
+    io_.stop();
+    thread_.join();
+    workers_.stop();
+    workers_.join();
+  }
+
+  std::uint16_t port() const { return port_; }
+  Catalogue& catalogue() { return *installation_.catalogue; }
+  const Metrics& metrics() const { return metrics_; }
+
+  // "Authorization: Bearer ...\r\n" of a new token.
+  std::string bearer(Role role) {
+    return "Authorization: Bearer " + create_token(catalogue(), role, "").value().text + "\r\n";
+  }
+  // What the operator's log holds; the lines of a connection's requests but the newest are there.
+  std::string events() const {
+    std::ifstream in(folder_.path() / "events.log");
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  // Resolves once no connection is left.
+  std::future<void> drain() {
+    const auto empty = std::make_shared<std::promise<void>>();
+    server_.drain([empty] { empty->set_value(); });
+    return empty->get_future();
+  }
+
+ private:
+  TemporaryFolder folder_;
+  Installation installation_ = open_installation(folder_.path()).value();
+  PublishedModels models_{*installation_.store, *installation_.catalogue};
+  ExportCache exports_{0};
+  WebPages pages_{{}};
+  Metrics metrics_;
+  Authenticator tokens_{*installation_.catalogue};
+  Log log_ = Log::open("").value();
+  Log events_ = Log::open(folder_.path() / "events.log").value();
+  Services services_{
+      *installation_.catalogue, tokens_, models_, exports_, pages_, metrics_, log_, events_, true};
+  asio::io_context io_;
+  Workers workers_{2, 1};
+  HttpServer server_;
+  std::uint16_t port_;
+  std::thread thread_;
+};
+
+}  // namespace vitrine::test
