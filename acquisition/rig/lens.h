@@ -13,12 +13,12 @@ struct Pixel {
 };
 
 struct Lens {
-  double focal = 0;                   // pixels
-  Pixel centre;                       // where the optical axis meets the sensor
-  double k1 = 0, k2 = 0;              // radial
-  double p1 = 0, p2 = 0;              // tangential
-  Vec3 at;                            // the pinhole, mm
-  Vec3 right, down, forward;          // unit vectors
+  double focal = 0;           // pixels
+  Pixel centre;               // where the optical axis meets the sensor
+  double k1 = 0, k2 = 0;      // radial
+  double p1 = 0, p2 = 0;      // tangential
+  Vec3 at;                    // the pinhole, mm
+  Vec3 right, down, forward;  // unit vectors
 };
 
 // Looks from `at` towards `target`, its v along the world's -z but for `roll` (radians).

@@ -34,10 +34,18 @@ const std::array<float, kSteps> kNormal = quantiles();
 
 }  // namespace
 
+NormalSequence::NormalSequence(std::uint64_t key, std::uint64_t first)
+    : key_(key), index_(first), bits_(scramble(key + first / 4) >> (first % 4 * 16)) {}
+
+float NormalSequence::next() {
+  const float value = kNormal[bits_ & (kSteps - 1)];
+  bits_ >>= 16;
+  if (++index_ % 4 == 0) bits_ = scramble(key_ + index_ / 4);
+  return value;
+}
+
 float normal(std::uint64_t key, std::uint64_t index) {
-  // Four neighbours share 64 bits: whole frames are made of these.
-  const std::uint64_t bits = scramble(key + index / 4);
-  return kNormal[(bits >> (index % 4 * 16)) & (kSteps - 1)];
+  return NormalSequence(key, index).next();
 }
 
 }  // namespace vitrine::rig

@@ -27,4 +27,14 @@ constexpr double uniform(std::uint64_t key) {
 // Normally distributed, mean 0, variance 1, up to 3.7 from the mean.
 float normal(std::uint64_t key, std::uint64_t index);
 
+// The same for ascending indices, faster: four neighbours share 64 bits.
+class NormalSequence {
+ public:
+  NormalSequence(std::uint64_t key, std::uint64_t first);
+  float next();
+
+ private:
+  std::uint64_t key_, index_, bits_;
+};
+
 }  // namespace vitrine::rig

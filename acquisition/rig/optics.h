@@ -26,9 +26,9 @@ struct Optics {
   bool clockwise = false;  // how the table turns, seen from above, when its angle grows
 };
 
-// No two seeds give the same rig, so that no calibration fits another. Fixed for all of them: a 16 mm
-// lens on pixels of 5.3 um, at most 30 degrees between laser sheet and camera, an object of 80 mm
-// height and 45 mm radius wholly in view.
+// No two seeds give the same rig, so that no calibration fits another. Fixed for all of them: a 16
+// mm lens on pixels of 5.3 um, at most 30 degrees between laser sheet and camera, an object of 80
+// mm height and 45 mm radius wholly in view.
 Optics optics_of(std::uint64_t seed);
 
 // Where a point of the object is when the table stands at `degrees`, and back.

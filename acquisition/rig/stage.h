@@ -9,10 +9,11 @@
 namespace vitrine::rig {
 
 struct Setting {
-  double degrees = 0;         // of the table, as the motor was told
+  double degrees = 0;  // of the table, as the motor was told
   bool laser = false;
-  int turns = 0;              // motions that were begun
-  std::optional<int> target;  // the pose of the calibration target; nothing: the object stands there
+  int turns = 0;  // motions that were begun
+  std::optional<int>
+      target;  // the pose of the calibration target; nothing: the object stands there
   bool operator==(const Setting&) const = default;
 };
 
