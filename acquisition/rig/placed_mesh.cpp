@@ -21,9 +21,14 @@ Expected<std::vector<std::uint8_t>> contents(const std::filesystem::path& path) 
               fmt::format("{}: cannot be read or is empty; give a mesh file", path.string()));
 }
 
-void stand_up(TriangleMesh& mesh) {
-  for (Vec3& p : mesh.positions)
-    p = {p.x, -p.z, p.y};
+// A rotation that takes the axis `up` to z.
+Vec3 stood_up(const std::string& up, const Vec3& p) {
+  if (up == "x") return {p.y, p.z, p.x};
+  if (up == "-x") return {p.y, -p.z, -p.x};
+  if (up == "y") return {p.x, -p.z, p.y};
+  if (up == "-y") return {p.x, p.z, -p.y};
+  if (up == "-z") return {p.x, -p.y, -p.z};
+  return p;
 }
 
 struct Box {
@@ -52,7 +57,8 @@ Expected<TriangleMesh> load(const PlacedMesh& placed) {
   auto read = read_mesh(*bytes);
   if (!read) return Unexpected(read.error());
   TriangleMesh mesh = std::move(read->mesh);
-  if (!placed.z_up) stand_up(mesh);
+  for (Vec3& p : mesh.positions)
+    p = stood_up(placed.up, p);
   const Box box = box_of(mesh);
   const double height = box.high.z - box.low.z;
   if (!(height > 0)) {

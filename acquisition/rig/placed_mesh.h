@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "codec/core/expected.h"
 #include "codec/mesh/triangle_mesh.h"
@@ -12,7 +13,7 @@ namespace vitrine::rig {
 struct PlacedMesh {
   std::filesystem::path file;  // any format of codec/import
   double height_mm = 80;
-  bool z_up = false;  // the file's z axis points upwards, not its y axis
+  std::string up = "y";  // the file's axis that points upwards: x, y, z, -x, -y or -z
 };
 
 // In mm in the table's frame at 0 degrees: z upwards, the lowest point at 0, the middle of its

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/rig/scanner.h"
+
+#include <fmt/format.h>
+
+#include "acquisition/rig/noise.h"
+
+namespace vitrine::rig {
+
+std::string camera_serial(std::uint64_t seed) {
+  return fmt::format("RIG{:06X}", scramble(seed) & 0xffffff);
+}
+
+Scanner::Scanner(const ScannerOptions& options)
+    : options_(options),
+      renderer_(optics_of(options.realism.seed), options.object, options.realism),
+      stage_([this](int turns) { return begin_turn(turns); }),
+      camera_cable_([this] { camera_->unplug(); },
+                    [this] {
+                      if (const auto back = camera_->plug_in(); !back)
+                        fmt::print(stderr, "vitrine-rig: {}\n", back.error().message);
+                    }) {}
+
+Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options) {
+  std::unique_ptr<Scanner> scanner(new Scanner(options));
+  auto camera = GigeCamera::plug_in(
+      {options.camera_address, camera_serial(options.realism.seed)},
+      [self = scanner.get()](const Exposure& exposure, const SensorRegion& region) {
+        return self->expose(exposure, region);
+      });
+  if (!camera) return Unexpected(camera.error());
+  scanner->camera_ = std::move(*camera);
+  return scanner;
+}
+
+bool Scanner::begin_turn(int turns) {
+  if (due(options_.faults, FaultKind::kCameraUnplug, turns)) camera_cable_.pull();
+  return !due(options_.faults, FaultKind::kMotorStall, turns);
+}
+
+Delivery Scanner::delivery(int turns) {
+  ++frames_;
+  if (due(options_.faults, FaultKind::kMissedTrigger, turns) && missed_at_ != turns) {
+    missed_at_ = turns;
+    return Delivery::kLost;
+  }
+  const bool lossy = lasting(options_.faults, FaultKind::kLostPackets, turns);
+  const bool lacking = lossy && key_of(options_.realism.seed, 0x105, frames_) % 20 == 0;
+  return lacking ? Delivery::kLacksPackets : Delivery::kWhole;
+}
+
+Exposed Scanner::expose(const Exposure& exposure, const SensorRegion& region) {
+  const Setting setting = stage_.now();
+  const double shift = crept(options_.faults, setting.turns);
+  return {renderer_.take({setting, exposure, region, shift}), delivery(setting.turns)};
+}
+
+}  // namespace vitrine::rig
