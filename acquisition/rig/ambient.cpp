@@ -7,8 +7,6 @@
 namespace vitrine::rig {
 namespace {
 
-constexpr double kBackground = 1.5;  // grey levels: the wall behind, and the table, painted black
-
 // From all sides, and somewhat more from where the camera is.
 double ambient_at(const View& view, const PixelRays& rays, const Subject& subject, int u, int v) {
   const Vec3 direction = rays.direction(view.camera, u, v);

@@ -12,8 +12,8 @@ Cable::Cable(std::function<void()> pull, std::function<void()> put_back)
 
 void Cable::pull() {
   hand_ = {};
-  pull_();
   hand_ = std::jthread([this](const std::stop_token& stop) {
+    pull_();
     std::mutex mutex;
     std::unique_lock lock(mutex);
     std::condition_variable_any stopped;

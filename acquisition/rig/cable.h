@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cable that somebody pulls and, after a while, puts back.
+// A cable that somebody else pulls and, after a while, puts back.
 #pragma once
 
 #include <chrono>
@@ -12,10 +12,11 @@ inline constexpr std::chrono::milliseconds kUnplugged{1200};
 
 class Cable {
  public:
-  // Neither is called while the other runs. A cable that is destroyed is not put back any more.
+  // Both are called by a thread of the cable's own, one after the other. A cable that is destroyed
+  // is not put back any more.
   Cable(std::function<void()> pull, std::function<void()> put_back);
 
-  // Returns when it is pulled; kUnplugged later it is put back.
+  // At once, and put back kUnplugged later; returns before. Again: the while begins anew.
   void pull();
 
  private:

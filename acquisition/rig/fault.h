@@ -11,22 +11,22 @@ namespace vitrine::rig {
 
 enum class FaultKind {
   kLostPackets,    // from then on one frame in twenty lacks packets
-  kCameraUnplug,   // gone before that motion, back after kUnplugged
+  kCameraUnplug,   // gone after that motion, back after kUnplugged
   kUsbUnplug,      // likewise, the board
-  kMotorStall,     // that motion never ends
+  kMotorStall,     // after that motion the table does not turn until the board is restarted
   kMissedTrigger,  // the first frame after that motion is not sent
   kDrift,          // from then on the laser creeps by kCreepMm a motion
 };
 
 struct Fault {
   FaultKind kind = FaultKind::kDrift;
-  int step = 0;  // motions that were begun
+  int step = 0;  // motions that were completed
 };
 
 inline constexpr double kCreepMm = 0.002;
 
-// "NAME" or "NAME@STEP", such as camera-unplug@20; without a step at the first motion, or from the
-// start. Fails (kBadInput) with the names there are.
+// "NAME" or "NAME@STEP", such as camera-unplug@20; without a step after the first motion, or from
+// the start. Fails (kBadInput) with the names there are.
 Expected<Fault> parse_fault(std::string_view text);
 
 // Whether that kind is due at exactly that motion, or since an earlier one.

@@ -22,6 +22,9 @@ struct LightMap {
   std::vector<float> ambient, laser;
 };
 
+// In ambient light: the wall behind, and the table, painted black.
+inline constexpr float kBackground = 1.5F;
+
 // The directions in which the pixels look, which take too long to find for every picture.
 class PixelRays {
  public:

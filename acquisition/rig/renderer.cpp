@@ -9,6 +9,7 @@ namespace vitrine::rig {
 namespace {
 
 constexpr double kMotorError = 0.05;  // degrees
+constexpr std::size_t kPixels = static_cast<std::size_t>(kSensorWidth) * kSensorHeight;
 
 // Millionths of a degree, within a turn.
 std::uint64_t within_turn(double degrees) {
@@ -49,7 +50,10 @@ void Renderer::light_up(const Shot& shot, const Scene& scene) {
     const TargetPose& pose = poses_.at(static_cast<std::size_t>(*shot.setting.target));
     placement = pose.on_table ? on_table(optics_, degrees, pose.placement) : pose.placement;
   }
-  if (!subject) return;
+  if (!subject) {
+    light_ = {std::vector<float>(kPixels, kBackground), std::vector<float>(kPixels)};
+    return;
+  }
   Optics optics = optics_;
   optics.laser.offset += shot.laser_shift;
   const View view = seen_from(placement, optics);

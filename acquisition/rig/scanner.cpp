@@ -14,7 +14,7 @@ std::string camera_serial(std::uint64_t seed) {
 Scanner::Scanner(const ScannerOptions& options)
     : options_(options),
       renderer_(optics_of(options.realism.seed), options.object, options.realism),
-      stage_([this](int turns) { return begin_turn(turns); }),
+      stage_([this](int turns) { turned(turns); }),
       camera_cable_([this] { camera_->unplug(); },
                     [this] {
                       if (const auto back = camera_->plug_in(); !back)
@@ -33,9 +33,8 @@ Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options)
   return scanner;
 }
 
-bool Scanner::begin_turn(int turns) {
+void Scanner::turned(int turns) {
   if (due(options_.faults, FaultKind::kCameraUnplug, turns)) camera_cable_.pull();
-  return !due(options_.faults, FaultKind::kMotorStall, turns);
 }
 
 Delivery Scanner::delivery(int turns) {

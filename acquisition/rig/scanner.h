@@ -35,7 +35,7 @@ class Scanner {
 
  private:
   explicit Scanner(const ScannerOptions& options);
-  bool begin_turn(int turns);
+  void turned(int turns);
   Exposed expose(const Exposure& exposure, const SensorRegion& region);
   Delivery delivery(int turns);
 

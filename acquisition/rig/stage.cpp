@@ -3,16 +3,14 @@
 
 namespace vitrine::rig {
 
-bool Stage::turn_to(double degrees) {
+void Stage::turned_to(double degrees) {
   int turns = 0;
   {
     const std::lock_guard lock(mutex_);
+    setting_.degrees = degrees;
     turns = ++setting_.turns;
   }
-  if (on_turn_ && !on_turn_(turns)) return false;
-  const std::lock_guard lock(mutex_);
-  setting_.degrees = degrees;
-  return true;
+  if (on_turn_) on_turn_(turns);
 }
 
 void Stage::laser(bool on) {

@@ -11,7 +11,7 @@ namespace vitrine::rig {
 struct Setting {
   double degrees = 0;  // of the table, as the motor was told
   bool laser = false;
-  int turns = 0;  // motions that were begun
+  int turns = 0;  // motions that were completed
   std::optional<int>
       target;  // the pose of the calibration target; nothing: the object stands there
   bool operator==(const Setting&) const = default;
@@ -20,14 +20,12 @@ struct Setting {
 // For several threads at once.
 class Stage {
  public:
-  // Called by turn_to() with the count of turns, this one included, before the table has moved and
-  // without the lock: it may take time, and unplug things. False: the motor stalls.
-  using OnTurn = std::function<bool(int turns)>;
+  // Called by turned_to() with the count of motions, without the lock.
+  using OnTurn = std::function<void(int turns)>;
   explicit Stage(OnTurn on_turn = {}) : on_turn_(std::move(on_turn)) {}
 
-  // The table stands at `degrees` (a board counts from where it was switched on) when this returns.
-  // False: the motor stalls, the table has not moved and the motion never completes.
-  [[nodiscard]] bool turn_to(double degrees);
+  // The table has come to stand at `degrees`, counted from where it first stood.
+  void turned_to(double degrees);
   void laser(bool on);
 
   void place_object();
