@@ -1,19 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/rig/gige_camera.h"
 
+#include <arpa/inet.h>
 #include <arv.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <algorithm>
-#include <cstring>
+#include <mutex>
 
 #include "acquisition/rig/optics.h"
+#include "codec/files/file_descriptor.h"
 
 namespace vitrine::rig {
 namespace {
 
 // Enough of a frame's packets that none of them gets through whole.
 constexpr double kLostShare = 0.05;
+
+// Aravis would share the port with another camera, and each would hear half of what is said.
+bool is_free(const std::string& address) {
+  sockaddr_in control{};
+  control.sin_family = AF_INET;
+  control.sin_port = htons(3956);
+  if (::inet_pton(AF_INET, address.c_str(), &control.sin_addr) != 1) return false;
+  const FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  return ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&control), sizeof control) == 0;
+}
 
 }  // namespace
 
@@ -33,7 +47,15 @@ class GigeCamera::Plugged {
     arv_fake_camera_set_trigger_frequency(fake_, 500);
     arv_fake_camera_set_fill_pattern(fake_, fill, this);
   }
-  ~Plugged() { g_clear_object(&camera_); }
+  // What is under way does not arrive any more.
+  ~Plugged() {
+    {
+      const std::lock_guard lock(mutex_);
+      leaving_ = true;
+      if (camera_ != nullptr) lose(1);
+    }
+    g_clear_object(&camera_);
+  }
   Plugged(const Plugged&) = delete;
   Plugged& operator=(const Plugged&) = delete;
 
@@ -73,15 +95,20 @@ class GigeCamera::Plugged {
     deliver(exposed.delivery);
   }
 
+  void lose(double share) { g_object_set(camera_, "gvsp-lost-ratio", share, nullptr); }
+
   // For the frame that is sent next, by the thread that this is called by.
   void deliver(Delivery delivery) {
     const double lost = delivery == Delivery::kWhole          ? 0
                         : delivery == Delivery::kLacksPackets ? kLostShare
                                                               : 1;
-    g_object_set(camera_, "gvsp-lost-ratio", lost, nullptr);
+    const std::lock_guard lock(mutex_);
+    if (!leaving_) lose(lost);
   }
 
   const Expose& expose_;
+  std::mutex mutex_;
+  bool leaving_ = false;
   ArvGvFakeCamera* camera_ = nullptr;
   ArvFakeCamera* fake_ = nullptr;
 };
@@ -100,11 +127,11 @@ Expected<std::unique_ptr<GigeCamera>> GigeCamera::plug_in(const GigeCameraOption
 
 Expected<void> GigeCamera::plug_in() {
   if (plugged_) return {};
-  auto plugged = std::make_unique<Plugged>(options_, expose_);
-  if (!plugged->running()) {
+  auto plugged = is_free(options_.address) ? std::make_unique<Plugged>(options_, expose_) : nullptr;
+  if (!plugged || !plugged->running()) {
     return fail(ErrorCode::kIo,
-                fmt::format("camera at {}: the address is not this machine's or has a camera "
-                            "already; give another with --address, such as 127.0.0.2",
+                fmt::format("camera at {}: no interface has that address, or a camera has it "
+                            "already; give --address or --private-network",
                             options_.address));
   }
   plugged_ = std::move(plugged);

@@ -28,7 +28,9 @@ that only COMMAND sees. Runs COMMAND and exits as it does.
   --matt               no paint of another albedo and no gloss
   --ideal              no noise, no speckle, a motor without error: to compare methods, never to
                        state accuracy
-  --address IP         the camera's, of this machine (default 127.0.0.1); one rig an address
+  --address IP         the camera's, of an interface of this machine (default 127.0.0.1); one rig an
+                       address
+  --private-network    camera and COMMAND on a loopback of their own: several rigs on one machine
   --dialect NAME       the board's: horus or fabscan (default horus)
   --write-config FILE  what `vitrine` is to know of the scanner, as JSON
   --write-truth FILE   the object in the table's frame at 0 degrees in mm, as PLY, with a flag
@@ -77,6 +79,7 @@ class Parser {
     if (word == "--help") return options_.help = true;
     if (word == "--version") return options_.version = true;
     if (word == "--empty") return empty_ = true;
+    if (word == "--private-network") return options_.private_network = true;
     if (word == "--ideal") return options_.realism.ideal = true;
     if (word != "--matt") return false;
     options_.finish = {.painted = false, .gloss = 0};

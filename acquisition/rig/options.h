@@ -17,7 +17,7 @@
 namespace vitrine::rig {
 
 struct RigOptions {
-  bool help = false, version = false;
+  bool help = false, version = false, private_network = false;
   std::optional<PlacedMesh> object;  // nothing: an empty table
   Realism realism;
   Finish finish;

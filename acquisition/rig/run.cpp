@@ -9,6 +9,7 @@
 
 #include "acquisition/rig/operator_door.h"
 #include "acquisition/rig/options.h"
+#include "acquisition/rig/private_network.h"
 #include "acquisition/rig/rig_file.h"
 #include "acquisition/rig/run_command.h"
 #include "acquisition/rig/scanner.h"
@@ -95,6 +96,10 @@ int run(std::span<const std::string_view> words) {
   if (!options) return complain(options.error(), 2);
   if (options->help) return fmt::print("{}\n", usage()), 0;
   if (options->version) return fmt::print("vitrine-rig " VITRINE_VERSION "\n"), 0;
+  if (options->private_network) {
+    const auto entered = enter_private_network();
+    if (!entered) return complain(entered.error(), 1);
+  }
   hold_signals();
   const auto code = options->object ? run_with_object(*options) : serve(*options, nullptr);
   return code ? *code : complain(code.error(), 1);

@@ -66,13 +66,17 @@ TEST(Target, OpenCvFindsEveryPoseWithItsCornersWhereTheyAre) {
   for (int pose = 0; pose < kHeldPoses; ++pose) {
     const auto corners = detect(renderer.take({{.target = pose}}));
     EXPECT_GE(corners.size(), 40U) << pose;
-    double squares = 0;
+    double squares = 0, right = 0, down = 0;
     for (const Corner& corner : corners) {
       const Pixel truth = *project(
           camera, in_world(poses[static_cast<std::size_t>(pose)].placement, on_sheet(corner.id)));
+      right += corner.at.u - truth.u;
+      down += corner.at.v - truth.v;
       squares += std::pow(corner.at.u - truth.u, 2) + std::pow(corner.at.v - truth.v, 2);
     }
-    EXPECT_LT(std::sqrt(squares / static_cast<double>(corners.size())), 0.15) << pose;
+    const auto count = static_cast<double>(corners.size());
+    EXPECT_LT(std::sqrt(squares / count), 0.3) << pose;
+    EXPECT_LT(std::hypot(right, down) / count, 0.06) << pose;
   }
 }
 
