@@ -48,11 +48,19 @@ Expected<void> write_text(const std::string& path, std::string_view text) {
   return write_file_atomically(path, {first, text.size()});
 }
 
+BoardAddress address_of(const RigOptions& options) {
+  const bool fabscan = options.dialect == "fabscan";
+  const UsbBoardSettings board = board_settings(options.realism.seed, fabscan);
+  const UsbIds ids = ids_of(board.transport);
+  return {options.dialect, fmt::format("{:#06x}", ids.vendor), fmt::format("{:#06x}", ids.product),
+          board.serial};
+}
+
 Expected<void> write_config(const RigOptions& options, const fs::path& socket) {
   if (options.write_config.empty()) return {};
   const fs::path folder = fs::absolute(folder_of(options.write_config)).lexically_normal();
   return write_text(options.write_config, to_json({.camera_address = options.address,
-                                                   .board = {.dialect = options.dialect},
+                                                   .board = address_of(options),
                                                    .steps = options.steps,
                                                    .calibrations = folder / "calibrations",
                                                    .socket = socket}));
@@ -63,7 +71,8 @@ Expected<int> serve(const RigOptions& options, const Subject* object) {
   auto scanner = Scanner::start({.object = object,
                                  .realism = options.realism,
                                  .faults = options.faults,
-                                 .camera_address = options.address});
+                                 .camera_address = options.address,
+                                 .fabscan = options.dialect == "fabscan"});
   if (!scanner) return Unexpected(scanner.error());
   auto door = open_door(folder.socket(), (*scanner)->stage());
   if (!door) return Unexpected(door.error());

@@ -11,15 +11,29 @@ std::string camera_serial(std::uint64_t seed) {
   return fmt::format("RIG{:06X}", scramble(seed) & 0xffffff);
 }
 
+UsbBoardSettings board_settings(std::uint64_t seed, bool fabscan) {
+  return {.fabscan = fabscan, .serial = camera_serial(seed)};
+}
+
+namespace {
+
+// Nobody waits for what a cable did.
+void tell(const Expected<void>& outcome) {
+  if (!outcome) fmt::print(stderr, "vitrine-rig: {}\n", outcome.error().message);
+}
+
+}  // namespace
+
 Scanner::Scanner(const ScannerOptions& options)
     : options_(options),
       renderer_(optics_of(options.realism.seed), options.object, options.realism),
       stage_([this](int turns) { turned(turns); }),
-      camera_cable_([this] { camera_->unplug(); },
-                    [this] {
-                      if (const auto back = camera_->plug_in(); !back)
-                        fmt::print(stderr, "vitrine-rig: {}\n", back.error().message);
-                    }) {}
+      board_({.on_turn = [this](double degrees) { stage_.turned_to(degrees); },
+              .on_laser = [this](bool on) { stage_.laser(on); }}),
+      camera_cable_([this] { camera_->unplug(); }, [this] { tell(camera_->plug_in()); }),
+      board_cable_(
+          [this] { board_.unplug(); },
+          [this] { tell(board_.plug(board_settings(options_.realism.seed, options_.fabscan))); }) {}
 
 Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options) {
   std::unique_ptr<Scanner> scanner(new Scanner(options));
@@ -30,11 +44,16 @@ Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options)
       });
   if (!camera) return Unexpected(camera.error());
   scanner->camera_ = std::move(*camera);
+  const auto plugged = scanner->board_.plug(board_settings(options.realism.seed, options.fabscan));
+  if (!plugged) return Unexpected(plugged.error());
   return scanner;
 }
 
 void Scanner::turned(int turns) {
   if (due(options_.faults, FaultKind::kCameraUnplug, turns)) camera_cable_.pull();
+  if (due(options_.faults, FaultKind::kUsbUnplug, turns)) board_cable_.pull();
+  if (due(options_.faults, FaultKind::kMotorStall, turns))
+    brake_ = std::jthread([this] { board_.stall(); });
 }
 
 Delivery Scanner::delivery(int turns) {

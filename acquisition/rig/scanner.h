@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "acquisition/rig/cable.h"
@@ -13,6 +14,7 @@
 #include "acquisition/rig/gige_camera.h"
 #include "acquisition/rig/renderer.h"
 #include "acquisition/rig/stage.h"
+#include "acquisition/rig/usb_board.h"
 
 namespace vitrine::rig {
 
@@ -21,16 +23,18 @@ struct ScannerOptions {
   Realism realism;
   std::vector<Fault> faults;
   std::string camera_address = "127.0.0.1";
+  bool fabscan = false;  // the board, instead of Horus
 };
 
 // The same for the same seed: a rig that is started anew is the rig it was.
 std::string camera_serial(std::uint64_t seed);
+UsbBoardSettings board_settings(std::uint64_t seed, bool fabscan);
 
 class Scanner {
  public:
   static Expected<std::unique_ptr<Scanner>> start(const ScannerOptions& options);
 
-  // The board turns its table and switches its laser.
+  // Its board turns the table and switches the laser.
   Stage& stage() { return stage_; }
 
  private:
@@ -45,7 +49,9 @@ class Scanner {
   int missed_at_ = -1;  // motions, when a trigger was missed last
   Stage stage_;
   std::unique_ptr<GigeCamera> camera_;
-  Cable camera_cable_;
+  UsbBoard board_;
+  Cable camera_cable_, board_cable_;
+  std::jthread brake_;  // a stall comes from elsewhere, too: the board's thread may not call it
 };
 
 }  // namespace vitrine::rig

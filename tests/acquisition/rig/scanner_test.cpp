@@ -55,19 +55,13 @@ class Client {
     arv_camera_software_trigger(camera_.get(), nullptr);
     const BufferPtr buffer(arv_stream_timeout_pop_buffer(stream_.get(), 1'500'000));
     if (!buffer) return std::nullopt;
-    Frame frame{
-        arv_buffer_get_image_width(buffer.get()), arv_buffer_get_image_height(buffer.get()), {}};
+    arv_stream_push_buffer(stream_.get(), arv_buffer_new(size_, nullptr));
+    if (arv_buffer_get_status(buffer.get()) != ARV_BUFFER_STATUS_SUCCESS) return std::nullopt;
     std::size_t size = 0;
     const auto* bytes = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer.get(), &size));
-    const bool whole = arv_buffer_get_status(buffer.get()) == ARV_BUFFER_STATUS_SUCCESS;
-    if (whole) frame.pixels.assign(bytes, bytes + size);
-    arv_stream_push_buffer(stream_.get(), arv_buffer_new(size_, nullptr));
-    return whole ? std::optional(frame) : std::nullopt;
-  }
-
-  void stop() {
-    arv_camera_stop_acquisition(camera_.get(), nullptr);
-    stream_.reset();
+    return Frame{arv_buffer_get_image_width(buffer.get()),
+                 arv_buffer_get_image_height(buffer.get()),
+                 {bytes, bytes + size}};
   }
 
  private:
