@@ -12,7 +12,9 @@ std::string camera_serial(std::uint64_t seed) {
 }
 
 UsbBoardSettings board_settings(std::uint64_t seed, bool fabscan) {
-  return {.fabscan = fabscan, .serial = camera_serial(seed)};
+  UsbBoardSettings settings{.fabscan = fabscan, .serial = camera_serial(seed)};
+  if (fabscan) settings.firmware.steps_per_turn = 3200;  // as its stepper has, in 16 microsteps
+  return settings;
 }
 
 namespace {
