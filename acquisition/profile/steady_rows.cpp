@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/profile/steady_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "acquisition/profile/line_fit.h"
+
+namespace vitrine {
+namespace {
+
+// Speckle moves some rows much more than most; what the median says of it is too little.
+constexpr double kTails = 1.4;
+
+// The median of |a - 2 b + c| is .6745 sqrt(6) standard deviations of one row.
+double noise_of(const std::vector<StripePoint>& stripe) {
+  std::vector<double> bends;
+  for (std::size_t i = 2; i < stripe.size(); ++i) {
+    if (stripe[i].row - stripe[i - 2].row == 2)
+      bends.push_back(std::abs(stripe[i - 2].u - 2 * stripe[i - 1].u + stripe[i].u));
+  }
+  if (bends.empty()) return 0;
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  return *middle / (.6745 * std::sqrt(6));
+}
+
+std::optional<double> on_line(const std::vector<StripePoint>& stripe, std::size_t i, int reach,
+                              double noise) {
+  std::size_t from = i, to = i + 1;
+  while (from > 0 && stripe[i].row - stripe[from - 1].row <= reach)
+    --from;
+  while (to < stripe.size() && stripe[to].row - stripe[i].row <= reach)
+    ++to;
+  LineFit line;
+  for (std::size_t k = from; k < to; ++k)
+    line.add(stripe[k].row - stripe[i].row, stripe[k].u);
+  if (!line.is_within(noise)) return {};
+  return line.at(0);
+}
+
+}  // namespace
+
+void steady(std::vector<StripePoint>& stripe, int reach) {
+  const double noise = kTails * noise_of(stripe);
+  std::vector<double> u(stripe.size());
+  for (std::size_t i = 0; i < stripe.size(); ++i) {
+    std::optional<double> line;
+    for (int rows = reach; rows > 0 && !line; rows /= 2)
+      line = on_line(stripe, i, rows, noise);
+    u[i] = line.value_or(stripe[i].u);
+  }
+  for (std::size_t i = 0; i < stripe.size(); ++i)
+    stripe[i].u = u[i];
+}
+
+}  // namespace vitrine
