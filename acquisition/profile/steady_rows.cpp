@@ -13,17 +13,19 @@ namespace {
 // Speckle moves some rows much more than most; what the median says of it is too little.
 constexpr double kTails = 1.4;
 
-// The median of |a - 2 b + c| is .6745 sqrt(6) standard deviations of one row.
+// The median of |a - 3 b + 3 c - d|, which bends alone do not raise, is .6745 sqrt(20) standard
+// deviations of one row.
 double noise_of(const std::vector<StripePoint>& stripe) {
-  std::vector<double> bends;
-  for (std::size_t i = 2; i < stripe.size(); ++i) {
-    if (stripe[i].row - stripe[i - 2].row == 2)
-      bends.push_back(std::abs(stripe[i - 2].u - 2 * stripe[i - 1].u + stripe[i].u));
+  std::vector<double> thirds;
+  for (std::size_t i = 3; i < stripe.size(); ++i) {
+    if (stripe[i].row - stripe[i - 3].row == 3)
+      thirds.push_back(
+          std::abs(stripe[i - 3].u - 3 * stripe[i - 2].u + 3 * stripe[i - 1].u - stripe[i].u));
   }
-  if (bends.empty()) return 0;
-  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-  std::nth_element(bends.begin(), middle, bends.end());
-  return *middle / (.6745 * std::sqrt(6));
+  if (thirds.empty()) return 0;
+  const auto middle = thirds.begin() + static_cast<std::ptrdiff_t>(thirds.size() / 2);
+  std::nth_element(thirds.begin(), middle, thirds.end());
+  return *middle / (.6745 * std::sqrt(20));
 }
 
 std::optional<double> on_line(const std::vector<StripePoint>& stripe, std::size_t i, int reach,

@@ -8,7 +8,7 @@
 
 namespace vitrine {
 
-// The noise is that of the stripe itself, from its second differences (robust: edges do not count).
+// The noise is that of the stripe itself, from its third differences (robust: edges do not count).
 // Each point moves in u onto the line through the rows around it: the most rows, up to `reach` on
 // either side, whose scatter about the line is that noise. O(rows * reach).
 void steady(std::vector<StripePoint>& stripe, int reach);
