@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/surface/merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "acquisition/surface/plane_step.h"
+#include "codec/mesh/face_neighbours.h"
+#include "codec/mesh/triangle_bvh.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::size_t kPoints = 10'000;  // that a scan is moved by
+// Distances up to which points count, one after the other, in `overlap`s: from the operator's start
+// to what is the same surface.
+constexpr std::array<double, 8> kNarrowing = {40, 20, 10, 6, 4, 2, 1, 1};
+constexpr int kSteps = 6;             // at each distance
+constexpr std::size_t kFewest = 100;  // points that overlap
+
+// What scans are moved onto: without the rim, where closest points are no counterparts.
+class Target {
+ public:
+  explicit Target(const TriangleMesh& mesh) : bvh_(mesh), rim_(bvh_.size(), false) {
+    const auto across = face_neighbours(bvh_.faces(), bvh_.positions().size());
+    for (std::uint32_t t = 0; t < bvh_.size(); ++t) {
+      for (std::uint32_t k = 0; k < 3; ++k)
+        rim_[t] = rim_[t] || across[t][k] == 3 * t + k;
+    }
+  }
+
+  std::vector<Counterpart> counterparts(std::span<const Vec3> points, const RigidMotion& motion,
+                                        double reach) const {
+    std::vector<Counterpart> found;
+    for (const Vec3& p : points) {
+      const Vec3 moved = motion(p);
+      const SurfacePoint hit = bvh_.closest(moved, {reach * reach});
+      if (hit.squared >= reach * reach || rim_[hit.triangle]) continue;
+      const Corners corners = bvh_.triangle(hit.triangle);
+      const Vec3 normal = normal_of(corners);
+      if (const double size = length(normal); size > 0)
+        found.push_back({moved, closest_point(corners, moved), normal * (1 / size)});
+    }
+    return found;
+  }
+
+ private:
+  TriangleBvh bvh_;
+  std::vector<bool> rim_;
+};
+
+std::vector<Vec3> some_of(const std::vector<Vec3>& points) {
+  std::vector<Vec3> some;
+  const std::size_t step = points.size() / kPoints + 1;
+  for (std::size_t i = 0; i < points.size(); i += step)
+    some.push_back(points[i]);
+  return some;
+}
+
+double rms_of(const std::vector<Counterpart>& pairs) {
+  double sum = 0;
+  for (const Counterpart& pair : pairs) {
+    const double d = dot(pair.on - pair.point, pair.normal);
+    sum += d * d;
+  }
+  return pairs.empty() ? 0 : std::sqrt(sum / static_cast<double>(pairs.size()));
+}
+
+Unexpected no_overlap(std::size_t scan, std::size_t points) {
+  return fail(ErrorCode::kBadInput,
+              fmt::format("scan {} overlaps with those before it in {} points only: give a better "
+                          "start, or scan more of the same parts",
+                          scan + 1, points));
+}
+
+bool is_covered(const TriangleMesh& scan, const Triangle& face, const TriangleBvh& surface,
+                double reach) {
+  const Vec3 &a = scan.positions[face[0]], &b = scan.positions[face[1]],
+             &c = scan.positions[face[2]];
+  return std::ranges::all_of(std::array{a, b, c, (a + b + c) * (1. / 3)}, [&](const Vec3& p) {
+    return surface.closest(p, {reach * reach}).squared < reach * reach;
+  });
+}
+
+void add_uncovered(TriangleMesh& mesh, const TriangleMesh& scan, double reach) {
+  const TriangleBvh surface(mesh);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), scan.positions.begin(), scan.positions.end());
+  for (const Triangle& face : scan.faces) {
+    if (!is_covered(scan, face, surface, reach))
+      mesh.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+  }
+}
+
+}  // namespace
+
+Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const RigidMotion> starts,
+                       const MergeOptions& options) {
+  if (scans.empty() || scans.size() != starts.size())
+    return fail(ErrorCode::kBadInput,
+                fmt::format("{} scans and {} starts: give one start for each scan", scans.size(),
+                            starts.size()));
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    if (scans[k].faces.empty())
+      return fail(ErrorCode::kBadInput, fmt::format("scan {} has no face: leave it out", k + 1));
+  }
+  Merged merged{scans[0], {RigidMotion{}}, {0}};
+  for (std::size_t k = 1; k < scans.size(); ++k) {
+    const Target target(merged.mesh);
+    const std::vector<Vec3> points = some_of(scans[k].positions);
+    const std::size_t fewest = std::min(kFewest, points.size());
+    RigidMotion motion = starts[k];
+    std::vector<Counterpart> pairs;
+    for (const double reach : kNarrowing) {
+      for (int step = 0; step < kSteps; ++step) {
+        pairs = target.counterparts(points, motion, reach * options.overlap);
+        if (pairs.size() < fewest) return no_overlap(k, pairs.size());
+        motion = then(motion, towards_planes(pairs));
+      }
+    }
+    TriangleMesh moved = scans[k];
+    for (Vec3& p : moved.positions)
+      p = motion(p);
+    add_uncovered(merged.mesh, moved, options.overlap);
+    merged.motions.push_back(motion), merged.rms.push_back(rms_of(pairs));
+  }
+  return merged;
+}
+
+}  // namespace vitrine
