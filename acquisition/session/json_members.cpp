@@ -17,9 +17,8 @@ const json kEmptyObject = json::object();
 
 Expected<json> parse_json_object(std::string_view text, const std::string& place) {
   if (text.size() > kMaxJsonBytes) {
-    return fail(ErrorCode::kLimit,
-                fmt::format("{} is longer than {} bytes; name the right file", place,
-                            kMaxJsonBytes));
+    return fail(ErrorCode::kLimit, fmt::format("{} is longer than {} bytes; name the right file",
+                                               place, kMaxJsonBytes));
   }
   bool deep = false;
   const auto shallow = [&](int depth, json::parse_event_t, json&) {
@@ -93,8 +92,7 @@ bool JsonMembers::flag(std::string_view key, bool otherwise) {
   return otherwise;
 }
 
-std::size_t JsonMembers::choice(std::string_view key,
-                                std::initializer_list<std::string_view> choices,
+std::size_t JsonMembers::choice(std::string_view key, std::span<const std::string_view> choices,
                                 std::size_t otherwise) {
   if (find(key) == nullptr) return otherwise;
   const auto it = std::find(choices.begin(), choices.end(), text(key));

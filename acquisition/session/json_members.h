@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -32,7 +33,7 @@ class JsonMembers {
   int whole(std::string_view key, int low, int high, int otherwise);
   bool flag(std::string_view key, bool otherwise);
   // The value's place among `choices`.
-  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> choices,
+  std::size_t choice(std::string_view key, std::span<const std::string_view> choices,
                      std::size_t otherwise);
   // An object, empty where the key is absent. Its faults are to be collected by adopt().
   JsonMembers object(std::string_view key, std::initializer_list<std::string_view> known);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an operator sees while a scan runs: the last frame, the last profile and the growing cloud of
-// points. Written by the scan, read from any thread.
+// What an operator sees while a scan runs: the last frame, the last profile and the growing cloud
+// of points. Written by the scan, read from any thread.
 #pragma once
 
 #include <array>
@@ -14,10 +14,11 @@
 namespace vitrine {
 
 struct ScanPreview {
-  std::shared_ptr<const Frame> frame;  // laser on, at most kPreviewWidth wide; null before the first
-  int frame_scale = 1;                 // a pixel of it is that many of the camera's on either side
-  Profile profile;                     // the last one
-  std::size_t cloud_size = 0;          // points so far
+  std::shared_ptr<const Frame>
+      frame;                   // laser on, at most kPreviewWidth wide; null before the first
+  int frame_scale = 1;         // a pixel of it is that many of the camera's on either side
+  Profile profile;             // the last one
+  std::size_t cloud_size = 0;  // points so far
 };
 
 inline constexpr int kPreviewWidth = 650;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/processing.h"
 
-#include <algorithm>
-
 namespace vitrine {
 
 Expected<Profile> measure_profile(const FramePair& frames, const Calibration& calibration,
@@ -12,15 +10,12 @@ Expected<Profile> measure_profile(const FramePair& frames, const Calibration& ca
   return profile_of(*stripe, calibration, angle);
 }
 
-Expected<Surface> mesh_of(std::vector<Profile> profiles, const Calibration& calibration,
+Expected<Surface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,
                           const Processing& processing) {
-  // A table may turn either way.
-  std::ranges::sort(profiles, {}, &Profile::theta);
-  SamplingOptions sampling = processing.sampling;
-  sampling.noise = calibration.noise;
-  for (Profile& profile : profiles)
-    profile = sample(profile, sampling);
-  return surface_of(profiles, processing.surface);
+  SurfaceOptions options = processing.surface;
+  options.sampling = processing.sampling;
+  options.noise = options.sampling.noise = calibration.noise;
+  return surface_of(profiles, options);
 }
 
 }  // namespace vitrine

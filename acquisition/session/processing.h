@@ -2,7 +2,7 @@
 // From frames to the mesh, as the rooms below do it one after the other.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "acquisition/calibration/calibration.h"
 #include "acquisition/profile/judge.h"
@@ -17,7 +17,7 @@ namespace vitrine {
 struct Processing {
   StripeOptions stripe;
   SamplingOptions sampling;
-  SurfaceOptions surface;
+  SurfaceOptions surface;  // but for noise and sampling, which come from elsewhere
 };
 
 // Of one position of the table, which the board has turned by `angle` degrees. Fails (kBadInput)
@@ -25,8 +25,8 @@ struct Processing {
 Expected<Profile> measure_profile(const FramePair& frames, const Calibration& calibration,
                                   const StripeOptions& options, double angle);
 
-// Profiles as measured, in any order, to the mesh: sorted, sampled, joined.
-Expected<Surface> mesh_of(std::vector<Profile> profiles, const Calibration& calibration,
+// Profiles as measured to the mesh.
+Expected<Surface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,
                           const Processing& processing);
 
 }  // namespace vitrine

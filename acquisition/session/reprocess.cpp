@@ -44,16 +44,16 @@ Expected<Surface> reprocess(const ScanFolder& folder, const std::filesystem::pat
   }
   auto profiles = folder.profiles();
   if (!profiles) return tl::unexpected(profiles.error());
-  const bool other_points = number != (*record)->calibration ||
-                            options.processing.stripe != request.processing.stripe;
+  const bool other_points =
+      number != (*record)->calibration || options.processing.stripe != request.processing.stripe;
   if (other_points && !request.keep_frames) {
     return fail(ErrorCode::kState,
                 "the pictures of this scan were not kept, so its stripes cannot be found anew; "
                 "scan again and keep them");
   }
   if (other_points) {
-    if (auto measured = measure_again(*profiles, folder, request, *calibration,
-                                      options.processing.stripe);
+    if (auto measured =
+            measure_again(*profiles, folder, request, *calibration, options.processing.stripe);
         !measured)
       return tl::unexpected(measured.error());
   }

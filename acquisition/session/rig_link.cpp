@@ -7,8 +7,8 @@
 #include <sys/un.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
+#include <sstream>
 
 namespace vitrine {
 namespace {
@@ -43,12 +43,10 @@ Expected<RigLink> RigLink::connect(const std::filesystem::path& socket) {
 Expected<int> RigLink::poses() {
   const auto answer = ask("poses");
   if (!answer) return tl::unexpected(answer.error());
-  int count = 0;
-  const auto [end, error] =
-      std::from_chars(answer->data(), answer->data() + answer->size(), count);
-  if (error != std::errc{} || end != answer->data() + answer->size() || count < 0)
-    return lost("does not say how many poses it has");
-  return count;
+  std::istringstream in(*answer);
+  int held = 0, on_table = 0;
+  if (in >> held >> on_table && held >= 0 && on_table >= 0) return held + on_table;
+  return lost("does not say how many poses it has");
 }
 
 Expected<void> RigLink::place_target(int pose) {

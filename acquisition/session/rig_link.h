@@ -16,7 +16,7 @@ class RigLink {
   // Fails (kIo) where no rig listens there.
   static Expected<RigLink> connect(const std::filesystem::path& socket);
 
-  Expected<int> poses();  // of the target
+  Expected<int> poses();  // of the target: held before the table, then standing on it
   Expected<void> place_target(int pose);
   Expected<void> place_object();
 

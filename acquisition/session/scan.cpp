@@ -13,8 +13,7 @@ namespace {
 constexpr double kScanningShare = 0.97;
 
 double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 Unexpected not_now(const char* what, ScanState state) {
@@ -47,8 +46,8 @@ Expected<std::unique_ptr<Scan>> Scan::reopen(Scanner scanner, const std::filesys
   if (!record) return tl::unexpected(record.error());
   const auto profiles = opened->profiles();
   if (!profiles) return tl::unexpected(profiles.error());
-  std::unique_ptr<Scan> scan(new Scan(std::move(scanner), (*record)->request, std::move(*opened),
-                                      std::move(settings)));
+  std::unique_ptr<Scan> scan(
+      new Scan(std::move(scanner), (*record)->request, std::move(*opened), std::move(settings)));
   for (const Profile& profile : *profiles)
     scan->preview_.add(profile);
   const StoredState stored = scan->folder_.state();
@@ -138,7 +137,7 @@ bool Scan::is_interrupted() const {
   return wish_ != Wish::kRun;
 }
 
-void Scan::wait(std::chrono::milliseconds at_most) {
+void Scan::sleep(std::chrono::milliseconds at_most) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, at_most, [&] { return wish_ != Wish::kRun || stop_.is_pressed(); });
 }

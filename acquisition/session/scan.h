@@ -55,7 +55,7 @@ class Scan : private ScanWatch {
   Scan(Scanner scanner, const ScanRequest& request, ScanFolder folder, ScanSettings settings);
 
   bool is_interrupted() const override;
-  void wait(std::chrono::milliseconds at_most) override;
+  void sleep(std::chrono::milliseconds at_most) override;
   void checks_passed() override;
   void step_done(int steps_done) override;
   void waits_for(const Error& lost) override;

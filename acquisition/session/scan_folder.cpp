@@ -23,9 +23,8 @@ Expected<void> make_folder(const fs::path& path) {
   std::error_code error;
   fs::create_directory(path, error);
   if (!error) return sync_folder(folder_of(path));
-  return fail(ErrorCode::kIo,
-              fmt::format("cannot make the folder {}: {}; {}", path.string(), error.message(),
-                          next_step(error.value())));
+  return fail(ErrorCode::kIo, fmt::format("cannot make the folder {}: {}; {}", path.string(),
+                                          error.message(), next_step(error.value())));
 }
 
 Expected<std::string> read_text(const fs::path& path) {
@@ -35,8 +34,8 @@ Expected<std::string> read_text(const fs::path& path) {
 }
 
 Expected<void> write_text(const fs::path& path, const std::string& text) {
-  return write_file_atomically(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()),
-                                               text.size()));
+  return write_file_atomically(
+      path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
 Expected<Frame> read_frame(const fs::path& path) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "acquisition/session/json_members.h"
 #include "acquisition/session/region_json.h"
@@ -15,28 +16,29 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::initializer_list<std::string_view> kSamplings = {"equidistant", "paper", "adaptive"};
-constexpr std::initializer_list<std::string_view> kStripes = {"derivative-of-gaussian",
-                                                              "centre-of-mass", "blais-rioux"};
+constexpr std::array<std::string_view, 3> kSamplings = {"equidistant", "paper", "adaptive"};
+constexpr std::array<std::string_view, 3> kStripes = {"derivative-of-gaussian", "centre-of-mass",
+                                                      "blais-rioux"};
 
 template <class Method>
-std::string_view name_in(std::initializer_list<std::string_view> names, Method method) {
-  return names.begin()[static_cast<std::size_t>(method)];
+std::string_view name_in(std::span<const std::string_view> names, Method method) {
+  return names[static_cast<std::size_t>(method)];
 }
 
 json to_json(const Processing& processing) {
   const auto& [stripe, sampling, surface] = processing;
-  return {{"stripe",
-           {{"method", name_in(kStripes, stripe.method)},
-            {"width", stripe.width},
-            {"contrast", stripe.contrast},
-            {"steady_rows", stripe.steady_rows}}},
-          {"sampling",
-           {{"method", name_in(kSamplings, sampling.method)}, {"length", sampling.window}}},
-          {"surface",
-           {{"largest_spacing", surface.largest_spacing},
-            {"largest_angle", surface.largest_angle},
-            {"largest_hole", surface.largest_hole}}}};
+  return {
+      {"stripe",
+       {{"method", name_in(kStripes, stripe.method)},
+        {"width", stripe.width},
+        {"contrast", stripe.contrast},
+        {"steady_rows", stripe.steady_rows}}},
+      {"sampling", {{"method", name_in(kSamplings, sampling.method)}, {"length", sampling.window}}},
+      {"surface",
+       {{"largest_spacing", surface.largest_spacing},
+        {"largest_angle", surface.largest_angle},
+        {"largest_hole", surface.largest_hole},
+        {"smallest_piece", surface.smallest_piece}}}};
 }
 
 StripeOptions stripe_in(JsonMembers& root) {
@@ -62,11 +64,13 @@ SamplingOptions sampling_in(JsonMembers& root) {
 
 SurfaceOptions surface_in(JsonMembers& root) {
   SurfaceOptions surface;
-  auto members = root.object("surface", {"largest_spacing", "largest_angle", "largest_hole"});
-  surface.largest_spacing =
-      members.number("largest_spacing", 0, 1'000, surface.largest_spacing);
+  auto members = root.object(
+      "surface", {"largest_spacing", "largest_angle", "largest_hole", "smallest_piece"});
+  surface.largest_spacing = members.number("largest_spacing", 0, 1'000, surface.largest_spacing);
   surface.largest_angle = members.number("largest_angle", 0, 90, surface.largest_angle);
   surface.largest_hole = members.number("largest_hole", 0, 1'000, surface.largest_hole);
+  surface.smallest_piece = static_cast<std::size_t>(
+      members.whole("smallest_piece", 0, 1'000'000'000, static_cast<int>(surface.smallest_piece)));
   root.adopt(members);
   return surface;
 }
@@ -83,8 +87,9 @@ Expected<SamplingMethod> sampling_of(std::string_view name) {
 Expected<void> check(const ScanRequest& request) {
   constexpr std::array kLengths = {5, 10, 15, 20};
   if (request.steps < kLeastSteps || request.steps > kMostSteps) {
-    return fail(ErrorCode::kBadInput, fmt::format("{} steps are too few or too many; choose {} to {}",
-                                                  request.steps, kLeastSteps, kMostSteps));
+    return fail(ErrorCode::kBadInput,
+                fmt::format("{} steps are too few or too many; choose {} to {}", request.steps,
+                            kLeastSteps, kMostSteps));
   }
   if (request.exposure_us && !(*request.exposure_us > 0 && *request.exposure_us <= kMostExposure)) {
     return fail(ErrorCode::kBadInput,
@@ -115,10 +120,10 @@ std::string to_json_text(const ScanRecord& record) {
 Expected<ScanRecord> scan_record_of(std::string_view text, const std::string& place) {
   const auto object = parse_json_object(text, place);
   if (!object) return tl::unexpected(object.error());
-  JsonMembers members(*object, place,
-                      {"created", "scanner", "steps", "keep_frames", "camera", "exposure_us",
-                       "gain_db", "region", "board", "calibration", "stripe", "sampling",
-                       "surface"});
+  JsonMembers members(
+      *object, place,
+      {"created", "scanner", "steps", "keep_frames", "camera", "exposure_us", "gain_db", "region",
+       "board", "calibration", "stripe", "sampling", "surface"});
   ScanRecord record;
   record.request.steps = members.whole("steps", kLeastSteps, kMostSteps, 0);
   record.request.keep_frames = members.flag("keep_frames", false);

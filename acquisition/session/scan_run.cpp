@@ -71,7 +71,7 @@ Expected<void> ScanRun::run() {
     if (!may_come_back || tries > means_.patience.tries)
       return tl::unexpected(outcome.error().error);
     means_.watch.waits_for(outcome.error().error);
-    means_.watch.wait(means_.patience.between);
+    means_.watch.sleep(means_.patience.between);
   }
   return {};
 }
@@ -168,26 +168,25 @@ void ScanRun::measure(int step, FramePair frames) {
   });
 }
 
-Expected<Profile> ScanRun::measure_and_store(int step, const FramePair& frames) {
+Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
   const ScanRequest& request = means_.request;
   auto profile =
       measure_profile(frames, calibration_, request.processing.stripe, angle_of(request, step));
-  if (!profile) return profile;
+  if (!profile) return tl::unexpected(profile.error());
   if (request.keep_frames) {
-    if (auto kept = means_.folder.write_frames(step, frames); !kept)
-      return tl::unexpected(kept.error());
+    if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
   }
-  if (auto stored = journal_->append(*profile); !stored) return tl::unexpected(stored.error());
+  if (auto stored = journal_->append(*profile); !stored) return stored;
   means_.preview.add(*profile);
-  return profile;
+  fresh_ = std::move(*profile);
+  return {};
 }
 
 // The profile that is being worked on is on disk on return.
 Expected<void> ScanRun::settle() {
   if (!pending_.valid()) return {};
-  auto profile = pending_.get();
-  if (!profile) return tl::unexpected(profile.error());
-  profiles_.push_back(std::move(*profile));
+  if (auto stored = pending_.get(); !stored) return stored;
+  profiles_.push_back(std::move(fresh_));
   means_.watch.step_done(steps_done());
   return {};
 }

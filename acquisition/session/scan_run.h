@@ -31,7 +31,8 @@ class ScanWatch {
   virtual ~ScanWatch() = default;
 
   virtual bool is_interrupted() const = 0;
-  virtual void wait(std::chrono::milliseconds at_most) = 0;  // or until is_interrupted()
+  // Returns early when it is interrupted.
+  virtual void sleep(std::chrono::milliseconds at_most) = 0;
   virtual void checks_passed() = 0;
   virtual void step_done(int steps_done) = 0;
   virtual void waits_for(const Error& lost) = 0;
@@ -77,7 +78,7 @@ class ScanRun {
   Expected<void> begin(const LiveScanner& scanner);
   tl::expected<FramePair, Setback> take(LiveScanner& scanner, int step);
   void measure(int step, FramePair frames);
-  Expected<Profile> measure_and_store(int step, const FramePair& frames);
+  Expected<void> measure_and_store(int step, const FramePair& frames);
   Expected<void> settle();
   Expected<void> open_folder();
 
@@ -89,8 +90,9 @@ class ScanRun {
   Calibration calibration_;
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
-  std::future<Expected<Profile>> pending_;  // of step profiles_.size()
-  int stands_at_ = 0;                       // the step that the table was turned to last
+  Profile fresh_;  // of step profiles_.size(); the other thread's until pending_ is there
+  std::future<Expected<void>> pending_;
+  int stands_at_ = 0;  // the step that the table was turned to last
   bool is_checked_ = false;
 };
 

@@ -13,16 +13,7 @@ namespace vitrine {
 //   idle → checking → scanning → meshing → done
 // Checking and scanning may become paused or failed, from where resume() goes back to checking;
 // everything but done may become cancelled.
-enum class ScanState {
-  kIdle,
-  kChecking,
-  kScanning,
-  kPaused,
-  kMeshing,
-  kDone,
-  kCancelled,
-  kFailed
-};
+enum class ScanState { kIdle, kChecking, kScanning, kPaused, kMeshing, kDone, kCancelled, kFailed };
 
 std::string_view name_of(ScanState state);  // "idle", "checking", …
 std::optional<ScanState> state_of(std::string_view name);

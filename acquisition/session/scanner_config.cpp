@@ -33,8 +33,8 @@ CameraSelector camera_in(JsonMembers& root) {
 }
 
 BoardSelector board_in(JsonMembers& root) {
-  auto members = root.object(
-      "board", {"dialect", "vendor", "product", "serial", "port", "steps_per_turn"});
+  auto members =
+      root.object("board", {"dialect", "vendor", "product", "serial", "port", "steps_per_turn"});
   BoardSelector board;
   if (const auto dialect = parse_board_dialect(members.text("dialect"))) {
     board.dialect = *dialect;

@@ -106,8 +106,7 @@ Expected<CalibrationInput> picture_target(const Scanner& scanner, const Target& 
     const auto placed = place(number);
     if (!placed) return tl::unexpected(placed.error());
     if (!*placed) break;
-    if (auto taken = photographer.take_place(number); !taken)
-      return tl::unexpected(taken.error());
+    if (auto taken = photographer.take_place(number); !taken) return tl::unexpected(taken.error());
     if (options.progress)
       options.progress(number + 1, static_cast<int>(photographer.pictures().size()));
   }

@@ -11,8 +11,8 @@
 
 namespace vitrine {
 
-// Puts the target into its `number`-th place, from 0, or has it put there; false: there is no other.
-// It may stand on the table, so that it turns with it, or be held before it.
+// Puts the target into its `number`-th place, from 0, or has it put there; false: there is no
+// other. It may stand on the table, so that it turns with it, or be held before it.
 using PlaceTarget = std::function<Expected<bool>(int number)>;
 
 struct TargetPictureOptions {

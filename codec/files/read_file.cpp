@@ -14,8 +14,8 @@ namespace {
 
 Unexpected unreadable(const std::filesystem::path& path, int error) {
   const char* next = error == ENOENT ? "check the name" : next_step(error);
-  return fail(ErrorCode::kIo, fmt::format("cannot read {}: {}; {}", path.string(),
-                                          std::strerror(error), next));
+  return fail(ErrorCode::kIo,
+              fmt::format("cannot read {}: {}; {}", path.string(), std::strerror(error), next));
 }
 
 }  // namespace

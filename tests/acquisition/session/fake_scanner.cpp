@@ -22,10 +22,6 @@ Expected<void> call(FakeWorld& world, const std::string& name) {
   return {};
 }
 
-double radius(double degrees) {
-  return 8 + 2 * std::cos(3 * degrees * std::numbers::pi / 180);
-}
-
 // Depends on where and when alone, as that of the simulated rig.
 int noise(double degrees, bool laser, int pixel) {
   std::uint64_t x = static_cast<std::uint64_t>(std::lround(degrees * 1'000)) * 2 + laser;
@@ -69,7 +65,7 @@ class FakeCamera : public Camera {
   double light(int u, int v) const {
     if (!world_.laser || world_.object == FakeObject::kNothing) return 0;
     if (world_.object == FakeObject::kEmptyTable && v != kFakeHeight - 1) return 0;
-    const double centre = kFakeWidth / 2.0 + radius(world_.degrees) / kFakePixel;
+    const double centre = kFakeWidth / 2.0 + fake_radius(world_.degrees) / kFakePixel;
     if (world_.object == FakeObject::kSaturated) return 10 * stripe(u, centre);
     if (world_.object == FakeObject::kTwoStripes) return stripe(u, centre) + stripe(u, 16);
     return stripe(u, centre);
@@ -153,6 +149,10 @@ class FakeBoard : public Board {
 };
 
 }  // namespace
+
+double fake_radius(double degrees) {
+  return 8 + 2 * std::cos(3 * degrees * std::numbers::pi / 180);
+}
 
 Calibration fake_calibration() {
   std::vector<Correspondence> points;

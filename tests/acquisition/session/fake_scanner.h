@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 
@@ -38,7 +39,9 @@ struct FakeWorld {
 
 Scanner fake_scanner(FakeWorld& world, const std::filesystem::path& calibrations);
 
-// Of the fake camera; its number is 0.
+double fake_radius(double degrees);  // of the column, mm, where the table shows it at that angle
+
+// Of the fake camera, not numbered yet.
 Calibration fake_calibration();
 
 }  // namespace vitrine::test
