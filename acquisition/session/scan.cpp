@@ -21,11 +21,6 @@ Unexpected not_now(const char* what, ScanState state) {
                                              what, name_of(state)));
 }
 
-bool runs(ScanState state) {
-  return state == ScanState::kChecking || state == ScanState::kScanning ||
-         state == ScanState::kMeshing;
-}
-
 }  // namespace
 
 Expected<std::unique_ptr<Scan>> Scan::create(Scanner scanner, const ScanRequest& request,
@@ -76,7 +71,7 @@ Expected<void> Scan::resume() {
   const std::lock_guard one(start_);
   {
     const std::lock_guard lock(mutex_);
-    if (runs(status_.state)) return not_now("start", status_.state);
+    if (is_running(status_.state)) return not_now("start", status_.state);
     if (status_.state == ScanState::kCancelled) return not_now("resume", status_.state);
     wish_ = Wish::kRun;
     stop_.release();
@@ -103,7 +98,7 @@ Expected<void> Scan::cancel() {
   if (status_.state == ScanState::kDone || status_.state == ScanState::kCancelled)
     return not_now("cancel", status_.state);
   wish_ = Wish::kCancel;
-  if (runs(status_.state)) {
+  if (is_running(status_.state)) {
     changed_.notify_all();
     return {};
   }
@@ -123,7 +118,7 @@ ScanStatus Scan::status() const {
 
 ScanStatus Scan::wait(std::chrono::milliseconds at_most) const {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, at_most, [&] { return !runs(status_.state); });
+  changed_.wait_for(lock, at_most, [&] { return !is_running(status_.state); });
   return status_;
 }
 

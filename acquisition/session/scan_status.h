@@ -16,6 +16,10 @@ namespace vitrine {
 enum class ScanState { kIdle, kChecking, kScanning, kPaused, kMeshing, kDone, kCancelled, kFailed };
 
 std::string_view name_of(ScanState state);  // "idle", "checking", …
+constexpr bool is_running(ScanState state) {
+  return state == ScanState::kChecking || state == ScanState::kScanning ||
+         state == ScanState::kMeshing;
+}
 std::optional<ScanState> state_of(std::string_view name);
 
 struct ScanStatus {

@@ -14,8 +14,8 @@
 
 namespace vitrine::test {
 
-inline constexpr int kFakeWidth = 64, kFakeHeight = 24;  // pixels
-inline constexpr double kFakePixel = 0.5;                // mm
+inline constexpr int kFakeWidth = 160, kFakeHeight = 24;  // pixels
+inline constexpr double kFakePixel = 0.25;                // mm
 inline constexpr const char* kFakeSerial = "fake-1";
 
 enum class FakeObject { kColumn, kNothing, kEmptyTable, kSaturated, kTwoStripes };
