@@ -10,8 +10,8 @@ Expected<Profile> measure_profile(const FramePair& frames, const Calibration& ca
   return profile_of(*stripe, calibration, angle);
 }
 
-Expected<Surface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,
-                          const Processing& processing) {
+Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,
+                                 const Processing& processing) {
   SurfaceOptions options = processing.surface;
   options.sampling = processing.sampling;
   options.noise = options.sampling.noise = calibration.noise;

@@ -26,7 +26,7 @@ Expected<Profile> measure_profile(const FramePair& frames, const Calibration& ca
                                   const StripeOptions& options, double angle);
 
 // Profiles as measured to the mesh.
-Expected<Surface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,
-                          const Processing& processing);
+Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,
+                                 const Processing& processing);
 
 }  // namespace vitrine

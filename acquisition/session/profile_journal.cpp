@@ -79,7 +79,7 @@ JournalContents read_journal(std::span<const std::uint8_t> file) {
     if (kind == kProfile && body.size() >= 8 && (body.size() - 8) % kPointBytes == 0) {
       contents.profiles.push_back(profile_of(body));
     } else if (kind == kTurn && body.size() == 4) {
-      contents.sent_to = static_cast<int>(ByteReader(body).u32());
+      contents.stands_at = static_cast<int>(ByteReader(body).u32());
     } else {
       return contents;
     }

@@ -20,7 +20,7 @@ inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{4} << 30;
 
 struct JournalContents {
   std::vector<Profile> profiles;  // of the steps 0, 1, 2, …
-  std::optional<int> sent_to;     // the step that the table was sent to last
+  std::optional<int> stands_at;   // the step that the table was turned to last
   std::size_t bytes = 0;          // of whole records; what follows is torn
 };
 
@@ -36,7 +36,7 @@ class ProfileJournal {
   // must be opened anew.
   Expected<void> append(const Profile& profile);
 
-  // That the table is about to be sent to `step`. Survives the end of this process, and of the
+  // That the table has been turned to `step`. Survives the end of this process, and of the
   // computer together with the next profile.
   Expected<void> note_turn(int step);
 

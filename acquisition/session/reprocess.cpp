@@ -28,8 +28,9 @@ Expected<void> measure_again(std::vector<Profile>& profiles, const ScanFolder& f
 
 }  // namespace
 
-Expected<Surface> reprocess(const ScanFolder& folder, const std::filesystem::path& calibrations,
-                            const ReprocessOptions& options) {
+Expected<ScannedSurface> reprocess(const ScanFolder& folder,
+                                   const std::filesystem::path& calibrations,
+                                   const ReprocessOptions& options) {
   const auto record = folder.record();
   if (!record) return tl::unexpected(record.error());
   const ScanRequest& request = (*record)->request;

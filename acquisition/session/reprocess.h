@@ -14,7 +14,8 @@ struct ReprocessOptions {
 
 // Of all steps that are on disk, also of a scan that was cancelled. Another way to find the stripe
 // and another calibration need the scan's pictures: fails (kState) where they were not kept.
-Expected<Surface> reprocess(const ScanFolder& folder, const std::filesystem::path& calibrations,
-                            const ReprocessOptions& options);
+Expected<ScannedSurface> reprocess(const ScanFolder& folder,
+                                   const std::filesystem::path& calibrations,
+                                   const ReprocessOptions& options);
 
 }  // namespace vitrine

@@ -122,7 +122,7 @@ ScanStatus Scan::wait(std::chrono::milliseconds at_most) const {
   return status_;
 }
 
-std::shared_ptr<const Surface> Scan::surface() const {
+std::shared_ptr<const ScannedSurface> Scan::surface() const {
   const std::lock_guard lock(mutex_);
   return surface_;
 }
@@ -192,7 +192,7 @@ void Scan::work() {
 }
 
 // Nothing where it was interrupted.
-Expected<std::shared_ptr<const Surface>> Scan::run_and_mesh() {
+Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() {
   ScanRun run({.scanner = scanner_,
                .request = request_,
                .folder = folder_,
@@ -208,7 +208,7 @@ Expected<std::shared_ptr<const Surface>> Scan::run_and_mesh() {
   }
   auto surface = mesh_of(run.take_profiles(), run.calibration(), request_.processing);
   if (!surface) return tl::unexpected(surface.error());
-  return std::make_shared<const Surface>(std::move(*surface));
+  return std::make_shared<const ScannedSurface>(std::move(*surface));
 }
 
 }  // namespace vitrine

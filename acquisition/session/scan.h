@@ -47,7 +47,7 @@ class Scan : private ScanWatch {
   const ScanFolder& folder() const { return folder_; }
 
   // Once it is done and until it is resumed; null before.
-  std::shared_ptr<const Surface> surface() const;
+  std::shared_ptr<const ScannedSurface> surface() const;
 
  private:
   enum class Wish { kRun, kPause, kCancel };
@@ -61,7 +61,7 @@ class Scan : private ScanWatch {
   void waits_for(const Error& lost) override;
 
   void work();
-  Expected<std::shared_ptr<const Surface>> run_and_mesh();
+  Expected<std::shared_ptr<const ScannedSurface>> run_and_mesh();
   void enter(ScanState state);  // under mutex_
   double now() const;           // seconds
 
@@ -78,7 +78,7 @@ class Scan : private ScanWatch {
   Wish wish_ = Wish::kRun;
   double started_ = 0;    // seconds, when the first step of this run began
   int steps_before_ = 0;  // this run
-  std::shared_ptr<const Surface> surface_;
+  std::shared_ptr<const ScannedSurface> surface_;
 
   std::mutex start_;  // one resume() at a time
   std::jthread thread_;

@@ -46,7 +46,7 @@ Expected<void> ScanRun::open_folder() {
   if (!journal) return tl::unexpected(journal.error());
   journal_ = std::move(*journal);
   profiles_ = std::move(contents.profiles);
-  stands_at_ = contents.sent_to.value_or(0);
+  stands_at_ = contents.stands_at.value_or(0);
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
@@ -129,6 +129,7 @@ ScanRun::Outcome ScanRun::look(LiveScanner& scanner) {
     const int step = (steps_done() + quarter * steps / 4) % steps;
     auto frames = take(scanner, step);
     if (!frames) return tl::unexpected(frames.error());
+    means_.preview.show(frames->lit);
     if (auto added = seen.add(*frames, angle_of(means_.request, step)); !added)
       return of_scan(added.error());
     if (seen.judgement()) return {};
@@ -152,13 +153,12 @@ Expected<void> ScanRun::begin(const LiveScanner& scanner) {
 }
 
 tl::expected<FramePair, ScanRun::Setback> ScanRun::take(LiveScanner& scanner, int step) {
-  if (auto noted = journal_->note_turn(step); !noted) return of_scan(noted.error());
   if (auto turned = scanner.turn_to(angle_of(means_.request, step)); !turned)
     return of_device(turned.error());
+  if (auto noted = journal_->note_turn(step); !noted) return of_scan(noted.error());
   stands_at_ = step;
   auto frames = scanner.capture_pair();
   if (!frames) return of_device(frames.error());
-  means_.preview.show(frames->lit);
   return std::move(*frames);
 }
 
@@ -177,6 +177,7 @@ Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
     if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
   }
   if (auto stored = journal_->append(*profile); !stored) return stored;
+  means_.preview.show(frames.lit);
   means_.preview.add(*profile);
   fresh_ = std::move(*profile);
   return {};

@@ -5,7 +5,7 @@
 // While the table turns and the camera exposes step k, the profile of step k - 1 is found and
 // written on another thread; step k + 1 does not begin before that is on disk. So the disk is at
 // most one step behind the table, the camera never waits for us, and what a crash loses is scanned
-// again. The journal also says where the table was sent last, for boards that forget.
+// again. The journal also says where the table stands, for boards that forget.
 #pragma once
 
 #include <chrono>

@@ -51,7 +51,7 @@ TEST_F(ScanTest, a_device_unplugged_at_any_call_is_opened_anew_and_nothing_is_lo
 TEST_F(ScanTest, a_process_killed_at_any_step_loses_nothing) {
   const std::string expected = undisturbed();
   for (const bool forgets : {false, true}) {
-    for (const char* moment : {"capture", "laser on"}) {
+    for (const char* moment : {"turn", "capture"}) {
       for (int count = 1; count <= 2 * kSteps + 8; ++count) {
         const std::string name = fmt::format("killed-{}-{}-{}", moment, count, forgets);
         world_.calls.clear();

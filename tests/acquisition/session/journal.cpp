@@ -65,9 +65,9 @@ TEST_F(Journal, cut_at_any_byte_it_holds_all_whole_profiles) {
     const std::size_t records = whole_records(size);
     expect_profiles(contents.profiles, records / 2);
     EXPECT_EQ(contents.bytes, records == 0 ? 0 : ends_[records - 1]);
-    EXPECT_EQ(contents.sent_to.has_value(), records > 0);
+    EXPECT_EQ(contents.stands_at.has_value(), records > 0);
     if (records > 0) {
-      EXPECT_EQ(*contents.sent_to, static_cast<int>((records - 1) / 2));
+      EXPECT_EQ(*contents.stands_at, static_cast<int>((records - 1) / 2));
     }
   }
 }

@@ -16,11 +16,11 @@ class Reprocess : public ScanTest {
     ASSERT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
     surface_ = scan->surface();
   }
-  Expected<Surface> again(const ReprocessOptions& options) {
+  Expected<ScannedSurface> again(const ReprocessOptions& options) {
     return reprocess(*ScanFolder::open(path()), calibrations_, options);
   }
 
-  std::shared_ptr<const Surface> surface_;
+  std::shared_ptr<const ScannedSurface> surface_;
 };
 
 TEST_F(Reprocess, with_the_same_parameters_the_mesh_is_the_same) {
