@@ -26,8 +26,8 @@ std::uint16_t usb_number(JsonMembers& members, std::string_view key) {
 CameraSelector camera_in(JsonMembers& root) {
   auto members = root.object("camera", {"address", "serial"});
   CameraSelector camera{.address = members.text("address"), .serial = members.text("serial")};
-  if (camera.address.empty() && camera.serial.empty())
-    members.fault("serial", "or \"address\" must name the camera");
+  if (camera.address.empty() == camera.serial.empty())
+    members.fault("serial", "or \"address\" must name the camera, one of them");
   root.adopt(members);
   return camera;
 }

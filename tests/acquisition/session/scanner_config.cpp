@@ -56,6 +56,7 @@ TEST(ScannerConfig, a_fault_names_file_and_key_and_what_is_expected) {
     return config ? "accepted" : config.error().message;
   };
   EXPECT_THAT(fault("/camera", json::object()), HasSubstr("\"address\" must name the camera"));
+  EXPECT_THAT(fault("/camera/serial", "7"), HasSubstr("must name the camera, one of them"));
   EXPECT_THAT(fault("/camera/adress", "1.2.3.4"), HasSubstr("rig.json: camera: \"adress\""));
   EXPECT_THAT(fault("/board/dialect", "marlin"), HasSubstr("\"dialect\" must be \"horus\" or"));
   EXPECT_THAT(fault("/board/vendor", 0x2341), HasSubstr("\"vendor\" must be"));
