@@ -24,6 +24,8 @@ struct StripeOptions {
   // a pixel; rows are averaged along their common line as far as they lie on one within the noise
   // of this very stripe, so that edges and detail stay. 0: each row alone.
   int steady_rows = 4;
+
+  bool operator==(const StripeOptions&) const = default;
 };
 
 struct StripePoint {

@@ -72,8 +72,9 @@ TriangleMesh mesh_of(const Cloud& cloud, const Spacing& spacing) {
 
 }  // namespace
 
-Expected<Surface> surface_of(std::span<const Profile> profiles, const SurfaceOptions& options) {
-  Surface surface;
+Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
+                                    const SurfaceOptions& options) {
+  ScannedSurface surface;
   SurfaceReport& report = surface.report;
   Cloud cloud({profiles.begin(), profiles.end()});
   report.points = cloud.size();

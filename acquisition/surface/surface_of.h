@@ -33,7 +33,7 @@ struct SurfaceReport {
   double spacing = 0;                        // s_max as used, mm
 };
 
-struct Surface {
+struct ScannedSurface {
   TriangleMesh mesh;  // mm, z along the table's axis; faces counter-clockwise from outside
   SurfaceReport report;
 };
@@ -44,6 +44,7 @@ struct Surface {
 // may have more than one fan, which the import parts. Nothing closes the object's top and bottom
 // where no laser came, but for holes up to `largest_hole`. Fails (kBadInput) where nothing is left
 // to mesh, saying why. O(n log n).
-Expected<Surface> surface_of(std::span<const Profile> profiles, const SurfaceOptions& options);
+Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
+                                    const SurfaceOptions& options);
 
 }  // namespace vitrine
