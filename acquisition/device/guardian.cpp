@@ -3,14 +3,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstring>
+#include <csignal>
+#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -46,6 +46,7 @@ Expected<BoardSelector> selector_from(int argc, char** argv) {
 
 Expected<pid_t> spawn(std::vector<std::string> words, int input) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words)
     arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -106,7 +107,7 @@ Expected<Guardian> Guardian::start(const BoardSelector& selector,
 
 void Guardian::dismiss() {
   if (pipe_ < 0) return;
-  // MSG_NOSIGNAL has no like for pipes: where the guardian is dead already, nothing is written.
+  // To a guardian that is dead already nothing is written: that would raise SIGPIPE.
   if (::waitpid(process_, nullptr, WNOHANG) == 0) {
     [[maybe_unused]] const ssize_t written = ::write(pipe_, &kDismissed, 1);
     ::close(pipe_);

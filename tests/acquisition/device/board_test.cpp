@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <ostream>
 #include <thread>
 
 #include "acquisition/rig/usb_rig.h"
@@ -30,10 +31,13 @@ BoardSelector selector_of(const std::string& dialect, const std::string& transpo
   return selector;
 }
 
-// As `dialect transport`.
 struct Kind {
   std::string dialect, transport;
 };
+
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.dialect << ' ' << kind.transport;
+}
 
 class EveryBoard : public testing::TestWithParam<Kind> {
  protected:
