@@ -15,6 +15,10 @@ std::string lane_name(const JobRecord& job) {
   return job.kind == JobKind::kReprocess ? "" : job.scanner;
 }
 
+Unexpected stopping() {
+  return fail(ErrorCode::kState, "the daemon is stopping; try again later");
+}
+
 Unexpected not_now(const JobRecord& job, std::string_view what) {
   return fail(ErrorCode::kState,
               fmt::format("job {} {}; look at its state", job.id.to_string(), what));
@@ -118,15 +122,29 @@ Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<Scan
       return **found;
     }
   }
-  if (stopping_) return fail(ErrorCode::kState, "the daemon is stopping; try again later");
-  if (const Run busy = job.kind == JobKind::kReprocess ? nullptr : run_of(job.scanner)) {
-    return fail(ErrorCode::kState,
-                fmt::format("scanner {} is busy with job {}; wait for its end or cancel it",
-                            job.scanner, busy->job().id.to_string()));
+  if (stopping_) return stopping();
+  if (job.kind != JobKind::kReprocess) {
+    if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
   }
   if (auto added = catalogue_.add(job, scan, once); !added) return Unexpected(added.error());
   take_up(job);
   return job;
+}
+
+Expected<void> JobQueue::check_free(const std::string& scanner) const {
+  const Run busy = run_of(scanner);
+  if (!busy) return {};
+  return fail(ErrorCode::kState,
+              fmt::format("scanner {} is busy with job {}; wait for its end or cancel it", scanner,
+                          busy->job().id.to_string()));
+}
+
+Expected<void> JobQueue::post_command(const std::string& scanner, std::function<void()> command) {
+  const std::scoped_lock lock(mutex_);
+  if (stopping_) return stopping();
+  if (auto is_free = check_free(scanner); !is_free) return is_free;
+  lane_of(scanner).post(std::move(command));
+  return {};
 }
 
 Expected<JobQueue::Run> JobQueue::unfinished(const JobId& id) const {
@@ -186,7 +204,7 @@ Expected<JobStatus> JobQueue::resume(const JobId& id) {
   if (!run) return Unexpected(run.error());
   const JobRecord job = (*run)->job();
   if (job.state != JobState::kPaused) return not_now(job, "is not paused");
-  if (stopping_) return fail(ErrorCode::kState, "the daemon is stopping; try again later");
+  if (stopping_) return stopping();
   post(*run);
   return (*run)->status();
 }

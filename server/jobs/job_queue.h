@@ -96,12 +96,18 @@ class JobQueue {
   // The unfinished job of a scanner.
   std::optional<JobStatus> job_of(const std::string& scanner) const;
 
-  // Where the scanner's devices are used, all of its commands and jobs.
+  // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
+  // is done, where it is busy.
+  Expected<void> post_command(const std::string& scanner, std::function<void()> command);
+
+  // Where the scanner's devices are used.
   Lane& lane(const std::string& scanner);
 
  private:
   using Run = std::shared_ptr<JobRun>;
 
+  // With the lock held, as all until the next line.
+  Expected<void> check_free(const std::string& scanner) const;
   Expected<Run> unfinished(
       const JobId& id) const;  // with the lock held, as all until the next line
   Run run_of(const std::string& scanner) const;
