@@ -43,11 +43,15 @@ Expected<void> check_addresses(const Settings& settings) {
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
  public:
-  Daemon(const Settings& settings, Installation installation, Log access_log)
+  Daemon(const Settings& settings, Installation installation, Log access_log,
+         std::vector<std::unique_ptr<ScannerBackend>> scanners)
       : settings_(settings),
         installation_(std::move(installation)),
         access_log_(std::move(access_log)),
         models_(*installation_.store, *installation_.catalogue),
+        scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
+                settings.data},
+               std::move(scanners)),
         exports_(settings.export_cache_bytes),
         pages_(web_assets()),
         metrics_(Router(public_routes()).templates()),
@@ -55,6 +59,7 @@ class Daemon {
         services_{*installation_.catalogue,
                   tokens_,
                   models_,
+                  scans_,
                   exports_,
                   pages_,
                   metrics_,
@@ -167,6 +172,7 @@ class Daemon {
   const Log access_log_;
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
+  ScanService scans_;
   ExportCache exports_;
   const WebPages pages_;
   Metrics metrics_;

@@ -108,8 +108,7 @@ class JobQueue {
 
   // With the lock held, as all until the next line.
   Expected<void> check_free(const std::string& scanner) const;
-  Expected<Run> unfinished(
-      const JobId& id) const;  // with the lock held, as all until the next line
+  Expected<Run> unfinished(const JobId& id) const;
   Run run_of(const std::string& scanner) const;
   void take_up(const JobRecord& job);
   void post(const Run& run);

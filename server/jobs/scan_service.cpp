@@ -115,6 +115,7 @@ Expected<void> ScanService::start() {
 }
 
 void ScanService::stop() {
+  const std::scoped_lock one(stopping_);
   for (const auto& station : stations_)
     station->close_after_all();
   queue_.stop();

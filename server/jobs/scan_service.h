@@ -90,6 +90,7 @@ class ScanService {
   Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);
 
   const ScanMeans means_;
+  std::mutex stopping_;  // one stop() at a time
   std::vector<std::unique_ptr<ScannerBackend>> backends_;
 
   std::mutex mutex_;                                         // guards what follows
