@@ -20,6 +20,7 @@
 #include "server/http/http_server.h"
 #include "server/http/routes.h"
 #include "server/http/services.h"
+#include "server/jobs/open_scanners.h"
 #include "server/store/installation.h"
 #include "server/stream/websocket.h"
 
@@ -77,7 +78,10 @@ class Daemon {
 
   Expected<void> open() {
     if (auto bound = bind(public_, settings_.listen, settings_.port_file, ""); !bound) return bound;
-    return bind(admin_, settings_.admin_listen, settings_.admin_port_file, "admin ");
+    if (auto bound = bind(admin_, settings_.admin_listen, settings_.admin_port_file, "admin ");
+        !bound)
+      return bound;
+    return scans_.start();
   }
 
   void run() {
@@ -96,6 +100,7 @@ class Daemon {
     io_.run();
     for (std::thread& thread : threads)
       thread.join();
+    scans_.stop();
     workers_.stop();
     workers_.join();
     events_.event(Severity::kInfo, "stopped");
@@ -164,6 +169,8 @@ class Daemon {
     deadline_.async_wait([this](const boost::system::error_code& error) {
       if (!error) io_.stop();
     });
+    // Meanwhile, so that laser and motor are off soon: what scans goes on at the next start.
+    asio::post(workers_.executor(Place::kDevice, ""), [this] { scans_.stop(); });
     public_.drain([this] { io_.stop(); });
   }
 
@@ -217,7 +224,9 @@ int serve(const Settings& settings) {
   if (!installation) return report({ErrorCode::kIo, installation.error().message});
   auto access_log = Log::open(settings.access_log);
   if (!access_log) return report(access_log.error());
-  Daemon daemon(settings, std::move(*installation), std::move(*access_log));
+  auto scanners = open_scanners(settings.scanners);
+  if (!scanners) return report(scanners.error());
+  Daemon daemon(settings, std::move(*installation), std::move(*access_log), std::move(*scanners));
   if (const auto opened = daemon.open(); !opened) return report(opened.error());
   daemon.run();
   return kExitDone;
