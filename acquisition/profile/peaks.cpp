@@ -27,8 +27,8 @@ const cv::Mat borrow(const Frame& frame) {
 cv::Mat smoothed_difference(const Frame& lit, const Frame& dark, double width) {
   cv::Mat difference, smooth;
   cv::subtract(borrow(lit), borrow(dark), difference);
-  const int size = 2 * std::max(1, static_cast<int>(std::lround(width * .8))) + 1;
-  cv::blur(difference, smooth, cv::Size(size, 1), cv::Point(-1, -1), cv::BORDER_REPLICATE);
+  const int size = 2 * std::max(1, static_cast<int>(std::lround(width))) + 1;
+  cv::GaussianBlur(difference, smooth, cv::Size(size, 1), width / 2, 0, cv::BORDER_REPLICATE);
   return smooth;
 }
 
@@ -61,8 +61,10 @@ int largest(const std::uint8_t* from, int count) {
   std::array<std::uint8_t, kBlock> top{};
   int u = 0;
   for (; u + kBlock <= count; u += kBlock) {
-    for (int k = 0; k < kBlock; ++k)
-      top[static_cast<std::size_t>(k)] = std::max(top[static_cast<std::size_t>(k)], from[u + k]);
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      const std::uint8_t level = from[static_cast<std::size_t>(u) + k];
+      top[k] = top[k] < level ? level : top[k];
+    }
   }
   int best = *std::max_element(top.begin(), top.end());
   for (; u < count; ++u)

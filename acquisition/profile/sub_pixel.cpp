@@ -42,12 +42,10 @@ std::optional<double> SubPixel::zero(std::span<const std::uint8_t> lit,
   const auto inside = [&](int at) { return at >= margin && at < width - margin; };
   const auto slope = [&](int at) {
     double sum = 0;
-    for (int k = 1; k <= margin; ++k) {
-      const std::size_t right = static_cast<std::size_t>(at + k),
-                        left = static_cast<std::size_t>(at - k);
-      sum += kernel_[static_cast<std::size_t>(k - 1)] *
-             (lit[right] - dark[right] - lit[left] + dark[left]);
-    }
+    const auto middle = static_cast<std::size_t>(at);
+    for (std::size_t k = 1; k <= kernel_.size(); ++k)
+      sum += kernel_[k - 1] *
+             (lit[middle + k] - dark[middle + k] - lit[middle - k] + dark[middle - k]);
     return sum;
   };
   if (!inside(u)) return {};
@@ -64,14 +62,14 @@ std::optional<double> SubPixel::zero(std::span<const std::uint8_t> lit,
 std::optional<double> SubPixel::mass(std::span<const std::uint8_t> lit,
                                      std::span<const std::uint8_t> dark, double u) const {
   const int width = static_cast<int>(lit.size());
-  for (int i = 0; i < kMassSteps; ++i) {
+  for (int step = 0; step < kMassSteps; ++step) {
     const int middle = static_cast<int>(std::lround(u));
     if (middle < reach_ || middle >= width - reach_) return {};
     double sum = 0, moment = 0;
-    for (int k = -reach_; k <= reach_; ++k) {
-      const std::size_t at = static_cast<std::size_t>(middle + k);
-      const double level = lit[at] - dark[at];
-      sum += level, moment += level * k;
+    for (int at = middle - reach_; at <= middle + reach_; ++at) {
+      const auto i = static_cast<std::size_t>(at);
+      const double level = lit[i] - dark[i];
+      sum += level, moment += level * (at - middle);
     }
     if (!(sum > 0) || std::abs(moment) > sum * reach_) return {};
     u = middle + moment / sum;

@@ -2,7 +2,7 @@
 #include "acquisition/surface/close_holes.h"
 
 #include <algorithm>
-#include <limits>
+#include <span>
 #include <vector>
 
 #include "codec/mesh/face_neighbours.h"
@@ -13,7 +13,6 @@ namespace {
 struct BoundaryEdge {
   std::uint32_t from, to;
   std::uint32_t face;
-  bool operator<(const BoundaryEdge& o) const { return from < o.from; }
 };
 
 std::vector<BoundaryEdge> boundary_of(const TriangleMesh& mesh) {
@@ -80,7 +79,9 @@ class Loop {
 std::vector<Loop> loops_of(const TriangleMesh& mesh) {
   const std::vector<BoundaryEdge> edges = boundary_of(mesh);
   const auto leaving = [&](std::uint32_t v) {
-    return std::ranges::equal_range(edges, v, {}, &BoundaryEdge::from);
+    const auto first = std::ranges::lower_bound(edges, v, {}, &BoundaryEdge::from);
+    const auto last = std::ranges::upper_bound(edges, v, {}, &BoundaryEdge::from);
+    return std::span(first, last);
   };
   std::vector<bool> used(edges.size(), false);
   std::vector<Loop> loops;
@@ -92,7 +93,7 @@ std::vector<Loop> loops_of(const TriangleMesh& mesh) {
       loop.push_back(edges[at]);
       const auto on = leaving(edges[at].to);
       if (on.size() != 1) break;
-      at = static_cast<std::size_t>(on.begin() - edges.begin());
+      at = static_cast<std::size_t>(on.data() - edges.data());
     }
     if (loop.size() > 2 && loop.back().to == loop.front().from &&
         leaving(loop.front().from).size() == 1)
