@@ -12,6 +12,11 @@
 
 namespace vitrine {
 
+// How long a board is asked who it is: an Arduino's boot loader takes up to two seconds.
+inline constexpr std::chrono::milliseconds kBoot{5'000}, kAskAgain{700};
+// After which it has said all that it had to say.
+inline constexpr std::chrono::milliseconds kQuiet{50};
+
 class Controller {
  public:
   virtual ~Controller() = default;

@@ -14,8 +14,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kBoot{5'000}, kAskAgain{700}, kQuiet{50};
-
 class FabScanController final : public Controller {
  public:
   FabScanController(SerialPort& port, milliseconds patience, int steps_per_turn)

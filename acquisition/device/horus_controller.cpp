@@ -15,10 +15,6 @@ namespace {
 using Kind = horus::Reply::Kind;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kBoot{5'000};  // an Arduino's boot loader takes up to two seconds
-constexpr milliseconds kAskAgain{700};
-constexpr milliseconds kQuiet{50};
-
 class HorusController final : public Controller {
  public:
   HorusController(SerialPort& port, milliseconds patience)

@@ -9,7 +9,7 @@
 namespace vitrine::rig {
 namespace {
 
-constexpr std::size_t kLongestLine = 64;
+constexpr std::size_t kBuffer = 64;
 
 // The whole number after the word of that letter.
 long number_of(const std::string& line, char letter, long otherwise) {
@@ -57,7 +57,7 @@ void FabScan::read_waiting(double now) {
     waiting_.erase(0, 1);
     if (byte == '\r') continue;
     say({&byte, 1});
-    if (byte != '\n' && line_.size() < kLongestLine) line_ += byte;
+    if (byte != '\n' && line_.size() < kBuffer) line_ += byte;
     if (byte == '\n') obey(now);
   }
 }

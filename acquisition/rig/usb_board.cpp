@@ -110,7 +110,8 @@ class UsbBoard::Impl {
   Ref<UMockdevTestbed> testbed_;
   Ref<UMockdevIoctlBase> calls_;
 
-  mutable std::mutex mutex_;  // what follows
+  mutable std::mutex mutex_;         // what follows
+  GMainContext* context_ = nullptr;  // umockdev's
   std::condition_variable changed_;
   UsbBoardSettings settings_;
   std::unique_ptr<Firmware> firmware_;  // none: not plugged in
@@ -125,8 +126,23 @@ class UsbBoard::Impl {
 
 namespace {
 
-void complete(UMockdevIoctlClient* client, long result, int error = 0) {
-  umockdev_ioctl_client_complete(client, result, error);
+struct Completion {
+  Ref<UMockdevIoctlClient> client;
+  long result = 0;
+  int error = 0;
+};
+
+// By umockdev's own thread, whose context that is: from another one it now and then loses the
+// client's next call.
+void complete(GMainContext* context, UMockdevIoctlClient* client, long result, int error) {
+  const GSourceFunc run = [](gpointer data) {
+    const auto& [handle, value, number] = *static_cast<Completion*>(data);
+    umockdev_ioctl_client_complete(handle.get(), value, number);
+    return static_cast<gboolean>(G_SOURCE_REMOVE);
+  };
+  const GDestroyNotify drop = [](gpointer data) { delete static_cast<Completion*>(data); };
+  auto completion = std::make_unique<Completion>(Completion{share(client), result, error});
+  g_main_context_invoke_full(context, G_PRIORITY_DEFAULT, run, completion.release(), drop);
 }
 
 Ref<UMockdevIoctlData> resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
@@ -193,9 +209,10 @@ Expected<void> UsbBoard::Impl::plug(const UsbBoardSettings& settings) {
       "E: BUSNUM=001\nE: DEVNUM=002\nE: MAJOR=189\nE: MINOR=1\nA: busnum=1\\n\nA: devnum=2\\n\n"
       "A: bConfigurationValue=1\\n\nA: speed=12\\n\nH: descriptors={}\n",
       kPath + 4, kNode, hex);
+  // The calls are answered before the device is there: who opens it in between would end.
   GError* error = nullptr;
-  if (umockdev_testbed_add_from_string(testbed_.get(), description.c_str(), &error) &&
-      umockdev_testbed_attach_ioctl(testbed_.get(), kNode, calls_.get(), &error))
+  if (umockdev_testbed_attach_ioctl(testbed_.get(), kNode, calls_.get(), &error) &&
+      umockdev_testbed_add_from_string(testbed_.get(), description.c_str(), &error))
     return {};
   Unexpected failed = fail(ErrorCode::kIo, fmt::format("cannot simulate the USB board: {}; install "
                                                        "umockdev",
@@ -220,9 +237,9 @@ void UsbBoard::Impl::unplug() {
     }
     if (std::exchange(laser_, false)) events_.on_laser(false);
   }
-  umockdev_testbed_detach_ioctl(testbed_.get(), kNode, nullptr);
   umockdev_testbed_uevent(testbed_.get(), kPath, "remove");
   umockdev_testbed_remove_device(testbed_.get(), kPath);
+  umockdev_testbed_detach_ioctl(testbed_.get(), kNode, nullptr);
 }
 
 template <class Change>
@@ -241,6 +258,7 @@ auto UsbBoard::Impl::ask(Question question) {
 
 bool UsbBoard::Impl::on_call(UMockdevIoctlClient* handle) {
   const std::lock_guard lock(mutex_);
+  context_ = g_main_context_get_thread_default();
   Client& client = clients_[handle];
   if (!client.handle) client.handle = share(handle);
   call(handle, client);
@@ -259,13 +277,13 @@ void UsbBoard::Impl::call(UMockdevIoctlClient* handle, Client& client) {
   if (request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY) {
     reap(handle, client);
   } else if (client.gone || !firmware_) {
-    complete(handle, -1, request == USBDEVFS_DISCARDURB ? EINVAL : ENODEV);
+    complete(context_, handle, -1, request == USBDEVFS_DISCARDURB ? EINVAL : ENODEV);
   } else if (request == USBDEVFS_GET_CAPABILITIES) {
     const auto data = resolve(umockdev_ioctl_client_get_arg(handle), 0, sizeof(unsigned));
     *reinterpret_cast<unsigned*>(data->data) = USBDEVFS_CAP_BULK_CONTINUATION;
-    complete(handle, 0);
+    complete(context_, handle, 0, 0);
   } else if (request == USBDEVFS_GETDRIVER || request == USBDEVFS_IOCTL) {
-    complete(handle, -1, ENODATA);
+    complete(context_, handle, -1, ENODATA);
   } else if (request == USBDEVFS_CLAIMINTERFACE || request == USBDEVFS_DISCONNECT_CLAIM) {
     claim(handle, client, true);
   } else if (request == USBDEVFS_RELEASEINTERFACE) {
@@ -275,7 +293,7 @@ void UsbBoard::Impl::call(UMockdevIoctlClient* handle, Client& client) {
   } else if (request == USBDEVFS_DISCARDURB) {
     discard(handle, client);
   } else {
-    complete(handle, -1, ENOTTY);
+    complete(context_, handle, -1, ENOTTY);
   }
 }
 
@@ -287,22 +305,22 @@ void UsbBoard::Impl::claim(UMockdevIoctlClient* handle, Client& client, bool on)
     });
     for (const auto& [other, state] : clients_)
       if (other != handle && !state.gone && state.claimed.contains(interface))
-        return complete(handle, -1, EBUSY);
+        return complete(context_, handle, -1, EBUSY);
     client.claimed.insert(interface);
   } else {
     client.claimed.erase(interface);
   }
-  complete(handle, 0);
+  complete(context_, handle, 0, 0);
 }
 
 void UsbBoard::Impl::submit(UMockdevIoctlClient* handle, Client& client) {
   Transfer transfer;
   transfer.block = resolve(umockdev_ioctl_client_get_arg(handle), 0, sizeof(usbdevfs_urb));
-  if (!transfer.block) return complete(handle, -1, EFAULT);
+  if (!transfer.block) return complete(context_, handle, -1, EFAULT);
   transfer.buffer = resolve(transfer.block.get(), offsetof(usbdevfs_urb, buffer),
                             static_cast<std::size_t>(transfer.urb().buffer_length));
-  if (!transfer.buffer) return complete(handle, -1, EFAULT);
-  complete(handle, 0);
+  if (!transfer.buffer) return complete(context_, handle, -1, EFAULT);
+  complete(context_, handle, 0, 0);
   const usbdevfs_urb& urb = transfer.urb();
   if (urb.type == USBDEVFS_URB_TYPE_BULK && (urb.endpoint & 0x80) != 0) {
     client.reading.push_back(std::move(transfer));
@@ -348,9 +366,9 @@ void UsbBoard::Impl::discard(UMockdevIoctlClient* handle, Client& client) {
     at->finish(-ENOENT, 0);
     client.finished.push_back(std::move(*at));
     client.reading.erase(at);
-    return complete(handle, 0);
+    return complete(context_, handle, 0, 0);
   }
-  complete(handle, -1, EINVAL);
+  complete(context_, handle, -1, EINVAL);
 }
 
 void UsbBoard::Impl::reap(UMockdevIoctlClient* handle, Client& client) {
@@ -365,12 +383,12 @@ void UsbBoard::Impl::deliver(Client& client) {
   if (!client.finished.empty()) {
     const auto slot =
         resolve(umockdev_ioctl_client_get_arg(client.waiting.get()), 0, sizeof(void*));
-    umockdev_ioctl_data_set_ptr(slot.get(), 0, client.finished.front().block.get());
-    complete(client.waiting.get(), 0);
+    if (slot) umockdev_ioctl_data_set_ptr(slot.get(), 0, client.finished.front().block.get());
+    complete(context_, client.waiting.get(), 0, 0);
     client.finished.pop_front();
     client.waiting.reset();
   } else if (client.gone || now() >= client.waiting_until) {
-    complete(client.waiting.get(), -1, client.gone ? ENODEV : EAGAIN);
+    complete(context_, client.waiting.get(), -1, client.gone ? ENODEV : EAGAIN);
     client.waiting.reset();
   }
 }
