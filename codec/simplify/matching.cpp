@@ -42,10 +42,9 @@ const std::vector<Pick>& Matcher::match(const LevelRules& rules) {
   radix_sort(edges_, scratch_);
 
   picks_.clear();
-  const bool regular = rules.length_weight > 0;
-  const double share = regular ? kCheapRegular : kCheap;
+  const double share = rules.regular ? kCheapRegular : kCheap;
   const auto cheap = static_cast<std::size_t>(static_cast<double>(edges_.size()) * share);
-  reach_ = mean_edge_ * (regular ? kReachRegular : kReach);
+  reach_ = mean_edge_ * (rules.regular ? kReachRegular : kReach);
   choose(rules, {edges_.data(), cheap}, rules.most);
   const std::size_t enough = std::min<std::size_t>(rules.most, surface_.live.size() / 5);
   if (picks_.size() < enough) {  // a rough surface must get on, too

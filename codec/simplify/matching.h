@@ -20,6 +20,7 @@ struct LevelRules {
   std::int32_t parity = 0;          // of the level, see placement.h
   bool by_region = false;           // collapses stay inside their region
   double length_weight = 0;         // of the squared edge length, against the planes of the edge
+  bool regular = false;             // takes more of the edges and stays nearer to the surface
   std::uint32_t most = 0xFFFFFFFF;  // collapses at most
   Vec3i low, high;                  // v~ stays in this box, inclusive
 

@@ -18,8 +18,10 @@
 namespace vitrine {
 namespace {
 
-constexpr std::uint32_t kRegularLevels = 4;  // finest levels that also prefer short edges
-constexpr double kLengthWeight = 5e-3;
+constexpr std::uint32_t kRegularLevels = 4;  // finest levels, which keep sampling regular
+// Short edges go first, above all in the finest level, whose costs are noise; coarser ones that
+// leave them out altogether need more bytes.
+constexpr double kFinestLengthWeight = 5e-3, kLengthWeight = 1e-3;
 constexpr double kCellPerError = 1;  // side of a cell against the rms distance from the planes
 // A level that removes less than this share of the vertices is the last one: what is left is
 // locked by topology, and each level has its price.
@@ -157,7 +159,8 @@ class Simplifier {
     return {.placement = options_.placement,
             .parity = static_cast<std::int32_t>(from_finest & 1),
             .by_region = !regions_.is_whole(),
-            .length_weight = from_finest < kRegularLevels ? kLengthWeight : 0,
+            .length_weight = from_finest == 0 ? kFinestLengthWeight : kLengthWeight,
+            .regular = from_finest < kRegularLevels,
             .most = live - std::min(live, options_.target_vertices),
             .low = cell_of(low_, surface_.shift),
             .high = cell_of(high_, surface_.shift)};
