@@ -66,10 +66,8 @@ Expected<void> ScanRun::run() {
     if (auto settled = settle(); !settled) outcome = of_scan(settled.error());
     if (outcome) continue;
     tries = steps_done() > before ? 1 : tries + 1;
-    // A scanner that has not worked yet is wrong rather than gone.
-    const bool may_come_back = outcome.error().is_device && is_checked_;
-    if (!may_come_back || tries > means_.patience.tries)
-      return tl::unexpected(outcome.error().error);
+    const int most = is_checked_ ? means_.patience.tries : means_.patience.first_tries;
+    if (!outcome.error().is_device || tries > most) return tl::unexpected(outcome.error().error);
     means_.watch.waits_for(outcome.error().error);
     means_.watch.sleep(means_.patience.between);
   }

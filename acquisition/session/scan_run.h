@@ -21,7 +21,9 @@ namespace vitrine {
 
 // How long a scan waits for a device that is gone.
 struct Patience {
-  int tries = 240;  // without a step done in between
+  int tries = 60;  // to go on, without a step done in between
+  // To begin: a device may still be held by a process that was killed.
+  int first_tries = 10;
   std::chrono::milliseconds between{500};
 };
 

@@ -110,9 +110,21 @@ TEST_F(ScanTest, a_camera_that_stays_away_is_an_error_and_its_return_is_enough) 
   EXPECT_EQ(mesh_text(*scan), undisturbed());
 }
 
+TEST_F(ScanTest, a_camera_that_a_killed_process_still_holds_is_waited_for) {
+  auto made = Scan::create(
+      scanner(), request(), path(),
+      {.patience = {.tries = 0, .first_tries = 3, .between = std::chrono::milliseconds(0)}});
+  world_.fault = [](const std::string& call, int count) {
+    return call == "open camera" && count <= 3;
+  };
+  EXPECT_EQ(run(**made), ScanState::kDone);
+  EXPECT_EQ(world_.calls["open camera"], 4);
+}
+
 TEST_F(ScanTest, while_it_waits_for_a_device_it_says_so_and_can_be_paused) {
-  auto made = Scan::create(scanner(), request(), path(),
-                           {.patience = {.tries = 1'000'000, .between = kForever}});
+  auto made =
+      Scan::create(scanner(), request(), path(),
+                   {.patience = {.tries = 1'000'000, .first_tries = 0, .between = kForever}});
   Scan& scan = **made;
   std::atomic<bool> is_away = false;
   world_.fault = [&](const std::string& call, int count) {

@@ -30,7 +30,8 @@ class ScanTest : public testing::Test {
 
   static ScanRequest request() { return {.steps = kSteps}; }
   static ScanSettings impatient(int tries = 3) {
-    return {.patience = {.tries = tries, .between = std::chrono::milliseconds(0)}};
+    return {
+        .patience = {.tries = tries, .first_tries = 0, .between = std::chrono::milliseconds(0)}};
   }
   Scanner scanner() { return fake_scanner(world_, calibrations_); }
   std::filesystem::path path(const std::string& name = "scan") const {
