@@ -8,8 +8,8 @@ namespace vitrine {
 namespace {
 
 constexpr std::size_t kProfiles = 2;  // further on, so that one picture may be missing
-constexpr std::size_t kPoints = 2;    // further on within a profile; on either side in the others
-constexpr int kFewest = 3;            // neighbours
+constexpr std::size_t kReach = 2;     // further on within a profile; on either side in the others
+constexpr int kNeighbours = 3;        // neighbours
 
 class Pieces {
  public:
@@ -45,7 +45,7 @@ void for_neighbours(const Cloud& cloud, double reach, Visit visit) {
   for (std::size_t k = 0; k < cloud.profiles.size(); ++k) {
     const auto& points = cloud.profiles[k].points;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      for (std::size_t j = i + 1; j < std::min(i + 1 + kPoints, points.size()); ++j)
+      for (std::size_t j = i + 1; j < std::min(i + 1 + kReach, points.size()); ++j)
         look(cloud.first[k] + i, cloud.first[k] + j);
     }
     for (std::size_t step = 1; step <= steps; ++step) {
@@ -55,8 +55,8 @@ void for_neighbours(const Cloud& cloud, double reach, Visit visit) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         while (near < others.size() && others[near].row < points[i].row)
           ++near;
-        const std::size_t to = std::min(near + kPoints, others.size());
-        for (std::size_t j = near - std::min(near, kPoints); j < to; ++j)
+        const std::size_t to = std::min(near + kReach, others.size());
+        for (std::size_t j = near - std::min(near, kReach); j < to; ++j)
           look(cloud.first[k] + i, cloud.first[other] + j);
       }
     }
@@ -71,7 +71,7 @@ Strays find_strays(const Cloud& cloud, double reach, std::size_t smallest) {
   for_neighbours(cloud, reach,
                  [&](std::size_t a, std::size_t b) { ++neighbours[a], ++neighbours[b]; });
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (neighbours[i] < kFewest) strays.kept[i] = false, ++strays.outliers;
+    if (neighbours[i] < kNeighbours) strays.kept[i] = false, ++strays.outliers;
   }
   Pieces pieces(cloud.size());
   for_neighbours(cloud, reach, [&](std::size_t a, std::size_t b) {
