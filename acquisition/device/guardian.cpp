@@ -69,8 +69,8 @@ Expected<pid_t> spawn(std::vector<std::string> words, int input) {
 
 // The kernel may need a moment to take the board from a process that died.
 bool switch_off(const BoardSelector& selector) {
-  constexpr int kTries = 20;
-  for (int i = 0; i < kTries; ++i) {
+  constexpr int kAttempts = 20;
+  for (int i = 0; i < kAttempts; ++i) {
     const auto opened = open_controller(selector, std::chrono::seconds(1));
     if (opened) {
       if (!opened->controller->switch_off()) opened->controller->halt();
