@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "acquisition/device/controller.h"
@@ -66,11 +67,19 @@ Expected<pid_t> spawn(std::vector<std::string> words, int input) {
   return process;
 }
 
+// The kernel may need a moment to take the board from a process that died.
 bool switch_off(const BoardSelector& selector) {
-  const auto opened = open_controller(selector, std::chrono::seconds(1));
-  if (!opened) return false;
-  if (!opened->controller->switch_off()) opened->controller->halt();
-  return true;
+  constexpr int kAttempts = 20;
+  for (int i = 0; i < kAttempts; ++i) {
+    const auto opened = open_controller(selector, std::chrono::seconds(1));
+    if (opened) {
+      if (!opened->controller->switch_off()) opened->controller->halt();
+      return true;
+    }
+    fmt::print(stderr, "vitrine-guardian: {}\n", opened.error().message);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
+  return false;
 }
 
 // Whether the other end said so before it closed.

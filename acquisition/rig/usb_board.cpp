@@ -63,6 +63,7 @@ struct Transfer {
 
 // One open device file.
 struct Client {
+  double last_call = 0;
   Ref<UMockdevIoctlClient> handle;  // so that no other has its address
   bool gone = false;                // the device that it opened has been unplugged
   std::set<unsigned> claimed;
@@ -147,6 +148,14 @@ void complete(GMainContext* context, UMockdevIoctlClient* client, long result, i
 
 Ref<UMockdevIoctlData> resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
   return Ref<UMockdevIoctlData>(umockdev_ioctl_data_resolve(data, offset, size, nullptr));
+}
+
+// umockdev does not notice each client that is killed amid a call; but a living one that holds an
+// interface asks for transfers all the time.
+bool is_dead(const Client& client, double now) {
+  constexpr double kSilent = 1;
+  return umockdev_ioctl_client_get_connected(client.handle.get()) == FALSE ||
+         now > client.last_call + kSilent;
 }
 
 unsigned number_in(UMockdevIoctlClient* client) {
@@ -261,6 +270,7 @@ bool UsbBoard::Impl::on_call(UMockdevIoctlClient* handle) {
   context_ = g_main_context_get_thread_default();
   Client& client = clients_[handle];
   if (!client.handle) client.handle = share(handle);
+  client.last_call = now();
   call(handle, client);
   settle();
   changed_.notify_all();
@@ -300,9 +310,7 @@ void UsbBoard::Impl::call(UMockdevIoctlClient* handle, Client& client) {
 void UsbBoard::Impl::claim(UMockdevIoctlClient* handle, Client& client, bool on) {
   const unsigned interface = number_in(handle);
   if (on) {
-    std::erase_if(clients_, [](const auto& one) {
-      return umockdev_ioctl_client_get_connected(one.first) == FALSE;
-    });
+    std::erase_if(clients_, [&](const auto& one) { return is_dead(one.second, now()); });
     for (const auto& [other, state] : clients_)
       if (other != handle && !state.gone && state.claimed.contains(interface))
         return complete(context_, handle, -1, EBUSY);
