@@ -36,7 +36,7 @@ JsonMembers::JsonMembers(const json& object, std::string place,
     : object_(object), place_(std::move(place)) {
   for (const auto& [key, value] : object.items()) {
     if (std::find(known.begin(), known.end(), key) == known.end())
-      fault(key, fmt::format("is not known here; known are {}", fmt::join(known, ", ")));
+      fault(key, fmt::format("is not known here (known are {})", fmt::join(known, ", ")));
   }
 }
 

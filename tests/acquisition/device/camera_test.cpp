@@ -8,7 +8,7 @@
 #include <atomic>
 #include <memory>
 
-#include "acquisition/device/own_network.h"
+#include "acquisition/rig/private_network.h"
 
 namespace vitrine {
 namespace {
@@ -45,7 +45,7 @@ constexpr char kAddress[] = "127.0.0.1";
 
 class CameraTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() { test::enter_own_network(); }
+  static void SetUpTestSuite() { ASSERT_TRUE(rig::enter_private_network()); }
 };
 
 TEST_F(CameraTest, GivesOneFrameATrigger) {

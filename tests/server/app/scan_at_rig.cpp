@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "acquisition/rig/private_network.h"
 #include "codec/export/write_mesh.h"
 #include "support/http_client.h"
 #include "support/meshes.h"
@@ -35,6 +36,9 @@ void wait_until(Condition condition) {
 
 class DaemonAtRig : public testing::Test {
  protected:
+  // The camera's port is fixed, and tests run side by side.
+  static void SetUpTestSuite() { ASSERT_TRUE(rig::enter_private_network()); }
+
   DaemonAtRig() {
     const auto mesh = write_mesh(torus(60, 30), MeshFormat::kPly, "mm").value();
     std::ofstream(path("object.ply"), std::ios::binary)
@@ -44,11 +48,11 @@ class DaemonAtRig : public testing::Test {
                                             "operator", "--data", path("data"), "--json"});
     token_ = json::parse(made.output)["token"];
     rig_ = std::thread([this] { result_ = run_program(words()); });
-    wait_for_port();
   }
+  void SetUp() override { wait_for_port(); }
   ~DaemonAtRig() override {
     std::ofstream(path("end"));
-    signal_daemon(SIGTERM);
+    if (std::filesystem::exists(path("pid"))) signal_daemon(SIGTERM);
     rig_.join();
     EXPECT_EQ(result_.exit_code, 0) << result_.errors;
   }
@@ -61,7 +65,6 @@ class DaemonAtRig : public testing::Test {
 
   // The daemon is started anew whenever it ends.
   std::vector<std::string> words() const {
-    const int number = ::getpid();  // an address of this process alone: tests run side by side
     return {VITRINE_BIN_DIR "/vitrine-rig",
             "--mesh",
             path("object.ply"),
@@ -69,9 +72,6 @@ class DaemonAtRig : public testing::Test {
             "40",
             "--steps",
             std::to_string(kSteps),
-            "--address",
-            fmt::format("127.{}.{}.{}", 1 + number / 62'500 % 250, number / 250 % 250,
-                        1 + number % 250),
             "--write-config",
             path("rig.json"),
             "--",

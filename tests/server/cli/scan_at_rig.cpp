@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole way over the real protocols: vitrine-rig is the scanner, vitrine calibrates it by its
 // target and scans a mesh, and the result is compared with the truth.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include "vitrine_command.h"
 
@@ -19,13 +17,6 @@ class ScanAtRig : public VitrineCommand {
  protected:
   ScanAtRig() { write("object.ply", bumpy_ply(3'000)); }
 
-  // Of this process alone: tests run side by side.
-  static std::string address() {
-    const int number = ::getpid();
-    return fmt::format("127.{}.{}.{}", 1 + number / 62'500 % 250, number / 250 % 250,
-                       1 + number % 250);
-  }
-
   // Runs the script in the folder of the test, where rig.json describes the scanner.
   ProgramResult at_rig(const std::string& script, const std::vector<std::string>& options = {}) {
     std::vector<std::string> words = {VITRINE_BIN_DIR "/vitrine-rig",
@@ -35,8 +26,7 @@ class ScanAtRig : public VitrineCommand {
                                       "40",
                                       "--steps",
                                       std::to_string(kSteps),
-                                      "--address",
-                                      address(),
+                                      "--private-network",
                                       "--write-config",
                                       path("rig.json"),
                                       "--write-truth",
