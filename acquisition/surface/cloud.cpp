@@ -11,6 +11,8 @@ namespace {
 constexpr double kDepths = 4;       // of s_max: eq. 5
 constexpr double kOutermost = .95;  // of the points lie closer to the axis than what spacing is of
 
+constexpr int kSampledGap = 4;  // of the median: profiles that come sampled have any rows
+
 template <class T>
 T percentile(std::vector<T>& values, double part) {
   if (values.empty()) return {};
@@ -67,6 +69,7 @@ Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options) {
   }
   Spacing spacing;
   spacing.rows = std::max(1, percentile(rows, .5));
+  spacing.gap = spacing.rows == 1 ? 1 : kSampledGap * spacing.rows;
   spacing.largest = options.largest_spacing > 0
                         ? options.largest_spacing
                         : std::max(percentile(along, .5),

@@ -32,8 +32,9 @@ std::vector<Profile> keep(const Cloud& cloud, const std::vector<bool>& kept);
 // What holds for the whole scan.
 struct Spacing {
   int rows = 1;            // from point to point in a profile, median
+  int gap = 1;             // rows from point to point; where there are more, some are missing
   double largest = 0;      // s_max, mm
-  double bridge = 0;       // mm across the depth: no gap that is wider is bridged
+  double bridge = 0;       // mm: profiles whose points are further apart are not joined
   double cos_largest = 0;  // of phi_max
 };
 

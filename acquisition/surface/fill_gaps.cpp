@@ -12,8 +12,7 @@ double distance(const TablePoint& a, const TablePoint& b) {
 
 // The plane's far side of the axis is another side of the object.
 bool are_apart(const TablePoint& a, const TablePoint& b, const Spacing& spacing) {
-  return (a.rho < 0) != (b.rho < 0) || !are_joined(a.rho, b.rho, distance(a, b), spacing) ||
-         std::hypot(a.lateral - b.lateral, a.z - b.z) > spacing.bridge;
+  return (a.rho < 0) != (b.rho < 0) || !are_joined(a.rho, b.rho, distance(a, b), spacing);
 }
 
 ProfilePoint between(const ProfilePoint& a, const ProfilePoint& b, int row) {
@@ -22,6 +21,14 @@ ProfilePoint between(const ProfilePoint& a, const ProfilePoint& b, int row) {
   return {{mix(a.at.rho, b.at.rho), mix(a.at.lateral, b.at.lateral), mix(a.at.z, b.at.z)},
           row,
           kFilled};
+}
+
+std::uint64_t fill(const ProfilePoint& a, const ProfilePoint& b, int step,
+                   std::vector<ProfilePoint>& points) {
+  std::uint64_t filled = 0;
+  for (int row = a.row + step; row < b.row; row += step, ++filled)
+    points.push_back(between(a, b, row));
+  return filled;
 }
 
 }  // namespace
@@ -34,12 +41,12 @@ std::uint64_t fill_gaps(Profile& profile, double largest_hole, const Spacing& sp
     point.flags &= static_cast<std::uint8_t>(~kApart);
     if (!points.empty()) {
       const ProfilePoint last = points.back();
-      if (are_apart(last.at, point.at, spacing)) {
+      const bool gap = point.row - last.row > spacing.gap;
+      if (are_apart(last.at, point.at, spacing) ||
+          (gap && distance(last.at, point.at) > largest_hole))
         point.flags |= kApart;
-      } else if (distance(last.at, point.at) <= largest_hole) {
-        for (int row = last.row + spacing.rows; row < point.row; row += spacing.rows, ++filled)
-          points.push_back(between(last, point, row));
-      }
+      else if (gap)
+        filled += fill(last, point, spacing.rows, points);
     }
     points.push_back(point);
   }

@@ -6,26 +6,50 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acquisition/surface/plane_step.h"
+#include "codec/mesh/face_neighbours.h"
 #include "codec/mesh/triangle_bvh.h"
 
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kPoints = 20'000;  // that a scan is moved by
+constexpr std::size_t kPoints = 10'000;  // that a scan is moved by
 // Distances up to which points count, one after the other, in `overlap`s: from the operator's start
 // to what is the same surface.
-constexpr std::array<double, 5> kNarrowing = {40, 16, 6, 2, 1};
+constexpr std::array<double, 8> kNarrowing = {40, 20, 10, 6, 4, 2, 1, 1};
+constexpr int kSteps = 6;             // at each distance
 constexpr std::size_t kFewest = 100;  // points that overlap
 
-RigidMotion then(const RigidMotion& first, const RigidMotion& second) {
-  RigidMotion both;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3& r = second.rows[k];
-    both.rows[k] = first.rows[0] * r.x + first.rows[1] * r.y + first.rows[2] * r.z;
+// What scans are moved onto: without the rim, where closest points are no counterparts.
+class Target {
+ public:
+  explicit Target(const TriangleMesh& mesh) : bvh_(mesh), rim_(bvh_.size(), false) {
+    const auto across = face_neighbours(bvh_.faces(), bvh_.positions().size());
+    for (std::uint32_t t = 0; t < bvh_.size(); ++t) {
+      for (std::uint32_t k = 0; k < 3; ++k)
+        rim_[t] = rim_[t] || across[t][k] == 3 * t + k;
+    }
   }
-  both.shift = second(first.shift);
-  return both;
-}
+
+  std::vector<Counterpart> counterparts(std::span<const Vec3> points, const RigidMotion& motion,
+                                        double reach) const {
+    std::vector<Counterpart> found;
+    for (const Vec3& p : points) {
+      const Vec3 moved = motion(p);
+      const SurfacePoint hit = bvh_.closest(moved, {reach * reach});
+      if (hit.squared >= reach * reach || rim_[hit.triangle]) continue;
+      const Corners corners = bvh_.triangle(hit.triangle);
+      const Vec3 normal = normal_of(corners);
+      if (const double size = length(normal); size > 0)
+        found.push_back({moved, closest_point(corners, moved), normal * (1 / size)});
+    }
+    return found;
+  }
+
+ private:
+  TriangleBvh bvh_;
+  std::vector<bool> rim_;
+};
 
 std::vector<Vec3> some_of(const std::vector<Vec3>& points) {
   std::vector<Vec3> some;
@@ -35,22 +59,20 @@ std::vector<Vec3> some_of(const std::vector<Vec3>& points) {
   return some;
 }
 
-struct Overlap {
-  std::vector<Vec3> points;
-  double rms = 0;
-};
-
-Overlap overlap_of(const std::vector<Vec3>& points, const RigidMotion& motion,
-                   const TriangleBvh& surface, double reach) {
-  Overlap overlap;
-  for (const Vec3& p : points) {
-    const SurfacePoint hit = surface.closest(motion(p), {reach * reach});
-    if (hit.squared >= reach * reach) continue;
-    overlap.points.push_back(motion(p)), overlap.rms += hit.squared;
+double rms_of(const std::vector<Counterpart>& pairs) {
+  double sum = 0;
+  for (const Counterpart& pair : pairs) {
+    const double d = dot(pair.on - pair.point, pair.normal);
+    sum += d * d;
   }
-  if (!overlap.points.empty())
-    overlap.rms = std::sqrt(overlap.rms / static_cast<double>(overlap.points.size()));
-  return overlap;
+  return pairs.empty() ? 0 : std::sqrt(sum / static_cast<double>(pairs.size()));
+}
+
+Unexpected no_overlap(std::size_t scan, std::size_t points) {
+  return fail(ErrorCode::kBadInput,
+              fmt::format("scan {} overlaps with those before it in {} points only: give a better "
+                          "start, or scan more of the same parts",
+                          scan + 1, points));
 }
 
 bool is_covered(const TriangleMesh& scan, const Triangle& face, const TriangleBvh& surface,
@@ -86,24 +108,23 @@ Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const Rigi
   }
   Merged merged{scans[0], {RigidMotion{}}, {0}};
   for (std::size_t k = 1; k < scans.size(); ++k) {
-    const TriangleBvh surface(merged.mesh);
+    const Target target(merged.mesh);
     const std::vector<Vec3> points = some_of(scans[k].positions);
+    const std::size_t fewest = std::min(kFewest, points.size());
     RigidMotion motion = starts[k];
+    std::vector<Counterpart> pairs;
     for (const double reach : kNarrowing) {
-      const Overlap overlap = overlap_of(points, motion, surface, reach * options.overlap);
-      motion = then(motion, align(overlap.points, surface));
+      for (int step = 0; step < kSteps; ++step) {
+        pairs = target.counterparts(points, motion, reach * options.overlap);
+        if (pairs.size() < fewest) return no_overlap(k, pairs.size());
+        motion = then(motion, towards_planes(pairs));
+      }
     }
-    const Overlap overlap = overlap_of(points, motion, surface, options.overlap);
-    if (overlap.points.size() < std::min(kFewest, points.size()))
-      return fail(ErrorCode::kBadInput,
-                  fmt::format("scan {} overlaps with those before it in {} points only: give a "
-                              "better start, or scan more of the same parts",
-                              k + 1, overlap.points.size()));
     TriangleMesh moved = scans[k];
     for (Vec3& p : moved.positions)
       p = motion(p);
     add_uncovered(merged.mesh, moved, options.overlap);
-    merged.motions.push_back(motion), merged.rms.push_back(overlap.rms);
+    merged.motions.push_back(motion), merged.rms.push_back(rms_of(pairs));
   }
   return merged;
 }

@@ -17,13 +17,14 @@ struct MergeOptions {
 struct Merged {
   TriangleMesh mesh;                 // in the frame of the first scan, mm
   std::vector<RigidMotion> motions;  // of each scan; that of the first is none
-  std::vector<double> rms;           // mm: of each scan's overlap with those before it
+  std::vector<double> rms;           // mm: of each scan to those before it where they overlap
 };
 
 // What is done: from `starts` (one a scan, the operator's: correct within the object's features,
 // some mm and degrees) each scan is moved onto those before it by iterated closest points over the
-// part that overlaps. Of a later scan the faces are dropped whose three corners and middle lie
-// closer than `overlap` to the earlier ones, away from their rims; the others are added. So each
+// part that overlaps and is not at a rim (point to plane). Of a later scan the faces are dropped
+// whose three corners and middle lie closer than `overlap` to the earlier ones; the others are
+// added. So each
 // place is shown by the first scan that saw it.
 // What is not done: the error of registration is not spread over all scans (each is moved once),
 // overlapping measurements are not averaged, and the seam is not closed: along it sheets overlap

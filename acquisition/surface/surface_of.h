@@ -14,7 +14,7 @@ namespace vitrine {
 
 struct SurfaceOptions {
   double largest_spacing = 0;       // s_max in mm; 0: from the profiles
-  double largest_angle = 80;        // phi_max, degrees
+  double largest_angle = 75;        // phi_max, degrees
   double largest_hole = 2;          // mm; 0 fills none
   std::size_t smallest_piece = 30;  // points
   double noise = 0;  // mm: standard deviation of a point's rho, as calibrated; 0: the

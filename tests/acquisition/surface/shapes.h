@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scans of shapes whose surface is known.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "acquisition/profile/profile.h"
+
+namespace vitrine {
+
+// rho at an angle about the axis (radians) and a height (mm); nothing where there is no surface.
+using Shape = std::function<std::optional<double>(double angle, double z)>;
+
+struct Scanned {
+  int profiles = 90, rows = 60;
+  double top = 30, bottom = 0;  // mm, of the first and last row
+  double noise = 0;             // mm, of rho
+  std::uint64_t seed = 1;
+};
+
+std::vector<Profile> scan_of(const Shape& shape, const Scanned& how = {});
+
+Shape cylinder(double radius);
+// About (0, 0, height).
+Shape ellipsoid(double across, double up, double height);
+Shape box(double half);
+
+}  // namespace vitrine
