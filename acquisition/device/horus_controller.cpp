@@ -144,10 +144,14 @@ Expected<std::string> HorusController::greet() {
 Expected<double> HorusController::counter() {
   if (auto said = talk_.port().write({&horus::kAskStatus, 1}); !said)
     return Unexpected(said.error());
-  const auto status = await(Kind::kStatus, patience_);
-  if (!status) return Unexpected(status.error());
-  if (!*status) return no_answer("?");
-  return (*status)->value;
+  while (true) {
+    const auto heard = talk_.hear(patience_);
+    if (!heard) return Unexpected(heard.error());
+    if (!*heard) return no_answer("?");
+    const horus::Reply reply = horus::parse(**heard);
+    if (reply.kind == Kind::kStatus) return reply.value;
+    if (reply.kind != Kind::kRemark) return refused("?", reply);
+  }
 }
 
 Expected<std::optional<double>> HorusController::position() {

@@ -63,7 +63,8 @@ struct Transfer {
 
 // One open device file.
 struct Client {
-  bool gone = false;  // the device that it opened has been unplugged
+  Ref<UMockdevIoctlClient> handle;  // so that no other has its address
+  bool gone = false;                // the device that it opened has been unplugged
   std::set<unsigned> claimed;
   std::deque<Transfer> reading, finished;
   Ref<UMockdevIoctlClient> waiting;  // asks for a finished transfer; held back
@@ -86,7 +87,7 @@ class UsbBoard::Impl {
   auto ask(Question question);
 
   bool on_call(UMockdevIoctlClient* client);
-  void on_vanished(UMockdevIoctlClient* client);
+  void forget(UMockdevIoctlClient* client);
 
  private:
   double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -147,12 +148,12 @@ UsbBoard::Impl::Impl(UsbBoardEvents events)
   const Handler handler = [](UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
     return static_cast<gboolean>(static_cast<Impl*>(self)->on_call(client));
   };
-  using Vanished = void (*)(UMockdevIoctlBase*, UMockdevIoctlClient*, gpointer);
-  const Vanished vanished = [](UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-    static_cast<Impl*>(self)->on_vanished(client);
+  using Change = void (*)(UMockdevIoctlBase*, UMockdevIoctlClient*, gpointer);
+  const Change changed = [](UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+    static_cast<Impl*>(self)->forget(client);
   };
   g_signal_connect(calls_.get(), "handle-ioctl", reinterpret_cast<GCallback>(handler), this);
-  g_signal_connect(calls_.get(), "client-vanished", reinterpret_cast<GCallback>(vanished), this);
+  g_signal_connect(calls_.get(), "client-vanished", reinterpret_cast<GCallback>(changed), this);
   timer_ = std::thread([this] { run(); });
 }
 
@@ -241,13 +242,14 @@ auto UsbBoard::Impl::ask(Question question) {
 bool UsbBoard::Impl::on_call(UMockdevIoctlClient* handle) {
   const std::lock_guard lock(mutex_);
   Client& client = clients_[handle];
+  if (!client.handle) client.handle = share(handle);
   call(handle, client);
   settle();
   changed_.notify_all();
   return true;
 }
 
-void UsbBoard::Impl::on_vanished(UMockdevIoctlClient* handle) {
+void UsbBoard::Impl::forget(UMockdevIoctlClient* handle) {
   const std::lock_guard lock(mutex_);
   clients_.erase(handle);
 }
@@ -280,6 +282,9 @@ void UsbBoard::Impl::call(UMockdevIoctlClient* handle, Client& client) {
 void UsbBoard::Impl::claim(UMockdevIoctlClient* handle, Client& client, bool on) {
   const unsigned interface = number_in(handle);
   if (on) {
+    std::erase_if(clients_, [](const auto& one) {
+      return umockdev_ioctl_client_get_connected(one.first) == FALSE;
+    });
     for (const auto& [other, state] : clients_)
       if (other != handle && !state.gone && state.claimed.contains(interface))
         return complete(handle, -1, EBUSY);
@@ -422,11 +427,10 @@ void UsbBoard::Impl::run() {
 }
 
 void enter_testbed(char** argv) {
-  if (umockdev_in_mock_environment()) return;
-  const char* before = std::getenv("LD_PRELOAD");
-  const std::string libraries =
-      std::string(kPreload) + (before != nullptr ? std::string(":") + before : std::string());
-  ::setenv("LD_PRELOAD", libraries.c_str(), 1);
+  const char* set = std::getenv("LD_PRELOAD");
+  const std::string before = set != nullptr ? set : "";
+  if (before.find(kPreload) != std::string::npos) return;
+  ::setenv("LD_PRELOAD", (kPreload + (':' + before)).c_str(), 1);
   ::execv("/proc/self/exe", argv);
 }
 
