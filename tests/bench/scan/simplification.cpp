@@ -72,7 +72,7 @@ void layers_over_finest(Report& report, const std::string& what, const Polygons&
   const State a = state_of(pmesh, polygons[0]), b = state_of(pmesh, polygons[1]);
   const double single = alone(a.lattice);
   const double drc = static_cast<double>(
-      draco_encode(finest.mesh, value_of(open_model(pmesh)).manifest().bits).size());
+      draco_encode(finest.mesh, value_of(open_model(pmesh)).manifest().lattice.bits).size());
   report.add(
       {what, "layered_ratio_to_finest_alone", a.bytes, single, a.bytes / single, kPaperLayered});
   report.add({what, "layer_b_to_a_ratio_to_finest_alone", a.bytes - b.bytes, single,
