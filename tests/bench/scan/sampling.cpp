@@ -36,7 +36,7 @@ class Sampler {
   Sampled by(SamplingMethod method, int length) const {
     SurfaceOptions options;
     options.noise = noise_;
-    options.sampling = {method, length, noise_};
+    options.sampling = {method, length};  // as a scan does: what is sampled is smooth
     auto surface = value_of(surface_of(profiles_, options));
     return {std::move(surface.mesh), surface.report.sampled};
   }

@@ -41,6 +41,6 @@ class SimulatedScanner {
   rig::Renderer renderer_;
 };
 
-Calibration calibration_of(const CalibrationInput& input, int degree = 3);
+Calibration calibration_of(const CalibrationInput& input, int degree = 0);
 
 }  // namespace vitrine::bench
