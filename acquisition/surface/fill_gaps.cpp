@@ -6,9 +6,6 @@
 namespace vitrine {
 namespace {
 
-// Of 85 degrees off the surface: what is flatter to laser or camera neither of them shows.
-constexpr double kSineOfGrazing = 0.9962;
-
 double distance(const TablePoint& a, const TablePoint& b) {
   return std::hypot(a.rho - b.rho, a.lateral - b.lateral, a.z - b.z);
 }
@@ -41,9 +38,8 @@ class Course {
     if (!same_side(c.at, d.at)) return false;
     const double slope = (d.at.rho - c.at.rho) / (d.row - c.row);
     const double depth = std::abs(b.at.rho - a.at.rho - slope * (b.row - a.row));
-    const double far = distance(a.at, b.at);
-    return std::abs(b.at.rho - a.at.rho) < kSineOfGrazing * far &&
-           are_joined(depth, far, spacing_) && distance(c.at, d.at) < spacing_.bridge;
+    return are_joined(depth, distance(a.at, b.at), spacing_) &&
+           distance(c.at, d.at) < spacing_.bridge;
   }
 
   const std::vector<ProfilePoint>& points_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -37,15 +38,25 @@ struct State {
   double bytes = 0;  // of the stream up to here
 };
 
+// Between two levels in proportion: a stream's chunks are larger than the steps of the table.
+double bytes_of(const Manifest& manifest, double polygons) {
+  std::size_t above = 1;
+  while (above + 1 < manifest.levels.size() && manifest.levels[above].faces < polygons)
+    ++above;
+  const auto bytes = [&](std::size_t level) {
+    return static_cast<double>(manifest.cumulative_bytes(static_cast<std::uint32_t>(level)));
+  };
+  const double low = manifest.levels[above - 1].faces, high = manifest.levels[above].faces;
+  const double share = std::clamp((polygons - low) / (high - low), 0., 1.);
+  return bytes(above - 1) + share * (bytes(above) - bytes(above - 1));
+}
+
 State state_of(std::span<const std::uint8_t> pmesh, std::uint64_t polygons) {
   Refiner refiner = value_of(open_model(pmesh));
   const Manifest& manifest = refiner.manifest();
   const auto refined = refine(refiner, WantTriangles{polygons}, chunks_of(manifest, pmesh));
   if (!refined) throw std::runtime_error(refined.error().message);
-  auto bytes = static_cast<double>(manifest.head_bytes());
-  for (std::size_t i = 0; i < manifest.chunks.size(); ++i)
-    bytes += refiner.applied(i) ? static_cast<double>(manifest.chunks[i].length) : 0;
-  return {refiner.display_mesh(), refiner.lattice_mesh(), bytes};
+  return {refiner.display_mesh(), refiner.lattice_mesh(), bytes_of(manifest, refiner.face_count())};
 }
 
 double vrml_bytes(const TriangleMesh& mesh) {
@@ -82,7 +93,7 @@ void layers_over_finest(Report& report, const std::string& what, const Polygons&
 
 void table_two(Report& report, const Options& options, const Object& object,
                const Polygons& polygons) {
-  const TriangleMesh scan = scanned(object, options.quick ? 180 : 720);
+  const TriangleMesh scan = scanned(object, options.quick ? 360 : 720);
   const auto file = value_of(write_mesh(scan, MeshFormat::kPly, "mm"));
   const Bytes pmesh = value_of(build_model(file, {}, {})).file;
   const std::string name = "table_2." + object.name;
