@@ -27,7 +27,7 @@ struct CalibrationInput {
 };
 
 struct CalibrationOptions {
-  int degree = 3;      // of the plane map, 2 to 5; 0: the best by cross-validation
+  int degree = 0;      // of the plane map, 2 to 5; 0: the lowest that does well on held-out poses
   double margin = 20;  // pixels around what the stripe was seen in where the map holds, too
 };
 

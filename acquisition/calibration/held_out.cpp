@@ -31,6 +31,22 @@ Expected<std::vector<HeldOutPoint>> judge(int poses, int degree, const LeaveOut&
   return points;
 }
 
+// Root mean square of the points that are not far off: corners or stripes that were found where
+// there are none tell nothing about a degree.
+double without_strays(std::span<const HeldOutPoint> points) {
+  constexpr double kFar = 4;  // medians
+  std::vector<double> sizes;
+  for (const HeldOutPoint& p : points)
+    sizes.push_back(p.size());
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  double sum = 0, count = 0;
+  for (const double size : sizes) {
+    if (size <= kFar * *middle) sum += size * size, ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
 }  // namespace
 
 double HeldOutPoint::size() const {
@@ -62,6 +78,7 @@ Expected<CrossValidation> cross_validate(int poses, int degree, const LeaveOut& 
   CrossValidation result;
   Expected<std::vector<HeldOutPoint>> all[PlaneMap::kMostDegree + 1];
   const std::vector<HeldOutPoint>* chosen = nullptr;
+  double misses[PlaneMap::kMostDegree + 1] = {};
   double best = 0;
   for (int d = PlaneMap::kLeastDegree; d <= PlaneMap::kMostDegree; ++d) {
     all[d] = judge(poses, d, leave_out);
@@ -70,11 +87,12 @@ Expected<CrossValidation> cross_validate(int poses, int degree, const LeaveOut& 
       continue;
     }
     const ResidualSummary residuals = summary_of(*all[d]);
-    if (result.degrees.empty() || residuals.rms < best) best = residuals.rms;
+    misses[d] = without_strays(*all[d]);
+    if (result.degrees.empty() || misses[d] < best) best = misses[d];
     result.degrees.push_back({d, 0, residuals});
   }
   for (const DegreeResult& d : result.degrees) {
-    const bool taken = degree == 0 ? d.residuals.rms <= best * kAsGood : d.degree == degree;
+    const bool taken = degree == 0 ? misses[d.degree] <= best * kAsGood : d.degree == degree;
     if (!taken) continue;
     result.degree = d.degree;
     chosen = &*all[d.degree];

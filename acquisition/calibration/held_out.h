@@ -19,7 +19,8 @@ struct CrossValidation {
   std::vector<HeldOutPoint> points;   // of the chosen one
 };
 
-// `degree` 0 chooses: the lowest that is within a hundredth of the best. Fails (kBadInput) with
+// `degree` 0 chooses: the lowest that is within a hundredth of the best, points that are
+// far off left aside. Fails (kBadInput) with
 // fewer than 3 poses, or where the degree cannot be fitted.
 Expected<CrossValidation> cross_validate(int poses, int degree, const LeaveOut& leave_out);
 

@@ -14,7 +14,7 @@ Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibr
                                  const Processing& processing) {
   SurfaceOptions options = processing.surface;
   options.sampling = processing.sampling;
-  options.noise = options.sampling.noise = calibration.noise;
+  options.noise = calibration.noise;  // and none for the sampling: what comes to it is smoothed
   return surface_of(profiles, options);
 }
 

@@ -79,8 +79,7 @@ Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options) {
   return spacing;
 }
 
-bool are_joined(double rho_a, double rho_b, double distance, const Spacing& spacing) {
-  const double depth = std::abs(rho_a - rho_b);
+bool are_joined(double depth, double distance, const Spacing& spacing) {
   if (depth < kDepths * spacing.largest) return true;
   const double across = std::sqrt(std::max(0., distance * distance - depth * depth));
   return across > spacing.cos_largest * distance;

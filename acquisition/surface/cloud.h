@@ -40,8 +40,9 @@ struct Spacing {
 
 Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options);
 
-// Eq. 5-6: the depth rho differs by less than 4 s_max, or the surface is seen at an angle phi below
-// phi_max, where cos(phi) is the share of their distance that lies across the depth.
-bool are_joined(double rho_a, double rho_b, double distance, const Spacing& spacing);
+// Eq. 5-6: the depths rho differ by `depth`, which is less than 4 s_max, or the surface is seen at
+// an angle phi below phi_max, where cos(phi) is the share of their distance that lies across the
+// depth.
+bool are_joined(double depth, double distance, const Spacing& spacing);
 
 }  // namespace vitrine

@@ -10,10 +10,41 @@ double distance(const TablePoint& a, const TablePoint& b) {
   return std::hypot(a.rho - b.rho, a.lateral - b.lateral, a.z - b.z);
 }
 
-// The plane's far side of the axis is another side of the object.
-bool are_apart(const TablePoint& a, const TablePoint& b, const Spacing& spacing) {
-  return (a.rho < 0) != (b.rho < 0) || !are_joined(a.rho, b.rho, distance(a, b), spacing);
+bool same_side(const TablePoint& a, const TablePoint& b) {
+  return (a.rho < 0) == (b.rho < 0);
 }
+
+class Course {
+ public:
+  Course(const std::vector<ProfilePoint>& points, const Spacing& spacing)
+      : points_(points), spacing_(spacing) {}
+
+  // Whether the surface goes on from the point before `i` to it. The plane's far side of the axis
+  // is another side of the object.
+  bool goes_on(std::size_t i) const {
+    const TablePoint &a = points_[i - 1].at, &b = points_[i].at;
+    if (!same_side(a, b)) return false;
+    return are_joined(std::abs(b.rho - a.rho), distance(a, b), spacing_) || is_steady(i, i - 1) ||
+           is_steady(i, i + 1);
+  }
+
+ private:
+  // Whether the step to `i` is what the step to `other`, before or after it, lets expect: a surface
+  // that laser or camera graze goes far in depth from row to row, but not at once.
+  bool is_steady(std::size_t i, std::size_t other) const {
+    if (other == 0 || other >= points_.size()) return false;
+    const ProfilePoint &a = points_[i - 1], &b = points_[i], &c = points_[other - 1],
+                       &d = points_[other];
+    if (!same_side(c.at, d.at)) return false;
+    const double slope = (d.at.rho - c.at.rho) / (d.row - c.row);
+    const double depth = std::abs(b.at.rho - a.at.rho - slope * (b.row - a.row));
+    return are_joined(depth, distance(a.at, b.at), spacing_) &&
+           distance(c.at, d.at) < spacing_.bridge;
+  }
+
+  const std::vector<ProfilePoint>& points_;
+  const Spacing& spacing_;
+};
 
 ProfilePoint between(const ProfilePoint& a, const ProfilePoint& b, int row) {
   const double t = static_cast<double>(row - a.row) / (b.row - a.row);
@@ -34,16 +65,17 @@ std::uint64_t fill(const ProfilePoint& a, const ProfilePoint& b, int step,
 }  // namespace
 
 std::uint64_t fill_gaps(Profile& profile, double largest_hole, const Spacing& spacing) {
+  const Course course(profile.points, spacing);
   std::vector<ProfilePoint> points;
   points.reserve(profile.points.size());
   std::uint64_t filled = 0;
-  for (ProfilePoint point : profile.points) {
+  for (std::size_t i = 0; i < profile.points.size(); ++i) {
+    ProfilePoint point = profile.points[i];
     point.flags &= static_cast<std::uint8_t>(~kApart);
-    if (!points.empty()) {
-      const ProfilePoint last = points.back();
+    if (i > 0) {
+      const ProfilePoint& last = profile.points[i - 1];
       const bool gap = point.row - last.row > spacing.gap;
-      if (are_apart(last.at, point.at, spacing) ||
-          (gap && distance(last.at, point.at) > largest_hole))
+      if (!course.goes_on(i) || (gap && distance(last.at, point.at) > largest_hole))
         point.flags |= kApart;
       else if (gap)
         filled += fill(last, point, spacing.rows, points);

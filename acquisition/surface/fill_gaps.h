@@ -8,7 +8,8 @@
 
 namespace vitrine {
 
-// Rows that are missing between two points which are joined (eq. 5) and no further apart than
+// Rows that are missing between two points which are joined (eq. 5, or else a step that is like the
+// one before or after it: a surface may be grazed all along) and no further apart than
 // `largest_hole` mm get points in between, linear in rho (and in lateral and z), flagged kFilled. A
 // point that is not joined to the one before it, or has a larger gap before it, is flagged kApart.
 // Returns how many points were filled in.

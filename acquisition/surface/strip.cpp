@@ -22,6 +22,16 @@ struct Side {
     if (i > 0 && goes_on(i - 1)) reach = std::max(reach, points[i].row - points[i - 1].row);
     return reach;
   }
+  // The rho that the profile has at `row` if it goes there from point i, otherwise that of point i.
+  double depth_at(std::size_t i, int row) const {
+    const ProfilePoint& at = points[i];
+    std::size_t next = i;
+    if (row > at.row && goes_on(i)) next = i + 1;
+    if (row < at.row && i > 0 && goes_on(i - 1)) next = i - 1;
+    if (next == i) return at.at.rho;
+    const double t = static_cast<double>(row - at.row) / (points[next].row - at.row);
+    return at.at.rho + std::min(t, 1.) * (points[next].at.rho - at.at.rho);
+  }
 };
 
 class Strip {
@@ -67,11 +77,16 @@ class Strip {
     const ProfilePoint &p = a_.points[i], &q = b_.points[j];
     if ((p.at.rho < 0) != (q.at.rho < 0)) return false;
     if (std::abs(p.row - q.row) > std::max(a_.reach(i), b_.reach(j))) return false;
-    const double distance = length_across(i, j), depth = p.at.rho - q.at.rho,
+    const double distance = length_across(i, j), in_depth = p.at.rho - q.at.rho,
                  height = p.at.z - q.at.z;
-    if (distance * distance - depth * depth - height * height > spacing_.bridge * spacing_.bridge)
+    if (distance * distance - in_depth * in_depth - height * height >
+        spacing_.bridge * spacing_.bridge)
       return false;
-    return are_joined(p.at.rho, q.at.rho, distance, spacing_);
+    // Depths are compared at the same row: between the rows of a sampled profile a surface that is
+    // nearly flat goes far in depth without a step.
+    const double depth = std::min(std::abs(a_.depth_at(i, q.row) - q.at.rho),
+                                  std::abs(b_.depth_at(j, p.row) - p.at.rho));
+    return are_joined(depth, distance, spacing_);
   }
 
   double edge(std::size_t i, std::size_t j) const {

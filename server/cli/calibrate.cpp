@@ -102,10 +102,7 @@ std::string as_text(const Calibration& calibration, const CalibrationReport& rep
 
 tl::expected<CalibrationOptions, Fault> options_of(const Arguments& arguments) {
   CalibrationOptions options;
-  if (arguments.text("--degree") == "auto") {
-    options.degree = 0;
-    return options;
-  }
+  if (!arguments.has("--degree") || arguments.text("--degree") == "auto") return options;
   const auto degree = arguments.number("--degree", PlaneMap::kLeastDegree, PlaneMap::kMostDegree);
   if (!degree) return arguments.wrong_value("--degree", "auto or 2 to 5");
   if (*degree) options.degree = static_cast<int>(**degree);
@@ -142,7 +139,7 @@ Outcome run_calibrate(const Arguments& arguments) {
 
 constexpr Flag kCalibrateFlags[] = {
     {"--config", "rig.json", "the scanner"},
-    {"--degree", "auto|2..5", "of the polynomial (default 3); auto: the best over held-out poses"},
+    {"--degree", "auto|2..5", "of the polynomial (default auto: by the held-out poses)"},
     {"--json", "", "print one JSON object"}};
 
 }  // namespace

@@ -179,14 +179,22 @@ TEST(Surface, AtADepthDiscontinuityAGapStays) {
   }
 }
 
-// 1.7 mm of depth a row are more than 4 s_max; but at 74 degrees the laser may still see it.
-TEST(Surface, AGrazingSlopeIsNoDiscontinuity) {
-  const auto cone = [](double, double z) { return 40 - 3.4 * z; };
-  const auto profiles = scan_of(cone, {.profiles = 360, .rows = 20, .top = 9.5});
+// 1.7 mm of depth from one row to the next are more than 4 s_max; but at 74 degrees the laser may
+// still see it.
+TEST(Surface, AGrazingStepIsNoDiscontinuity) {
+  const auto step = [](double, double z) { return z > 4.75 ? 20 : 21.7; };
+  const auto profiles = scan_of(step, {.profiles = 360, .rows = 20, .top = 9.5});
   const SurfaceOptions steep = {.largest_spacing = .42};
   const SurfaceOptions flat = {.largest_spacing = .42, .largest_angle = 60};
   EXPECT_EQ(mesh_of(profiles, steep).faces.size(), 2 * 360 * 19);
-  EXPECT_FALSE(surface_of(profiles, flat).has_value());
+  EXPECT_EQ(mesh_of(profiles, flat).faces.size(), 2 * 360 * 18);
+}
+
+// 1.8 mm a row at 82 degrees, but all along.
+TEST(Surface, ASlopeThatIsGrazedAllAlongIsWhole) {
+  const auto cone = [](double, double z) { return 45 - 7.2 * z; };
+  const auto profiles = scan_of(cone, {.profiles = 360, .rows = 20, .top = 4.75});
+  EXPECT_EQ(mesh_of(profiles, {.largest_spacing = .42}).faces.size(), 2 * 360 * 19);
 }
 
 TEST(Surface, SpecksAndOutliersVanish) {

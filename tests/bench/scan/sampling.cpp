@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "accuracy.h"
+#include "acquisition/rig/placed_mesh.h"
+#include "acquisition/surface/surface_of.h"
+#include "cast_profiles.h"
+#include "codec/export/write_mesh.h"
+#include "picture.h"
+#include "sections.h"
+#include "value_of.h"
+
+namespace vitrine::bench {
+namespace {
+
+constexpr int kLengths[] = {5, 10, 15, 20};
+constexpr double kRow = 0.1;     // mm, from point to point of a profile at the rig
+constexpr double kNoise = 0.03;  // mm, of a stripe point at the rig
+
+// The paper's Table 1 as far as its ratios are known, of vertices after over before, at L = 5.
+constexpr double kPaperSkull = 0.2046, kPaperHead = 0.2012;
+
+struct Sampled {
+  TriangleMesh mesh;
+  std::uint64_t points = 0;
+};
+
+class Sampler {
+ public:
+  Sampler(std::vector<Profile> profiles, double noise)
+      : profiles_(std::move(profiles)), noise_(noise) {}
+
+  Sampled by(SamplingMethod method, int length) const {
+    SurfaceOptions options;
+    options.noise = noise_;
+    options.sampling = {method, length};  // as a scan does: what is sampled is smooth
+    auto surface = value_of(surface_of(profiles_, options));
+    return {std::move(surface.mesh), surface.report.sampled};
+  }
+
+ private:
+  std::vector<Profile> profiles_;
+  double noise_;
+};
+
+double kilobytes(const TriangleMesh& mesh) {
+  return static_cast<double>(value_of(write_mesh(mesh, MeshFormat::kVrml, "mm")).size()) / 1024;
+}
+
+void table_row(Report& report, const std::string& what, const Sampled& all, const Sampled& few) {
+  const auto add = [&](const char* key, double after, double before) {
+    report.add({what, key, after, before, after / before, kNoThreshold});
+  };
+  add("vertices_ratio_to_all", static_cast<double>(few.mesh.positions.size()),
+      static_cast<double>(all.mesh.positions.size()));
+  add("polygons_ratio_to_all", static_cast<double>(few.mesh.faces.size()),
+      static_cast<double>(all.mesh.faces.size()));
+  add("vrml_kb_ratio_to_all", kilobytes(few.mesh), kilobytes(all.mesh));
+}
+
+// Both ways: what the mesh shows of the object, and what of all that was measured it still shows.
+double error_of(const TriangleMesh& mesh, const TriangleMesh& object, const TriangleMesh& all) {
+  return std::max(distances(mesh, object).rms, distances(all, mesh).rms);
+}
+
+// `noisy` against `clean` profiles of one object.
+void judge_errors(Report& report, const std::string& what, const Sampler& sampler,
+                  const TriangleMesh& object, const TriangleMesh& all, bool noisy) {
+  for (const int length : kLengths) {
+    const Sampled paper = sampler.by(SamplingMethod::kPaper, length);
+    const Sampled adaptive = sampler.by(SamplingMethod::kAdaptive, length);
+    const std::string row = fmt::format("{}.{}.L{}", what, noisy ? "noise" : "clean", length);
+    const auto ratio = [&](const char* key, double ours, double peer, double limit) {
+      report.add({row, key, ours, peer, ours / peer, limit});
+    };
+    constexpr double kEqual = 1.01, kHalf = 0.5, kNoWorse = 1, kLong = 15;
+    ratio("vertices_ratio_to_paper", static_cast<double>(adaptive.mesh.positions.size()),
+          static_cast<double>(paper.mesh.positions.size()), kEqual);
+    ratio("rms_ratio_to_paper", error_of(adaptive.mesh, object, all),
+          error_of(paper.mesh, object, all),
+          noisy             ? kNoWorse
+          : length >= kLong ? kHalf
+                            : kNoThreshold);
+  }
+}
+
+void table_one(Report& report, const Options& options, const Sampler& sampler,
+               const std::string& object, double paper_at_5) {
+  const Sampled all = sampler.by(SamplingMethod::kEquidistant, 1);
+  constexpr std::pair<SamplingMethod, const char*> kMethods[] = {
+      {SamplingMethod::kEquidistant, "equidistant"},
+      {SamplingMethod::kPaper, "paper"},
+      {SamplingMethod::kAdaptive, "adaptive"}};
+  show(options, fmt::format("figure-6-{}-all", object), all.mesh);
+  for (const auto& [method, name] : kMethods) {
+    for (const int length : kLengths) {
+      const Sampled few = sampler.by(method, length);
+      const std::string what = fmt::format("table_1.{}.{}.L{}", object, name, length);
+      table_row(report, what, all, few);
+      show(options, fmt::format("figure-9-{}-{}-L{}", object, name, length), few.mesh);
+      if (method != SamplingMethod::kPaper || length != 5) continue;
+      const double ratio = static_cast<double>(few.points) / static_cast<double>(all.points);
+      report.add({what, "points_ratio_to_the_papers", ratio, paper_at_5, ratio / paper_at_5,
+                  kNoThreshold});
+    }
+  }
+}
+
+}  // namespace
+
+void sampling(Report& report, const Options& options, const Object& object) {
+  const TriangleMesh mesh = value_of(rig::load({.file = object.file}));
+  const int steps = options.quick ? 90 : 720;
+  std::vector<Profile> profiles = cast_profiles(mesh, steps, kRow);
+  const Sampler clean(profiles, 0);
+  add_noise(profiles, kNoise);
+  const Sampler noisy(std::move(profiles), kNoise);
+  table_one(report, options, noisy, object.name, object.name == "skull" ? kPaperSkull : kPaperHead);
+  const TriangleMesh all = clean.by(SamplingMethod::kEquidistant, 1).mesh;
+  const std::string what = "sampling." + object.name;
+  judge_errors(report, what, clean, mesh, all, false);
+  judge_errors(report, what, noisy, mesh, all, true);
+}
+
+}  // namespace vitrine::bench

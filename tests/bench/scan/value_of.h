@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+
+#include "codec/core/expected.h"
+
+namespace vitrine::bench {
+
+// Faults throw: a benchmark of something broken has no figures.
+template <class T>
+T value_of(Expected<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+}  // namespace vitrine::bench
