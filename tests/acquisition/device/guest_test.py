@@ -134,7 +134,7 @@ class Guest(unittest.TestCase):
 
     def test_killed_process_leaves_the_board_dark(self):
         self.assertInOrder(self.console, f"{ACM}: closed", "ttyGS0: laser on", "ttyGS0: laser off",
-                           f"{ACM}: opened Horus", f"{ACM}: stands at 45.000")
+                           f"{ACM}: its guardian has ended", f"{ACM}: opened Horus", f"{ACM}: stands at 45.000")
 
     def test_board_unplugged_is_gone(self):
         self.assertInOrder(self.console, f"{FTDI}: waits to be unplugged",
