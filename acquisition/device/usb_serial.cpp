@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "acquisition/device/usb_device.h"
+#include "acquisition/device/usb_transfer.h"
 
 namespace vitrine {
 namespace {
 
-constexpr unsigned kTransferTimeout = 1000;  // ms
 constexpr std::size_t kMostUnread = 1 << 20;
 constexpr std::chrono::seconds kClaimPatience{3};
 
@@ -112,11 +112,8 @@ Expected<void> UsbSerial::claim() {
 }
 
 Expected<void> UsbSerial::send(const ControlRequest& request) {
-  std::vector<std::uint8_t> data = request.data;
-  const int code = libusb_control_transfer(
-      handle_.get(), request.type, request.request, request.value, request.index, data.data(),
-      static_cast<std::uint16_t>(data.size()), kTransferTimeout);
-  if (code < 0) return Unexpected(usb_error(name_, "refuses to be set up", code));
+  const int code = send_control(handle_.get(), request);
+  if (code != LIBUSB_SUCCESS) return Unexpected(usb_error(name_, "refuses to be set up", code));
   return {};
 }
 
@@ -185,10 +182,7 @@ void UsbSerial::handle_events() {
 }
 
 Expected<void> UsbSerial::write(std::string_view bytes) {
-  std::vector<unsigned char> data(bytes.begin(), bytes.end());
-  int sent = 0;
-  const int code = libusb_bulk_transfer(handle_.get(), line_.out, data.data(),
-                                        static_cast<int>(data.size()), &sent, kTransferTimeout);
+  const int code = send_bulk(handle_.get(), line_.out, bytes);
   if (code != LIBUSB_SUCCESS) return Unexpected(usb_error(name_, "takes no bytes", code));
   return {};
 }

@@ -47,7 +47,7 @@ class EveryBoard : public testing::TestWithParam<Kind> {
   }
   void wait_until_it_turns() const {
     for (const double at = rig_.table(); rig_.table() == at;)
-      std::this_thread::yield();
+      std::this_thread::sleep_for(milliseconds(1));
   }
   UsbRig rig_;
 };
@@ -114,7 +114,7 @@ TEST_P(EveryBoard, IsGoneWhenUnpluggedAmidAMotionAndServesAnewWhenItIsBack) {
     Expected<void> turned;
     std::thread turning([&] { turned = (*board)->turn_to(3600); });
     while (rig_.table() == 0)
-      std::this_thread::yield();
+      std::this_thread::sleep_for(milliseconds(1));
     EXPECT_EQ(rig_.ask("unplug"), "ok");
     turning.join();
     ASSERT_FALSE(turned);
@@ -144,11 +144,11 @@ TEST_P(EveryBoard, IsHaltedInTheMiddleOfAMotionByAnEmergencyStop) {
   Expected<void> turned;
   std::thread turning([&] { turned = (*board)->turn_to(3600); });
   while (rig_.table() == 0)
-    std::this_thread::yield();
+    std::this_thread::sleep_for(milliseconds(1));
   const auto begin = std::chrono::steady_clock::now();
   (*board)->emergency_stop();
   while (rig_.ask("laser") == "on" || rig_.ask("motor") == "on")
-    std::this_thread::yield();
+    std::this_thread::sleep_for(milliseconds(1));
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   std::printf("laser and motor off %.1f ms after the emergency stop\n", taken.count());
   turning.join();
@@ -204,9 +204,9 @@ TEST_P(EveryBoard, IsSwitchedOffByTheWatchdogUnlessItRests) {
   EXPECT_EQ(rig_.ask("laser"), "off");
   ASSERT_TRUE((*board)->laser(true));
   while (rig_.ask("laser") == "on")
-    std::this_thread::yield();
+    std::this_thread::sleep_for(milliseconds(1));
   while (rig_.ask("motor") == "on")
-    std::this_thread::yield();
+    std::this_thread::sleep_for(milliseconds(1));
   const auto late = (*board)->laser(true);
   ASSERT_FALSE(late);
   EXPECT_NE(late.error().message.find("no call came for 300 ms"), std::string::npos);
@@ -223,12 +223,12 @@ TEST_P(EveryBoard, IsSwitchedOffWhenItsProcessIsKilled) {
     ::_exit(1);
   }
   while (rig_.ask("laser") == "off" && ::waitpid(child, nullptr, WNOHANG) == 0)
-    std::this_thread::yield();
+    std::this_thread::sleep_for(milliseconds(1));
   ASSERT_EQ(rig_.ask("laser"), "on");
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
   while (rig_.ask("laser") == "on" || rig_.ask("motor") == "on")
-    std::this_thread::yield();
+    std::this_thread::sleep_for(milliseconds(1));
 
   auto board = open();
   ASSERT_TRUE(board) << board.error().message;

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <memory>
+#include <vector>
 
 #include "acquisition/rig/private_network.h"
 
@@ -35,6 +36,12 @@ class SimulatedCamera {
   ~SimulatedCamera() { g_object_unref(camera_); }
 
   bool runs() const { return arv_gv_fake_camera_is_running(camera_) != FALSE; }
+  std::uint8_t frames() const { return count_; }
+  // The same packets in each run; none is sent again.
+  void lose_packets(double part) {
+    g_random_set_seed(1);
+    g_object_set(camera_, "gvsp-lost-ratio", part, nullptr);
+  }
 
  private:
   std::atomic<std::uint8_t> count_{0};
@@ -65,6 +72,34 @@ TEST_F(CameraTest, GivesOneFrameATrigger) {
     EXPECT_GT(frame->pixels.front(), last) << "a new one each time";
     last = frame->pixels.front();
   }
+}
+
+TEST_F(CameraTest, IsAskedAnewForFramesThatLostPackets) {
+  SimulatedCamera simulated(kAddress);
+  auto camera = open_camera({.address = kAddress});
+  ASSERT_TRUE(camera) << camera.error().message;
+  ASSERT_TRUE((*camera)->configure({.exposure_us = 1000, .region = {0, 0, 320, 200}}));
+  simulated.lose_packets(0.005);  // of ten packets each: one frame in twenty
+  for (int asked_anew = 0; asked_anew < 4;) {
+    const int before = simulated.frames();
+    ASSERT_LT(before, 250) << "no packets are lost";
+    const auto frame = (*camera)->capture();
+    ASSERT_TRUE(frame) << frame.error().message;
+    asked_anew += simulated.frames() - before - 1;
+    const std::vector<std::uint8_t> latest(320u * 200u, simulated.frames());
+    ASSERT_TRUE(frame->pixels == latest) << "frame " << int{simulated.frames()} << " is not whole";
+  }
+}
+
+TEST_F(CameraTest, WhoseFramesAllLosePacketsIsAnError) {
+  SimulatedCamera simulated(kAddress);
+  auto camera = open_camera({.address = kAddress});
+  ASSERT_TRUE(camera) << camera.error().message;
+  simulated.lose_packets(0.9);
+  const auto frame = (*camera)->capture();
+  ASSERT_FALSE(frame);
+  EXPECT_NE(frame.error().message.find("3 of 3 triggers gave"), std::string::npos)
+      << frame.error().message;
 }
 
 TEST_F(CameraTest, IsFoundBySerialNumber) {

@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Boards driven by the kernel's own USB stack, not by a stand-in for it: guest_test.py KERNEL BIN TESTS
+
+KERNEL is what deploy/setup unpacks, BIN and TESTS hold the programs. The guest is emulated, so no
+right is needed. In it drive_board drives QEMU's usb-serial, a real FTDI chip to the kernel, whose
+line ends here in serve_firmware, and g_serial, a real CDC-ACM device, whose line ends in the guest.
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+SKIPPED = 77
+MODULES = ("usb-common usbcore xhci-hcd xhci-pci usbserial ftdi_sio cdc-acm configfs udc-core libcomposite "
+           "dummy_hcd u_serial usb_f_acm g_serial").split()
+KERNEL, BIN, TESTS = (Path(word) for word in sys.argv[1:4])
+PROGRAMS = [TESTS / "drive_board", TESTS / "serve_firmware", BIN / "vitrine-guardian"]
+FTDI, ACM = "0403:6001", "0525:a4a7"
+PATIENCE = 240  # seconds, of a busy machine
+
+
+def missing():
+    """Why this cannot run here; nothing if it can."""
+    for tool in ("qemu-system-x86_64", "busybox", "cpio"):
+        if not shutil.which(tool):
+            return f"there is no {tool}"
+    return "" if list(KERNEL.glob("boot/vmlinuz-*")) else f"there is no kernel in {KERNEL}"
+
+
+def put(root, source, target):
+    """A copy of the file under the guest's root."""
+    (root / target).parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(source, root / target)
+
+
+def libraries(program):
+    """All that the loader maps, itself too."""
+    said = subprocess.run(["ldd", program], text=True, capture_output=True, check=True).stdout
+    return re.findall(r"(/\S+) \(0x", said)
+
+
+def initramfs(folder):
+    """An archive of all that is in the guest."""
+    root = folder / "root"
+    put(root, shutil.which("busybox"), "bin/busybox")
+    put(root, Path(__file__).with_name("guest_init"), "init")
+    (root / "init").chmod(0o755)
+    for program in PROGRAMS:
+        put(root, program, f"bin/{program.name}")
+        for library in libraries(program):
+            put(root, library, library[1:])
+    for module in MODULES:
+        put(root, next(KERNEL.glob(f"lib/modules/**/{module}.ko")), f"{module}.ko")
+    (root / "modules").write_text("".join(f"/{module}.ko\n" for module in MODULES))
+    names = "\n".join(str(path.relative_to(root)) for path in root.rglob("*"))
+    with open(folder / "initramfs", "wb") as archive:
+        subprocess.run(["cpio", "--quiet", "-o", "-H", "newc"], cwd=root, input=names.encode(), stdout=archive,
+                       check=True)
+    return folder / "initramfs"
+
+
+def boot(folder, line):
+    """The guest; its console is its standard output."""
+    return subprocess.Popen(
+        ["qemu-system-x86_64", "-M", "q35", "-accel", "tcg", "-m", "256", "-nodefaults", "-no-reboot",
+         "-display", "none", "-serial", "stdio", "-kernel", next(KERNEL.glob("boot/vmlinuz-*")),
+         "-initrd", initramfs(folder), "-append", "console=ttyS0 quiet panic=-1", "-device", "qemu-xhci",
+         "-chardev", f"socket,id=line,path={line},server=on,wait=on", "-device", "usb-serial,chardev=line"],
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
+
+
+def serve(line):
+    """The firmware at the host's end of the line, once there is one."""
+    while not line.exists():
+        time.sleep(0.01)
+    return subprocess.Popen([TESTS / "serve_firmware", line], stdout=subprocess.PIPE, text=True)
+
+
+def run():
+    """What the guest printed, and what the firmware at the host's end did."""
+    with tempfile.TemporaryDirectory() as name:
+        line = Path(name) / "line"
+        guest = boot(Path(name), line)
+        timer = threading.Timer(PATIENCE, guest.kill)
+        timer.start()
+        firmware = serve(line)
+        console = ""
+        for said in guest.stdout:
+            console += said
+            if "waits to be unplugged" in said:
+                firmware.kill()
+        guest.wait()
+        timer.cancel()
+        return console, firmware.communicate()[0]
+
+
+class Guest(unittest.TestCase):
+    """One boot, of which each test looks at a part."""
+    @classmethod
+    def setUpClass(cls):
+        cls.console, cls.ftdi_board = run()
+        print(cls.console)
+
+    def assertInOrder(self, text, *lines):
+        """Each of them follows the one before."""
+        at = 0
+        for line in lines:
+            found = text.find(line, at)
+            self.assertGreaterEqual(found, 0, f"no '{line}' after:\n{text[:at]}\n--- in:\n{text}")
+            at = found + len(line)
+
+    def drives(self, board):
+        says = [f"{board}: {what}" for what in (
+            "opened Horus 0.2", "stands anywhere", "set:0", "turn:45", "laser:on", "laser:off", "stands at 45.000",
+            "closed", "opened Horus", "laser:on",  # and killed
+            "opened Horus", "stands at 45.000", "turn:90", "closed")]
+        self.assertInOrder(self.console, *says)
+
+    def test_ftdi_board_is_driven(self):
+        self.drives(FTDI)
+        self.assertInOrder(self.ftdi_board, "table at 45.000", "laser on", "laser off", "laser on", "laser off",
+                           "table at 90.000", "laser on")
+
+    def test_cdc_acm_board_is_driven(self):
+        self.drives(ACM)
+        self.assertInOrder(self.console, "ttyGS0: motor on", "ttyGS0: table at 45.000", "ttyGS0: laser on",
+                           "ttyGS0: laser off", "ttyGS0: motor off", f"{ACM}: closed", "ttyGS0: table at 90.000")
+
+    def test_killed_process_leaves_the_board_dark(self):
+        self.assertInOrder(self.console, f"{ACM}: closed", "ttyGS0: laser on", "ttyGS0: laser off",
+                           f"{ACM}: its guardian has ended", f"{ACM}: opened Horus", f"{ACM}: stands at 45.000")
+
+    def test_board_unplugged_is_gone(self):
+        self.assertInOrder(self.console, f"{FTDI}: waits to be unplugged",
+                           f"{FTDI}: ended: USB board {FTDI} is gone; check its cable and power", f"{FTDI}: closed")
+
+
+if __name__ == "__main__":
+    if reason := missing():
+        print(f"skipped: {reason}; run deploy/setup test")
+        sys.exit(SKIPPED)
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// deploy/60-vitrine.rules lets its users have the very devices that the code speaks to.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "acquisition/device/serial_chip.h"
+#include "acquisition/rig/usb_wire.h"
+
+namespace vitrine {
+namespace {
+
+using rig::UsbTransport;
+
+struct Rule {
+  std::string text;
+  std::vector<int> vendor, products;  // none: any
+
+  bool allows(int of, int product) const {
+    const auto names = [](const std::vector<int>& ids, int id) {
+      return std::find(ids.begin(), ids.end(), id) != ids.end();
+    };
+    return names(vendor, of) && (products.empty() || names(products, product));
+  }
+};
+
+// Of a match like ATTR{key}=="6001|6015".
+std::vector<int> ids_in(const std::string& line, const std::string& key) {
+  std::vector<int> ids;
+  const std::string begin = "ATTR{" + key + "}==\"";
+  const auto at = line.find(begin);
+  if (at == std::string::npos) return ids;
+  std::istringstream values(
+      line.substr(at + begin.size(), line.find('"', at + begin.size()) - at - begin.size()));
+  for (std::string id; std::getline(values, id, '|');)
+    ids.push_back(std::stoi(id, nullptr, 16));
+  return ids;
+}
+
+std::vector<Rule> rules() {
+  std::ifstream file(VITRINE_SOURCE_DIR "/deploy/60-vitrine.rules");
+  std::vector<Rule> all;
+  for (std::string line; std::getline(file, line);)
+    if (!line.empty() && line.front() != '#')
+      all.push_back({line, ids_in(line, "idVendor"), ids_in(line, "idProduct")});
+  return all;
+}
+
+bool allowed(const std::vector<Rule>& all, int vendor, int product) {
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Rule& rule) { return rule.allows(vendor, product); });
+}
+
+TEST(UdevRules, LetTheirUsersHaveEachSimulatedBoard) {
+  for (const auto transport : {UsbTransport::kCdcAcm, UsbTransport::kFtdi, UsbTransport::kCh34x}) {
+    const auto [vendor, product] = rig::ids_of(transport);
+    EXPECT_TRUE(allowed(rules(), vendor, product)) << fmt::format("{:04x}:{:04x}", vendor, product);
+  }
+}
+
+TEST(UdevRules, NameEachCh34xThatTheCodeKnowsAndNoOther) {
+  constexpr std::uint16_t kVendor = 0x1a86;
+  const std::vector<Rule> all = rules();
+  for (int product = 0; product <= 0xffff; ++product)
+    EXPECT_EQ(allowed(all, kVendor, product),
+              chip_by_id(kVendor, static_cast<std::uint16_t>(product)).has_value())
+        << fmt::format("{:04x}:{:04x}", kVendor, product);
+}
+
+TEST(UdevRules, LetCamerasBeUsedByTheirClass) {
+  const std::vector<Rule> all = rules();
+  EXPECT_EQ(std::count_if(all.begin(), all.end(),
+                          [](const Rule& rule) {
+                            return rule.text.find(R"(ENV{ID_USB_INTERFACES}=="*:ef0500:*")") !=
+                                   std::string::npos;
+                          }),
+            1);
+}
+
+TEST(UdevRules, GiveTheSameRightsToAll) {
+  for (const Rule& rule : rules()) {
+    EXPECT_TRUE(rule.text.starts_with(R"(SUBSYSTEM=="usb", ENV{DEVTYPE}=="usb_device", )"))
+        << rule.text;
+    EXPECT_TRUE(rule.text.ends_with(R"(, MODE="0660", GROUP="plugdev", TAG+="uaccess")"))
+        << rule.text;
+  }
+}
+
+}  // namespace
+}  // namespace vitrine
