@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handlers, one file per noun. Each answers GET; HEAD, conditions and ranges are derived.
+// The handlers, one file per noun. HEAD, conditions and ranges are derived
+// from the answers to GET; a POST finds its JSON in Request::body.
 #pragma once
 
 #include "server/http/router.h"
