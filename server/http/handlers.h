@@ -28,6 +28,7 @@ Response open_stream(const Request& request, Services& services);  // 101: go on
 // pages.cpp
 Response show_gallery(const Request& request, Services& services);
 Response show_viewer(const Request& request, Services& services);
+Response show_scan_page(const Request& request, Services& services);
 Response show_asset(const Request& request, Services& services);
 
 // health.cpp

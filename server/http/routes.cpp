@@ -20,6 +20,7 @@ constexpr Route kPublic[] = {
     {kGet, "/api/v1/models/{id}/export.{format}", export_model, kExport},
     {kGet, "/", show_gallery, kInline},
     {kGet, "/models/{id}", show_viewer, kWorker},
+    {kGet, "/scans/{id}", show_scan_page, kInline},
     {kGet, "/{rest}", show_asset, kInline},
 };
 
