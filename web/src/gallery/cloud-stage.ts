@@ -60,7 +60,7 @@ export class CloudStage {
   restyle(): void {
     const style = getComputedStyle(this.canvas);
     const colour = (name: string) => style.getPropertyValue(`--${name}`).trim();
-    this.#cloud.paint({ ink: colour("ink"), paper: colour("wall"), accent: colour("accent") });
+    this.#cloud.paint({ ink: colour("ink"), accent: colour("accent") });
     this.draw();
   }
 

@@ -8,28 +8,27 @@ const kShare = 0.25;
 const kFaintest = 0.15;
 
 const kVertex = `
-  uniform float size, near, far;
+  uniform float size, cover, near, far;
   uniform int settled;
-  uniform vec3 ink, paper, accent;
-  out vec3 tint;
+  uniform vec3 ink, accent;
+  out vec4 tint;
   void main() {
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * seen;
     gl_PointSize = size;
     float depth = clamp((-seen.z - near) / (far - near), 0.0, 1.0);
-    tint = gl_VertexID < settled ? mix(ink, paper, depth) : accent;
+    tint = gl_VertexID < settled ? vec4(ink, cover * mix(1.0, 0.1, depth)) : vec4(accent, cover);
   }`;
 const kFragment = `
-  uniform float cover;
-  in vec3 tint;
+  in vec4 tint;
   out vec4 colour;
   void main() {
     if (length(gl_PointCoord - 0.5) > 0.5) discard;
-    colour = vec4(tint, cover);
+    colour = tint;
   }`;
 
 /**
- * Far points fade into the paper, those that came last stand out. The more points there are on the
+ * Far points are faint, those that came last stand out. The more points there are on the
  * screen, the more each lets through: folds and rims, where many lie behind each other, stay visible.
  */
 export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
@@ -43,7 +42,7 @@ export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
       transparent: true, depthTest: false,
       uniforms: {
         size: uniform(1), cover: uniform(1), near: uniform(0), far: uniform(1), settled: uniform(0),
-        ink: uniform(new Color()), paper: uniform(new Color()), accent: uniform(new Color()),
+        ink: uniform(new Color()), accent: uniform(new Color()),
       },
     }));
     this.frustumCulled = false; // its bounds grow
@@ -77,14 +76,14 @@ export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
     this.#set("cover", Math.min(1, Math.max(kFaintest, (kShare * pixels) / (this.#count * size * size))));
   }
 
-  /** Distances from the camera at which points have the ink's and the paper's colour. */
+  /** Distances from the camera between which points grow faint. */
   fade(near: number, far: number): void {
     this.#set("near", near);
     this.#set("far", far);
   }
 
   /** CSS colours. */
-  paint(colours: Record<"ink" | "paper" | "accent", string>): void {
+  paint(colours: Record<"ink" | "accent", string>): void {
     // They go to the screen as they are.
     for (const [name, css] of Object.entries(colours)) this.#set(name, new Color().setStyle(css, LinearSRGBColorSpace));
   }
