@@ -17,7 +17,7 @@ struct Axis {
 
 // About the axis: z along it, upwards, from where it meets y = 0; rho perpendicular to it within
 // the laser plane, signed (the paper's reading: negative means theta + 180 degrees); lateral to
-// both.
+// both, so that (rho, lateral, z) is right-handed.
 struct TablePoint {
   double rho = 0, lateral = 0, z = 0;  // mm
 };

@@ -24,9 +24,11 @@ struct Correspondence {
 
 class PlaneMap {
  public:
-  // Least squares over all points, coordinates normalised to [-1, 1]; `degree` 2 to 5. Fails
-  // (kBadInput) with too few points or where they cover too little of the image to determine the
-  // polynomial.
+  static constexpr int kLeastDegree = 2, kMostDegree = 5;
+
+  // Least squares over all points, coordinates normalised to [-1, 1] over their box; `degree` 2 to
+  // 5. Fails (kBadInput) with points outside the image, with too few, or where they cover too
+  // little of it to determine the polynomial.
   static Expected<PlaneMap> fit(std::span<const Correspondence> points, int degree, int width,
                                 int height);
 
@@ -34,13 +36,31 @@ class PlaneMap {
   std::optional<PlanePoint> at(double u, double v) const;
 
   int degree() const { return degree_; }
+  // Of the fit's normalised equations: the largest singular value over the least.
+  double condition() const { return condition_; }
+  // u, v of its corners, counter-clockwise in (u, v).
+  std::span<const double> hull() const { return hull_; }
 
  private:
   friend struct PlaneMapJson;  // keeps it in a file
 
-  int degree_ = 3, width_ = 0, height_ = 0;
-  std::vector<double> x_, y_;  // coefficients, (degree + 1)(degree + 2) / 2 each
-  std::vector<double> hull_;   // u, v of its corners, counter-clockwise in (u, v)
+  struct Terms {
+    double x, y;
+  };
+  struct Interval {  // [centre - half, centre + half] is [-1, 1]
+    double centre = 0, half = 1;
+    double normalised(double value) const { return (value - centre) / half; }
+  };
+
+  bool is_inside(double u, double v) const;
+  PlanePoint evaluate(double u, double v) const;
+
+  int degree_ = 3;
+  double condition_ = 0;
+  Interval u_, v_;
+  // (degree + 1)(degree + 2) / 2 coefficients: descending powers of v, and in each those of u.
+  std::vector<Terms> terms_;
+  std::vector<double> hull_;
 };
 
 }  // namespace vitrine

@@ -2,6 +2,7 @@
 // A monochrome camera that takes one picture at a time on request.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "acquisition/frame/frame.h"
@@ -39,5 +40,15 @@ class Camera {
   // three times in all.
   virtual Expected<Frame> capture() = 0;
 };
+
+// Which camera: by IP address (GigE Vision; asks nobody else on the network) or by serial number
+// (GigE Vision on any interface, USB3 Vision). Exactly one is given.
+struct CameraSelector {
+  std::string address;
+  std::string serial;
+};
+
+// Fails with kIo where it is absent, not accessible or held by another program.
+Expected<std::unique_ptr<Camera>> open_camera(const CameraSelector& selector);
 
 }  // namespace vitrine

@@ -14,6 +14,7 @@ enum PointFlag : std::uint8_t {
   kSaturated = 1,  // the stripe's peak is at the end of the camera's range
   kDouble = 2,     // another peak in the row is about as strong
   kFilled = 4,     // no measurement: between two ends of a gap
+  kApart = 8,      // the surface does not continue from the point before it in the profile
 };
 
 struct ProfilePoint {
@@ -23,12 +24,12 @@ struct ProfilePoint {
 };
 
 struct Profile {
-  double theta = 0;  // degrees, of the table, in [0, 360)
+  double theta = 0;  // degrees by which the table has turned the object, counter-clockwise seen
+                     // from above, in [0, 360)
   std::vector<ProfilePoint> points;
 };
 
-// In the frame of the object: z along the axis, mm. The table turned the object by theta, so that a
-// point is turned back by it.
+// In the frame of the object: z along the axis, mm; (rho, lateral, z) turned back by theta about z.
 Vec3 position(const Profile& profile, const ProfilePoint& point);
 
 }  // namespace vitrine

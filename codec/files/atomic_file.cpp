@@ -61,6 +61,11 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
   return ::fsync(fd) == 0 ? 0 : errno;
 }
 
+int write_new(const fs::path& path, mode_t mode, std::span<const std::uint8_t> bytes) {
+  const FileDescriptor fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+  return fd ? write_all(fd.get(), bytes) : errno;
+}
+
 }  // namespace
 
 fs::path folder_of(const fs::path& path) {
@@ -87,15 +92,27 @@ Expected<void> check_writable(const fs::path& path) {
 Expected<void> write_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes) {
   if (auto writable = check_writable(path); !writable) return writable;
   const fs::path temporary = temporary_name(path);
-  const FileDescriptor fd(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (!fd) return refused("write", path, errno);
-  int error = write_all(fd.get(), bytes);
+  int error = write_new(temporary, 0666, bytes);
   if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
     return refused("write", path, error);
   }
   return sync_folder(folder_of(path));
+}
+
+Expected<bool> create_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  const fs::path temporary = temporary_name(path);
+  int error = write_new(temporary, 0444, bytes);
+  // Unlike a rename, a link never replaces what has the name.
+  if (error == 0 && ::link(temporary.c_str(), path.c_str()) != 0) error = errno;
+  ::unlink(temporary.c_str());
+  if (error == EEXIST) return false;
+  if (error != 0) return refused("write", path, error);
+  if (auto synced = sync_folder(folder_of(path)); !synced) {
+    return tl::make_unexpected(synced.error());
+  }
+  return true;
 }
 
 }  // namespace vitrine

@@ -19,6 +19,11 @@ Expected<void> check_writable(const std::filesystem::path& path);
 Expected<void> write_file_atomically(const std::filesystem::path& path,
                                      std::span<const std::uint8_t> bytes);
 
+// Creates `path`, read-only, unless it exists: false then, and the file is as it was. Of several
+// that create it at a time one succeeds.
+Expected<bool> create_file_atomically(const std::filesystem::path& path,
+                                      std::span<const std::uint8_t> bytes);
+
 // What to do where a file or folder cannot be written for that error number.
 const char* next_step(int error);
 

@@ -20,6 +20,7 @@
 #include "server/http/http_server.h"
 #include "server/http/routes.h"
 #include "server/http/services.h"
+#include "server/jobs/open_scanners.h"
 #include "server/store/installation.h"
 #include "server/stream/websocket.h"
 
@@ -43,11 +44,15 @@ Expected<void> check_addresses(const Settings& settings) {
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
  public:
-  Daemon(const Settings& settings, Installation installation, Log access_log)
+  Daemon(const Settings& settings, Installation installation, Log access_log,
+         std::vector<std::unique_ptr<ScannerBackend>> scanners)
       : settings_(settings),
         installation_(std::move(installation)),
         access_log_(std::move(access_log)),
         models_(*installation_.store, *installation_.catalogue),
+        scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
+                settings.data},
+               std::move(scanners)),
         exports_(settings.export_cache_bytes),
         pages_(web_assets()),
         metrics_(Router(public_routes()).templates()),
@@ -55,6 +60,7 @@ class Daemon {
         services_{*installation_.catalogue,
                   tokens_,
                   models_,
+                  scans_,
                   exports_,
                   pages_,
                   metrics_,
@@ -72,7 +78,10 @@ class Daemon {
 
   Expected<void> open() {
     if (auto bound = bind(public_, settings_.listen, settings_.port_file, ""); !bound) return bound;
-    return bind(admin_, settings_.admin_listen, settings_.admin_port_file, "admin ");
+    if (auto bound = bind(admin_, settings_.admin_listen, settings_.admin_port_file, "admin ");
+        !bound)
+      return bound;
+    return scans_.start();
   }
 
   void run() {
@@ -91,6 +100,7 @@ class Daemon {
     io_.run();
     for (std::thread& thread : threads)
       thread.join();
+    scans_.stop();
     workers_.stop();
     workers_.join();
     events_.event(Severity::kInfo, "stopped");
@@ -159,6 +169,8 @@ class Daemon {
     deadline_.async_wait([this](const boost::system::error_code& error) {
       if (!error) io_.stop();
     });
+    // Meanwhile, so that laser and motor are off soon: what scans goes on at the next start.
+    asio::post(workers_.executor(Place::kDevice, ""), [this] { scans_.stop(); });
     public_.drain([this] { io_.stop(); });
   }
 
@@ -167,6 +179,7 @@ class Daemon {
   const Log access_log_;
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
+  ScanService scans_;
   ExportCache exports_;
   const WebPages pages_;
   Metrics metrics_;
@@ -211,7 +224,9 @@ int serve(const Settings& settings) {
   if (!installation) return report({ErrorCode::kIo, installation.error().message});
   auto access_log = Log::open(settings.access_log);
   if (!access_log) return report(access_log.error());
-  Daemon daemon(settings, std::move(*installation), std::move(*access_log));
+  auto scanners = open_scanners(settings.scanners);
+  if (!scanners) return report(scanners.error());
+  Daemon daemon(settings, std::move(*installation), std::move(*access_log), std::move(*scanners));
   if (const auto opened = daemon.open(); !opened) return report(opened.error());
   daemon.run();
   return kExitDone;

@@ -47,7 +47,7 @@ struct JobRecord {
   bool operator==(const JobRecord&) const = default;
 };
 
-struct ScanRecord {
+struct ScanEntry {
   ScanId id;
   JobId job;  // the newest that works on it
   std::string scanner;
@@ -60,7 +60,7 @@ struct ScanRecord {
   std::optional<ModelId> model;
   std::int64_t created = 0;
 
-  bool operator==(const ScanRecord&) const = default;
+  bool operator==(const ScanEntry&) const = default;
 };
 
 // A request that is to have its effect once, however often it is sent.
@@ -83,17 +83,17 @@ class JobCatalogue {
 
   // Adds a job, and its scan where one is given or writes over the scan of that id, in one
   // transaction. kState where the job's id or the key exists.
-  virtual Expected<void> add(const JobRecord& job, const std::optional<ScanRecord>& scan,
+  virtual Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                              const std::optional<OnceKey>& once) = 0;
 
   // Write over the record of that id. kState where there is none.
   virtual Expected<void> update(const JobRecord& job) = 0;
-  virtual Expected<void> update(const ScanRecord& scan) = 0;
+  virtual Expected<void> update(const ScanEntry& scan) = 0;
 
   virtual Expected<std::optional<JobRecord>> find_job(const JobId& id) = 0;
-  virtual Expected<std::optional<ScanRecord>> find_scan(const ScanId& id) = 0;
+  virtual Expected<std::optional<ScanEntry>> find_scan(const ScanId& id) = 0;
   virtual Expected<std::vector<JobRecord>> jobs(const PageOf& page) = 0;
-  virtual Expected<std::vector<ScanRecord>> scans(const PageOf& page) = 0;
+  virtual Expected<std::vector<ScanEntry>> scans(const PageOf& page) = 0;
   virtual Expected<std::vector<JobRecord>> unfinished_jobs() = 0;  // oldest first
 
   // The job that was added with this key, and the request of then.

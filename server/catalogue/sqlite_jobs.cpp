@@ -47,7 +47,7 @@ Statement& bind_record(Statement& row, const JobRecord& job) {
   return row.bind(job.created).bind(job.ended);
 }
 
-Statement& bind_record(Statement& row, const ScanRecord& scan) {
+Statement& bind_record(Statement& row, const ScanEntry& scan) {
   row.bind(scan.id.bytes()).bind(scan.job.bytes()).bind(scan.scanner).bind(number(scan.is_public));
   row.bind(scan.title).bind(scan.parameters).bind(number(scan.steps)).bind(number(scan.step));
   row.bind(number(scan.points)).bind(number(scan.calibration));
@@ -70,7 +70,7 @@ void read(const Statement& row, JobRecord& job) {
   job.ended = row.integer(11);
 }
 
-void read(const Statement& row, ScanRecord& scan) {
+void read(const Statement& row, ScanEntry& scan) {
   scan.id = ModelId::from_bytes(row.blob<16>(0));
   scan.job = ModelId::from_bytes(row.blob<16>(1));
   scan.scanner = row.text(2);
@@ -100,7 +100,7 @@ class SqliteJobs final : public JobCatalogue {
  public:
   explicit SqliteJobs(Database database) : database_(std::move(database)) {}
 
-  Expected<void> add(const JobRecord& job, const std::optional<ScanRecord>& scan,
+  Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                      const std::optional<OnceKey>& once) override {
     return guarded<void>([&]() -> Expected<void> {
       Transaction transaction(database_);
@@ -118,21 +118,21 @@ class SqliteJobs final : public JobCatalogue {
   }
 
   Expected<void> update(const JobRecord& job) override { return write("job", kJobColumns, job); }
-  Expected<void> update(const ScanRecord& scan) override {
+  Expected<void> update(const ScanEntry& scan) override {
     return write("scan", kScanColumns, scan);
   }
 
   Expected<std::optional<JobRecord>> find_job(const JobId& id) override {
     return find<JobRecord>("job", kJobColumns, id);
   }
-  Expected<std::optional<ScanRecord>> find_scan(const ScanId& id) override {
-    return find<ScanRecord>("scan", kScanColumns, id);
+  Expected<std::optional<ScanEntry>> find_scan(const ScanId& id) override {
+    return find<ScanEntry>("scan", kScanColumns, id);
   }
   Expected<std::vector<JobRecord>> jobs(const PageOf& page) override {
     return list<JobRecord>("job", kJobColumns, page);
   }
-  Expected<std::vector<ScanRecord>> scans(const PageOf& page) override {
-    return list<ScanRecord>("scan", kScanColumns, page);
+  Expected<std::vector<ScanEntry>> scans(const PageOf& page) override {
+    return list<ScanEntry>("scan", kScanColumns, page);
   }
 
   Expected<std::vector<JobRecord>> unfinished_jobs() override {

@@ -11,8 +11,8 @@
 namespace vitrine::cli {
 namespace {
 
-constexpr std::array kCommands = {&kBuild,   &kInfo,    &kDecode, &kVerify,
-                                  &kMeasure, &kPublish, &kToken};
+constexpr std::array kCommands = {&kBuild,   &kInfo,      &kDecode, &kVerify, &kMeasure,
+                                  &kPublish, &kCalibrate, &kScan,   &kToken};
 
 std::string flag_usage(const Flag& flag) {
   return flag.value.empty() ? std::string(flag.name) : fmt::format("{} {}", flag.name, flag.value);
@@ -22,7 +22,7 @@ std::string overview() {
   std::string text =
       "Vitrine turns 3D scans into progressive meshes.\n\nusage: vitrine COMMAND ...\n\n";
   for (const Command* command : kCommands) {
-    text += fmt::format("  {:<9} {}\n", command->name, command->summary);
+    text += fmt::format("  {:<10} {}\n", command->name, command->summary);
   }
   return text + "\nvitrine COMMAND --help tells more; vitrine --version prints the version.";
 }

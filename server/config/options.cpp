@@ -63,6 +63,17 @@ Expected<void> path(Settings& settings, std::string_view text) {
   return {};
 }
 
+Expected<void> scanners(Settings& settings, std::string_view text) {
+  settings.scanners.clear();
+  while (!text.empty()) {
+    const std::string_view one = text.substr(0, text.find(','));
+    if (one.empty()) return fail(ErrorCode::kBadInput, "a path in it is empty; name the rig.json");
+    settings.scanners.emplace_back(one);
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+  }
+  return {};
+}
+
 Expected<void> data_folder(Settings& settings, std::string_view text) {
   if (text.empty()) return fail(ErrorCode::kBadInput, "it is empty; name the data folder");
   return path<&Settings::data>(settings, text);
@@ -107,6 +118,9 @@ constexpr std::array kOptions{
            number<&S::stop_timeout, 0, 3600>},
     Option{"export-cache", kBytes, "268435456", "Memory for exported files that are kept ready.",
            false, number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>},
+    Option{"scanners", kPaths, "",
+           "The rig.json files of the scanners that this daemon drives, separated by commas.",
+           false, scanners},
 };
 
 }  // namespace
@@ -140,6 +154,8 @@ std::string_view type_name(OptionType type) {
       return "SECONDS";
     case kBytes:
       return "BYTES";
+    case kPaths:
+      return "PATH,...";
   }
   return "";
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handlers, one file per noun. HEAD, conditions and ranges are derived
-// from the answers to GET; a POST finds its JSON in Request::body.
+// The handlers, one file per noun. HEAD, conditions and ranges are derived.
 #pragma once
 
 #include "server/http/router.h"
@@ -24,6 +23,36 @@ Response export_model(const Request& request,
 
 // streams.cpp
 Response open_stream(const Request& request, Services& services);  // 101: go on as a WebSocket
+
+// scanners.cpp
+Response list_scanners(const Request& request, Services& services);
+Response show_scanner(const Request& request, Services& services);
+Response jog_scanner(const Request& request, Services& services);   // {"degrees": x}
+Response switch_laser(const Request& request, Services& services);  // {"on": bool}
+Response stop_scanner(const Request& request, Services& services);  // the red button
+Response show_preview(const Request& request, Services& services);  // PNG
+
+// calibrations.cpp
+Response list_calibrations(const Request& request, Services& services);
+Response start_calibration(const Request& request, Services& services);  // 202: a job
+Response show_calibration(const Request& request, Services& services);
+Response show_residuals(const Request& request, Services& services);  // SVG
+
+// scans.cpp
+Response start_scan(const Request& request, Services& services);  // 202: a job
+Response list_scans(const Request& request, Services& services);  // ?limit= &cursor=
+Response show_scan(const Request& request, Services& services);
+Response show_points(const Request& request, Services& services);   // ?from=
+Response show_profile(const Request& request, Services& services);  // [[rho, z], ...]
+Response pause_scan(const Request& request, Services& services);
+Response resume_scan(const Request& request, Services& services);
+Response reprocess_scan(const Request& request, Services& services);  // 202: a job
+
+// jobs.cpp
+Response list_jobs(const Request& request, Services& services);  // ?limit= &cursor=
+Response show_job(const Request& request, Services& services);
+Response cancel_job(const Request& request, Services& services);
+Response show_job_events(const Request& request, Services& services);
 
 // pages.cpp
 Response show_gallery(const Request& request, Services& services);

@@ -8,6 +8,7 @@
 #include "server/catalogue/catalogue.h"
 #include "server/http/export_cache.h"
 #include "server/http/web_pages.h"
+#include "server/jobs/scan_service.h"
 #include "server/log/log.h"
 #include "server/metrics/metrics.h"
 #include "server/store/published_model.h"
@@ -18,6 +19,7 @@ struct Services {
   Catalogue& catalogue;
   Authenticator& tokens;
   PublishedModels& models;
+  ScanService& scans;
   ExportCache& exports;
   const WebPages& pages;
   Metrics& metrics;

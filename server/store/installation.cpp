@@ -3,6 +3,7 @@
 
 #include "codec/files/atomic_file.h"
 #include "server/catalogue/sqlite_catalogue.h"
+#include "server/catalogue/sqlite_jobs.h"
 #include "server/store/file_store.h"
 
 namespace vitrine {
@@ -21,7 +22,10 @@ Expected<Installation> open_installation(const std::filesystem::path& folder) {
   if (!store) return tl::unexpected(store.error());
   auto catalogue = open_sqlite_catalogue(folder / "catalogue.sqlite");
   if (!catalogue) return tl::unexpected(catalogue.error());
-  return Installation{std::make_unique<FileStore>(std::move(*store)), std::move(*catalogue)};
+  auto jobs = open_sqlite_jobs(folder / "catalogue.sqlite");
+  if (!jobs) return tl::unexpected(jobs.error());
+  return Installation{std::make_unique<FileStore>(std::move(*store)), std::move(*catalogue),
+                      std::move(*jobs)};
 }
 
 }  // namespace vitrine

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout of a data folder: objects/ and catalogue.sqlite.
+// The layout of a data folder: objects/, catalogue.sqlite, and scans/ where there are any.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 
 #include "server/catalogue/catalogue.h"
+#include "server/catalogue/jobs.h"
 #include "server/store/object_store.h"
 
 namespace vitrine {
@@ -13,6 +14,7 @@ namespace vitrine {
 struct Installation {
   std::unique_ptr<ObjectStore> store;
   std::unique_ptr<Catalogue> catalogue;
+  std::unique_ptr<JobCatalogue> jobs;  // in the same file
 };
 
 // Whether the folder, or the one that it would be made in, can be written to. Creates nothing.

@@ -15,10 +15,11 @@ std::int64_t now_in_milliseconds() {
       .count();
 }
 
-ModelRecord describe(const Manifest& manifest, const ModelMetadata& metadata, const Sha256& file) {
+ModelRecord describe(const Manifest& manifest, const ModelMetadata& metadata, const PublishAs& as,
+                     const Sha256& file) {
   ModelRecord record;
-  record.id = ModelId::generate();
-  record.state = ModelState::kPublished;
+  record.id = as.id.value_or(ModelId::generate());
+  record.state = as.state;
   record.created = now_in_milliseconds();
   record.title = metadata.title;
   record.creator = metadata.creator;
@@ -78,13 +79,20 @@ Expected<void> check_stored(const PublishedModel& model, std::span<const ChunkPl
   return {};
 }
 
+// A draft is nobody's copy: only what is published already is not published again.
+Expected<std::optional<ModelRecord>> find_earlier(Catalogue& catalogue, const ModelRecord& record) {
+  auto same = catalogue.find(record.id);
+  if (!same || *same || record.state == ModelState::kDraft) return same;
+  return catalogue.find_same(record);
+}
+
 // Names the stored file in the catalogue, once it has been read back.
 Expected<Publication> add(ObjectStore& store, Catalogue& catalogue, const ModelRecord& record) {
   const auto model = PublishedModel::open(store, record);
   if (!model) return tl::unexpected(model.error());
   const auto chunks = places((*model)->manifest());
   if (auto good = check_stored(**model, chunks); !good) return tl::unexpected(good.error());
-  const auto same = catalogue.find_same(record);
+  const auto same = find_earlier(catalogue, record);
   if (!same) return tl::unexpected(same.error());
   if (*same) return Publication{.id = (*same)->id, .is_new = false};
   if (auto added = catalogue.add(record, chunks); !added) return tl::unexpected(added.error());
@@ -94,7 +102,8 @@ Expected<Publication> add(ObjectStore& store, Catalogue& catalogue, const ModelR
 }  // namespace
 
 Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
-                              std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata) {
+                              std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
+                              const PublishAs& as) {
   const auto manifest = parse_header(pmesh);
   if (!manifest) return tl::unexpected(manifest.error());
   if (auto good = check_texts(metadata, manifest->unit); !good) return tl::unexpected(good.error());
@@ -105,7 +114,7 @@ Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
   const auto before = store.open(name);
   if (!before) return tl::unexpected(before.error());
   if (auto stored = store.put(name, pmesh); !stored) return tl::unexpected(stored.error());
-  auto published = add(store, catalogue, describe(*manifest, metadata, name));
+  auto published = add(store, catalogue, describe(*manifest, metadata, as, name));
   // The first fault is the one to tell: a full disk takes a removal.
   if (!published && *before == nullptr) static_cast<void>(store.remove(name));
   return published;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -15,17 +16,25 @@ struct ModelMetadata {
   std::string title, creator, rights, licence;
 };
 
+struct PublishAs {
+  ModelState state = ModelState::kPublished;
+  // Where a model has this id already, it is the result: who is interrupted tries again with the
+  // same id. Nothing: a new one.
+  std::optional<ModelId> id = std::nullopt;
+};
+
 struct Publication {
   ModelId id;
   bool is_new = true;  // false: this model was there already
 };
 
 // Stores the file, reads it back from the store to check the header and the SHA-256 of the base and
-// of every chunk, and then adds the model as published, in one transaction: a crash at any point
-// leaves at most an object that nothing names, and a failure not even that. The same bytes under
-// the same texts are the model that is published already. Fails with kBadInput where the file is
+// of every chunk, and then adds the model in one transaction: a crash at any point leaves at most
+// an object that nothing names, and a failure not even that. To publish the same bytes under the
+// same texts gives the model that is published already. Fails with kBadInput where the file is
 // damaged.
 Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
-                              std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata);
+                              std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
+                              const PublishAs& as = {});
 
 }  // namespace vitrine

@@ -29,7 +29,7 @@ JobRecord job(std::uint8_t value, JobState state = JobState::kRunning) {
           .ended = 0};
 }
 
-ScanRecord scan(std::uint8_t value, std::uint8_t job) {
+ScanEntry scan(std::uint8_t value, std::uint8_t job) {
   return {.id = id_of(value),
           .job = id_of(job),
           .scanner = "left",
@@ -49,7 +49,7 @@ class JobsSuite : public testing::Test {
   std::unique_ptr<JobsBackend> backend_ = make_jobs_backend();
   std::unique_ptr<JobCatalogue> jobs_ = backend_->connect();
 
-  void add(const JobRecord& record, const std::optional<ScanRecord>& of = {},
+  void add(const JobRecord& record, const std::optional<ScanEntry>& of = {},
            const std::optional<OnceKey>& once = {}) {
     const auto added = jobs_->add(record, of, once);
     ASSERT_TRUE(added) << added.error().message;
@@ -71,7 +71,7 @@ TEST_F(JobsSuite, an_update_writes_over_the_whole_record) {
   changed.model = id_of(7);
   changed.error = "the camera is gone";
   changed.ended = 1'700'000'001'000;
-  ScanRecord grown = scan(100, 1);
+  ScanEntry grown = scan(100, 1);
   grown.step = 700;
   grown.model = std::nullopt;
   ASSERT_TRUE(jobs_->update(changed));

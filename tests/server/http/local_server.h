@@ -17,8 +17,12 @@ namespace vitrine::test {
 class LocalServer {
  public:
   explicit LocalServer(std::span<const Route> routes,
-                       std::chrono::seconds patience = std::chrono::seconds(30))
-      : metrics_(Router(routes).templates()),
+                       std::chrono::seconds patience = std::chrono::seconds(30),
+                       std::vector<std::unique_ptr<ScannerBackend>> scanners = {})
+      : scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, log_,
+                folder_.path(), VITRINE_BIN_DIR "/vitrined"},
+               std::move(scanners)),
+        metrics_(Router(routes).templates()),
         server_(io_, services_, workers_,
                 {.routes = routes, .max_connections = 64, .patience = patience}),
         port_(server_.listen({"127.0.0.1", 0}).value()) {
@@ -28,11 +32,13 @@ class LocalServer {
   ~LocalServer() {
     io_.stop();
     thread_.join();
+    scans_.stop();
     workers_.stop();
     workers_.join();
   }
 
   std::uint16_t port() const { return port_; }
+  ScanService& scans() { return scans_; }
   Catalogue& catalogue() { return *installation_.catalogue; }
   const Metrics& metrics() const { return metrics_; }
 
@@ -55,15 +61,24 @@ class LocalServer {
  private:
   TemporaryFolder folder_;
   Installation installation_ = open_installation(folder_.path()).value();
+  Log log_ = Log::open("").value();
+  ScanService scans_;
   PublishedModels models_{*installation_.store, *installation_.catalogue};
   ExportCache exports_{0};
   WebPages pages_{{}};
   Metrics metrics_;
   Authenticator tokens_{*installation_.catalogue};
-  Log log_ = Log::open("").value();
   Log events_ = Log::open(folder_.path() / "events.log").value();
-  Services services_{
-      *installation_.catalogue, tokens_, models_, exports_, pages_, metrics_, log_, events_, true};
+  Services services_{*installation_.catalogue,
+                     tokens_,
+                     models_,
+                     scans_,
+                     exports_,
+                     pages_,
+                     metrics_,
+                     log_,
+                     events_,
+                     true};
   asio::io_context io_;
   Workers workers_{2, 1};
   HttpServer server_;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/device/board.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <utility>
+
+#include "acquisition/device/fabscan.h"
+#include "acquisition/device/guardian.h"
+#include "acquisition/device/horus.h"
+#include "acquisition/device/safe_board.h"
+#include "acquisition/device/usb_serial.h"
+
+namespace vitrine {
+namespace {
+
+int baud_of(BoardDialect dialect) {
+  return dialect == BoardDialect::kHorus ? horus::kBaud : fabscan::kBaud;
+}
+
+Expected<std::unique_ptr<Board>> open_guarded(const BoardSelector& selector,
+                                              const BoardOptions& options) {
+  auto guardian = Guardian::start(selector, options.guardian);
+  if (!guardian) return Unexpected(guardian.error());
+  auto opened = open_controller(selector, options.patience);
+  if (!opened) return Unexpected(opened.error());
+  BoardIdentity identity{.dialect = name_of(selector.dialect), .serial = opened->port->serial()};
+  return make_safe(std::move(*opened), std::move(identity), options, std::move(*guardian));
+}
+
+}  // namespace
+
+Expected<BoardDialect> parse_board_dialect(const std::string& name) {
+  if (name == "horus") return BoardDialect::kHorus;
+  if (name == "fabscan") return BoardDialect::kFabScan;
+  return fail(ErrorCode::kBadInput,
+              fmt::format("unknown dialect '{}' of a board; use horus or fabscan", name));
+}
+
+const char* name_of(BoardDialect dialect) {
+  return dialect == BoardDialect::kHorus ? "horus" : "fabscan";
+}
+
+Expected<OpenedController> open_controller(const BoardSelector& selector,
+                                           std::chrono::milliseconds patience) {
+  auto port = open_usb_serial(selector, baud_of(selector.dialect));
+  if (!port) return Unexpected(std::move(port).error());
+  OpenedController opened{.port = std::move(*port), .controller = nullptr};
+  opened.controller = selector.dialect == BoardDialect::kHorus
+                          ? make_horus(*opened.port, patience)
+                          : make_fabscan(*opened.port, patience, selector.steps_per_turn);
+  return opened;
+}
+
+Expected<std::unique_ptr<Board>> open_board(const BoardSelector& selector,
+                                            const BoardOptions& options) try {
+  return open_guarded(selector, options);
+} catch (const std::exception& error) {  // no thread, no memory
+  return fail(ErrorCode::kIo, fmt::format("{:04x}:{:04x} cannot be opened: {}; free memory and "
+                                          "try again",
+                                          selector.vendor, selector.product, error.what()));
+}
+
+}  // namespace vitrine

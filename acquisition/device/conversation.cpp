@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/device/conversation.h"
+
+namespace vitrine {
+
+Expected<void> Conversation::say(std::string_view line) {
+  return port_.write(std::string(line) + '\n');
+}
+
+Expected<std::optional<std::string>> Conversation::hear(std::chrono::milliseconds patience) {
+  const auto deadline = SerialPort::Clock::now() + patience;
+  while (true) {
+    if (auto line = reader_.next()) return line;
+    const Expected<std::string> bytes = port_.read(deadline);
+    if (!bytes) return Unexpected(bytes.error());
+    if (bytes->empty()) return std::nullopt;
+    reader_.feed(*bytes);
+  }
+}
+
+Expected<void> Conversation::ignore_all(std::chrono::milliseconds quiet) {
+  constexpr int kMostReads = 100;  // a board that never falls silent is found out by what it says
+  for (int i = 0; i < kMostReads; ++i) {
+    const Expected<std::string> bytes = port_.read(SerialPort::Clock::now() + quiet);
+    if (!bytes) return Unexpected(bytes.error());
+    if (bytes->empty()) break;
+  }
+  reader_.clear();
+  return {};
+}
+
+}  // namespace vitrine

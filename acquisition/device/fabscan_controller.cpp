@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "acquisition/device/controller.h"
+#include "acquisition/device/conversation.h"
+#include "acquisition/device/fabscan.h"
+
+namespace vitrine {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kBoot{5'000}, kAskAgain{700}, kQuiet{50};
+
+class FabScanController final : public Controller {
+ public:
+  FabScanController(SerialPort& port, milliseconds patience, int steps_per_turn)
+      : talk_(port, fabscan::kPrompt),
+        name_(port.name()),
+        patience_(patience),
+        steps_per_degree_(steps_per_turn / 360.0) {}
+
+  Expected<std::string> greet() override;
+  Expected<std::optional<double>> position() override;
+  Expected<void> set_position(double degrees) override;
+  Expected<void> turn_to(double degrees) override;
+  Expected<void> laser(bool on) override;
+  Expected<void> switch_off() override;
+  void halt() noexcept override { (void)talk_.port().restart_controller(); }
+
+ private:
+  // The line of the answer before the prompt; empty where there is none.
+  Expected<std::string> command(const std::string& line, milliseconds patience);
+  Expected<void> obey(const std::string& line);
+  Expected<void> step(long steps);
+
+  Conversation talk_;
+  std::string name_;
+  milliseconds patience_;
+  double steps_per_degree_;
+  long steps_ = 0;  // since the origin
+  double origin_ = 0;
+  bool known_ = false, motor_ = false;
+};
+
+Expected<std::string> FabScanController::command(const std::string& line, milliseconds patience) {
+  if (auto said = talk_.say(line); !said) return Unexpected(said.error());
+  std::string answer;
+  bool echoed = false;
+  while (true) {
+    const auto heard = talk_.hear(patience);
+    if (!heard) return Unexpected(heard.error());
+    if (!*heard)
+      return fail(ErrorCode::kIo, fmt::format("{} does not answer '{}' in time; check the motor's "
+                                              "power and that the table turns freely",
+                                              name_, line));
+    if (**heard == std::string(1, fabscan::kPrompt) && echoed) return answer;
+    if (**heard == line)
+      echoed = true;
+    else if (echoed)
+      answer = **heard;
+    else
+      return fail(
+          ErrorCode::kIo,
+          fmt::format("{} does not echo '{}'; check its cable and its firmware", name_, line));
+  }
+}
+
+Expected<void> FabScanController::obey(const std::string& line) {
+  return command(line, patience_).map([](const std::string&) {});
+}
+
+// Asked again and again, because an Arduino that has just been plugged in starts first.
+Expected<std::string> FabScanController::greet() {
+  std::string heard;
+  for (milliseconds asked{0}; asked < kBoot; asked += kAskAgain) {
+    if (auto ignored = talk_.ignore_all(kQuiet); !ignored) return Unexpected(ignored.error());
+    const auto version = command(fabscan::kAskVersion, kAskAgain);
+    if (version && fabscan::is_version(*version)) return "FabScan " + *version;
+    if (!version && version.error().code == ErrorCode::kState) return version;
+    heard = version ? *version : version.error().message;
+  }
+  return fail(ErrorCode::kBadInput,
+              fmt::format("{} is no FabScan board ({}); check vendor, product "
+                          "and dialect",
+                          name_, heard));
+}
+
+Expected<std::optional<double>> FabScanController::position() {
+  if (!known_) return std::nullopt;
+  return origin_ + static_cast<double>(steps_) / steps_per_degree_;
+}
+
+Expected<void> FabScanController::set_position(double degrees) {
+  origin_ = degrees;
+  steps_ = 0;
+  known_ = true;
+  return {};
+}
+
+Expected<void> FabScanController::step(long steps) {
+  const auto patience = patience_ + milliseconds(1000 * std::abs(steps) / fabscan::kStepsPerSecond);
+  auto done = command(fabscan::turn(static_cast<int>(steps)), patience);
+  if (!done) return Unexpected(done.error());
+  steps_ += steps;
+  return {};
+}
+
+Expected<void> FabScanController::turn_to(double degrees) {
+  if (!motor_) {
+    if (auto on = obey(fabscan::kMotorOn); !on) return on;
+    motor_ = true;
+  }
+  const long target = std::lround((degrees - origin_) * steps_per_degree_);
+  while (steps_ != target) {
+    const long part = std::clamp<long>(target - steps_, -fabscan::kMostSteps, fabscan::kMostSteps);
+    if (auto done = step(part); !done) return done;
+  }
+  return {};
+}
+
+Expected<void> FabScanController::laser(bool on) {
+  return obey(on ? fabscan::kLaserOn : fabscan::kLaserOff);
+}
+
+Expected<void> FabScanController::switch_off() {
+  motor_ = false;
+  for (const char* line : {fabscan::kLaserOff, fabscan::kOtherLaserOff, fabscan::kMotorOff})
+    if (auto done = obey(line); !done) return done;
+  return {};
+}
+
+}  // namespace
+
+std::unique_ptr<Controller> make_fabscan(SerialPort& port, milliseconds patience,
+                                         int steps_per_turn) {
+  return std::make_unique<FabScanController>(port, patience, steps_per_turn);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/device/horus.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace vitrine::horus {
+namespace {
+
+using Kind = Reply::Kind;
+
+// The finite number right after the first `name`.
+std::optional<double> number_after(std::string_view text, std::string_view name) {
+  const std::size_t at = text.find(name);
+  if (at == std::string_view::npos) return std::nullopt;
+  text.remove_prefix(at + name.size());
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+Reply parse_brackets(std::string_view line) {
+  const std::string text(line);
+  if (line.find("unlock") != std::string_view::npos && line.find('$') != std::string_view::npos)
+    return {.kind = Kind::kAlarm, .text = text};
+  if (line.starts_with("[G")) {
+    if (const auto feed = number_after(line, " F")) return {Kind::kModes, text, *feed};
+  }
+  return {.kind = Kind::kRemark, .text = text};
+}
+
+}  // namespace
+
+std::string turn(double degrees, int speed) {
+  return fmt::format("G1 X{:.4f} F{}", degrees, speed);
+}
+std::string speed(int degrees_per_second) {
+  return fmt::format("G1 F{}", degrees_per_second);
+}
+std::string laser(int which, bool on) {
+  return fmt::format("M{}T{}", on ? 71 : 70, which);
+}
+
+Reply parse(std::string_view line) {
+  const std::string text(line);
+  if (line == "ok") return {.kind = Kind::kOk};
+  if (line.starts_with("error:")) return {.kind = Kind::kRefusal, .text = text};
+  if (line.starts_with("ALARM:")) return {.kind = Kind::kAlarm, .text = text};
+  if (line.ends_with("['$' for help]"))
+    return {.kind = Kind::kBanner, .text = text.substr(0, text.find(" ['"))};
+  if (line.starts_with('[') && line.ends_with(']')) return parse_brackets(line);
+  if (line.starts_with('<') && line.ends_with('>')) {
+    if (const auto at = number_after(line, "MPos:")) return {Kind::kStatus, text, *at};
+  }
+  return {.kind = Kind::kUnknown, .text = text};
+}
+
+}  // namespace vitrine::horus

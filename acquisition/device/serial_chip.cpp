@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/device/serial_chip.h"
+
+#include <algorithm>
+#include <array>
+
+namespace vitrine {
+namespace {
+
+constexpr std::uint8_t kVendorOut = 0x40, kClassInterfaceOut = 0x21;
+
+// FT232R: 3 MHz over a divisor in eighths, which are coded in bits 14 and 15 (and the index).
+ControlRequest ftdi_baud(int baud) {
+  constexpr std::array<std::uint32_t, 8> kEighths = {0, 3, 2, 4, 1, 5, 6, 7};
+  const std::uint32_t eighths = (24'000'000u + static_cast<std::uint32_t>(baud) / 2) / baud;
+  const std::uint32_t divisor = eighths >> 3 | kEighths[eighths & 7] << 14;
+  return {kVendorOut, 3, static_cast<std::uint16_t>(divisor),
+          static_cast<std::uint16_t>(divisor >> 16)};
+}
+
+std::vector<ControlRequest> ftdi_set_up(int baud) {
+  return {{kVendorOut, 0, 0, 0},   // reset
+          ftdi_baud(baud),         //
+          {kVendorOut, 4, 8, 0},   // 8 bits, no parity, 1 stop bit
+          {kVendorOut, 2, 0, 0},   // no flow control
+          {kVendorOut, 9, 1, 0}};  // latency: 1 ms
+}
+
+// CH340 and CH341: a counter up to 2^16 behind a prescaler of 8^(3 - p).
+std::uint16_t ch34x_divisor(int baud) {
+  std::uint32_t factor = 1'532'620'800u / static_cast<std::uint32_t>(baud);
+  std::uint32_t prescaler = 3;
+  for (; factor > 0xfff0 && prescaler > 0; --prescaler)
+    factor >>= 3;
+  factor = 0x10000 - factor;
+  return static_cast<std::uint16_t>((factor & 0xff00) | prescaler | 0x80);
+}
+
+std::vector<ControlRequest> ch34x_set_up(int baud) {
+  return {{kVendorOut, 0xa1, 0, 0},                         // start the serial line
+          {kVendorOut, 0x9a, 0x1312, ch34x_divisor(baud)},  // divisor and prescaler
+          {kVendorOut, 0x9a, 0x2518, 0x00c3}};              // both ways, 8 bits, 1 stop bit
+}
+
+std::vector<ControlRequest> cdc_set_up(int baud, std::uint8_t interface) {
+  const auto rate = static_cast<std::uint32_t>(baud);
+  std::vector<std::uint8_t> coding;
+  for (int shift = 0; shift < 32; shift += 8)
+    coding.push_back(static_cast<std::uint8_t>(rate >> shift));
+  coding.insert(coding.end(), {0, 0, 8});  // 1 stop bit, no parity, 8 bits
+  return {{kClassInterfaceOut, 0x20, 0, interface, coding}};
+}
+
+}  // namespace
+
+std::optional<SerialChip> chip_by_id(std::uint16_t vendor, std::uint16_t product) {
+  if (vendor == 0x0403) return SerialChip::kFtdi;
+  constexpr std::array<std::uint16_t, 4> kCh34x = {0x7523, 0x7522, 0x5523, 0xe523};
+  if (vendor == 0x1a86 && std::find(kCh34x.begin(), kCh34x.end(), product) != kCh34x.end())
+    return SerialChip::kCh34x;
+  return std::nullopt;
+}
+
+std::vector<ControlRequest> set_up(SerialChip chip, int baud, std::uint8_t interface) {
+  switch (chip) {
+    case SerialChip::kFtdi:
+      return ftdi_set_up(baud);
+    case SerialChip::kCh34x:
+      return ch34x_set_up(baud);
+    case SerialChip::kCdcAcm:
+      break;
+  }
+  return cdc_set_up(baud, interface);
+}
+
+ControlRequest modem_lines(SerialChip chip, bool up, std::uint8_t interface) {
+  switch (chip) {
+    case SerialChip::kFtdi:
+      return {kVendorOut, 1, static_cast<std::uint16_t>(up ? 0x0303 : 0x0300), 0};
+    case SerialChip::kCh34x:
+      return {kVendorOut, 0xa4, static_cast<std::uint16_t>(up ? ~0x60 : ~0), 0};
+    case SerialChip::kCdcAcm:
+      break;
+  }
+  return {kClassInterfaceOut, 0x22, static_cast<std::uint16_t>(up ? 3 : 0), interface};
+}
+
+void append_payload(SerialChip chip, std::span<const std::uint8_t> transfer,
+                    std::size_t packet_size, std::vector<std::uint8_t>& out) {
+  constexpr std::size_t kFtdiStatus = 2;  // modem and line state ahead of each packet
+  const std::size_t skip = chip == SerialChip::kFtdi ? kFtdiStatus : 0;
+  for (std::size_t at = 0; at < transfer.size(); at += packet_size) {
+    const auto packet = transfer.subspan(at, std::min(packet_size, transfer.size() - at));
+    if (packet.size() > skip) out.insert(out.end(), packet.begin() + skip, packet.end());
+  }
+}
+
+}  // namespace vitrine

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of vitrine-rig.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "acquisition/rig/fault.h"
+#include "acquisition/rig/placed_mesh.h"
+#include "acquisition/rig/renderer.h"
+#include "acquisition/rig/solid.h"
+#include "codec/core/expected.h"
+
+namespace vitrine::rig {
+
+struct RigOptions {
+  bool help = false, version = false, private_network = false;
+  std::optional<PlacedMesh> object;  // nothing: an empty table
+  Realism realism;
+  Finish finish;
+  int steps = 720;
+  std::vector<Fault> faults;
+  std::string address = "127.0.0.1", dialect = "horus";
+  std::string write_config, write_truth;  // files; empty: not asked for
+  std::vector<std::string> command;
+};
+
+std::string_view usage();
+
+// Fails (kBadInput) with the option and what it takes.
+Expected<RigOptions> parse_options(std::span<const std::string_view> words);
+
+}  // namespace vitrine::rig

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/rig/private_network.h"
+
+#include <fmt/format.h>
+#include <net/if.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "codec/files/file_descriptor.h"
+
+namespace vitrine::rig {
+namespace {
+
+// As oneself where one may; otherwise as root of a user namespace in which one has the same name.
+bool leave_network() {
+  if (::unshare(CLONE_NEWNET) == 0) return true;
+  const auto user = ::getuid();
+  const auto group = ::getgid();
+  if (::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return false;
+  std::ofstream("/proc/self/setgroups") << "deny";
+  std::ofstream("/proc/self/uid_map") << user << " " << user << " 1";
+  std::ofstream("/proc/self/gid_map") << group << " " << group << " 1";
+  return true;
+}
+
+bool raise_loopback() {
+  const FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  ifreq request{};
+  std::strcpy(request.ifr_name, "lo");
+  request.ifr_flags = IFF_UP | IFF_RUNNING;
+  return ::ioctl(socket.get(), SIOCSIFFLAGS, &request) == 0;
+}
+
+}  // namespace
+
+Expected<void> enter_private_network() {
+  if (leave_network() && raise_loopback()) return {};
+  return fail(ErrorCode::kIo,
+              fmt::format("private network: {}; allow user namespaces, or run without "
+                          "--private-network, one rig at a time",
+                          std::strerror(errno)));
+}
+
+}  // namespace vitrine::rig

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/rig/scanner.h"
+
+#include <fmt/format.h>
+
+#include "acquisition/rig/noise.h"
+
+namespace vitrine::rig {
+
+std::string camera_serial(std::uint64_t seed) {
+  return fmt::format("RIG{:06X}", scramble(seed) & 0xffffff);
+}
+
+UsbBoardSettings board_settings(std::uint64_t seed, bool fabscan) {
+  return {.fabscan = fabscan, .serial = camera_serial(seed)};
+}
+
+namespace {
+
+// Nobody waits for what a cable did.
+void tell(const Expected<void>& outcome) {
+  if (!outcome) fmt::print(stderr, "vitrine-rig: {}\n", outcome.error().message);
+}
+
+}  // namespace
+
+Scanner::Scanner(const ScannerOptions& options)
+    : options_(options),
+      renderer_(optics_of(options.realism.seed), options.object, options.realism),
+      stage_([this](int turns) { turned(turns); }),
+      board_({.on_turn = [this](double degrees) { stage_.turned_to(degrees); },
+              .on_laser = [this](bool on) { stage_.laser(on); }}),
+      camera_cable_([this] { camera_->unplug(); }, [this] { tell(camera_->plug_in()); }),
+      board_cable_(
+          [this] { board_.unplug(); },
+          [this] { tell(board_.plug(board_settings(options_.realism.seed, options_.fabscan))); }) {}
+
+Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options) {
+  std::unique_ptr<Scanner> scanner(new Scanner(options));
+  auto camera = GigeCamera::plug_in(
+      {options.camera_address, camera_serial(options.realism.seed)},
+      [self = scanner.get()](const Exposure& exposure, const SensorRegion& region) {
+        return self->expose(exposure, region);
+      });
+  if (!camera) return Unexpected(camera.error());
+  scanner->camera_ = std::move(*camera);
+  const auto plugged = scanner->board_.plug(board_settings(options.realism.seed, options.fabscan));
+  if (!plugged) return Unexpected(plugged.error());
+  return scanner;
+}
+
+void Scanner::turned(int turns) {
+  if (due(options_.faults, FaultKind::kCameraUnplug, turns)) camera_cable_.pull();
+  if (due(options_.faults, FaultKind::kUsbUnplug, turns)) board_cable_.pull();
+  if (due(options_.faults, FaultKind::kMotorStall, turns))
+    brake_ = std::jthread([this] { board_.stall(); });
+}
+
+Delivery Scanner::delivery(int turns) {
+  ++frames_;
+  if (due(options_.faults, FaultKind::kMissedTrigger, turns) && missed_at_ != turns) {
+    missed_at_ = turns;
+    return Delivery::kLost;
+  }
+  const bool lossy = lasting(options_.faults, FaultKind::kLostPackets, turns);
+  const bool lacking = lossy && key_of(options_.realism.seed, 0x105, frames_) % 20 == 0;
+  return lacking ? Delivery::kLacksPackets : Delivery::kWhole;
+}
+
+Exposed Scanner::expose(const Exposure& exposure, const SensorRegion& region) {
+  const Setting setting = stage_.now();
+  const double shift = crept(options_.faults, setting.turns);
+  return {renderer_.take({setting, exposure, region, shift}), delivery(setting.turns)};
+}
+
+}  // namespace vitrine::rig

@@ -1,0 +1,472 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/rig/usb_board.h"
+
+#include <fmt/format.h>
+#include <linux/usbdevice_fs.h>
+#include <sys/ioctl.h>
+#include <umockdev.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+
+namespace vitrine::rig {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// libusb asks for finished transfers as long as the device file says that it is writable, which a
+// socket always is: an answer of "none yet" is held back, or it would spin.
+constexpr double kHold = 0.0015;  // seconds
+// FTDI chips send their status without data, too.
+constexpr double kFtdiIdle = 0.016;
+constexpr std::size_t kMostUnread = 4096;
+
+constexpr char kPath[] = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-2";
+constexpr char kPreload[] = "libumockdev-preload.so.0";
+constexpr char kNode[] = "/dev/bus/usb/001/002";
+
+struct Unref {
+  void operator()(gpointer object) const { g_object_unref(object); }
+};
+template <class T>
+using Ref = std::unique_ptr<T, Unref>;
+
+template <class T>
+Ref<T> share(T* object) {
+  return Ref<T>(static_cast<T*>(g_object_ref(object)));
+}
+
+// A transfer that a client has submitted. The kernel's struct and its buffer are copies that
+// umockdev writes back when the transfer is reaped.
+struct Transfer {
+  Ref<UMockdevIoctlData> block, buffer;
+
+  usbdevfs_urb& urb() const { return *reinterpret_cast<usbdevfs_urb*>(block->data); }
+  std::span<std::uint8_t> bytes() const {
+    return {buffer->data, static_cast<std::size_t>(urb().buffer_length)};
+  }
+  void finish(int status, std::size_t length) const {
+    urb().status = status;
+    urb().actual_length = static_cast<int>(length);
+  }
+};
+
+// One open device file.
+struct Client {
+  Ref<UMockdevIoctlClient> handle;  // so that no other has its address
+  bool gone = false;                // the device that it opened has been unplugged
+  std::set<unsigned> claimed;
+  std::deque<Transfer> reading, finished;
+  Ref<UMockdevIoctlClient> waiting;  // asks for a finished transfer; held back
+  double waiting_until = 0;
+};
+
+}  // namespace
+
+class UsbBoard::Impl {
+ public:
+  explicit Impl(UsbBoardEvents events);
+  ~Impl();
+
+  std::vector<std::string> environment() const;
+  Expected<void> plug(const UsbBoardSettings& settings);
+  void unplug();
+  template <class Change>
+  void change(Change how);
+  template <class Question>
+  auto ask(Question question);
+
+  bool on_call(UMockdevIoctlClient* client);
+  void forget(UMockdevIoctlClient* client);
+
+ private:
+  double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  void call(UMockdevIoctlClient* handle, Client& client);
+  void claim(UMockdevIoctlClient* handle, Client& client, bool on);
+  void submit(UMockdevIoctlClient* handle, Client& client);
+  void discard(UMockdevIoctlClient* handle, Client& client);
+  void reap(UMockdevIoctlClient* handle, Client& client);
+  void control(const Transfer& transfer);
+  std::size_t answer(const Setup& setup, std::span<std::uint8_t> bytes);
+  // Lets time pass for the firmware, hands out what it says, tells what has changed.
+  void settle();
+  void hand_out(Client& client, double at);
+  void deliver(Client& client);
+  void run();
+  double next_event() const;
+
+  const UsbBoardEvents events_;
+  const Clock::time_point start_ = Clock::now();
+  Ref<UMockdevTestbed> testbed_;
+  Ref<UMockdevIoctlBase> calls_;
+
+  mutable std::mutex mutex_;  // what follows
+  std::condition_variable changed_;
+  UsbBoardSettings settings_;
+  std::unique_ptr<Firmware> firmware_;  // none: not plugged in
+  bool dtr_ = false, closing_ = false;
+  std::string unread_;
+  double last_in_ = 0;
+  double base_ = 0, table_ = 0;  // where the table was when the power came, and is
+  bool laser_ = false;
+  std::map<UMockdevIoctlClient*, Client> clients_;
+  std::thread timer_;
+};
+
+namespace {
+
+void complete(UMockdevIoctlClient* client, long result, int error = 0) {
+  umockdev_ioctl_client_complete(client, result, error);
+}
+
+Ref<UMockdevIoctlData> resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
+  return Ref<UMockdevIoctlData>(umockdev_ioctl_data_resolve(data, offset, size, nullptr));
+}
+
+unsigned number_in(UMockdevIoctlClient* client) {
+  const auto data = resolve(umockdev_ioctl_client_get_arg(client), 0, sizeof(unsigned));
+  return data ? *reinterpret_cast<unsigned*>(data->data) : ~0u;
+}
+
+}  // namespace
+
+UsbBoard::Impl::Impl(UsbBoardEvents events)
+    : events_(std::move(events)),
+      testbed_(umockdev_testbed_new()),
+      calls_(umockdev_ioctl_base_new()) {
+  using Handler = gboolean (*)(UMockdevIoctlBase*, UMockdevIoctlClient*, gpointer);
+  const Handler handler = [](UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+    return static_cast<gboolean>(static_cast<Impl*>(self)->on_call(client));
+  };
+  using Change = void (*)(UMockdevIoctlBase*, UMockdevIoctlClient*, gpointer);
+  const Change changed = [](UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+    static_cast<Impl*>(self)->forget(client);
+  };
+  g_signal_connect(calls_.get(), "handle-ioctl", reinterpret_cast<GCallback>(handler), this);
+  g_signal_connect(calls_.get(), "client-vanished", reinterpret_cast<GCallback>(changed), this);
+  timer_ = std::thread([this] { run(); });
+}
+
+UsbBoard::Impl::~Impl() {
+  unplug();
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+    changed_.notify_all();
+  }
+  timer_.join();
+  g_signal_handlers_disconnect_by_data(calls_.get(), this);
+}
+
+std::vector<std::string> UsbBoard::Impl::environment() const {
+  const std::unique_ptr<char, decltype(&g_free)> root(umockdev_testbed_get_root_dir(testbed_.get()),
+                                                      &g_free);
+  return {fmt::format("UMOCKDEV_DIR={}", root.get()), fmt::format("LD_PRELOAD={}", kPreload)};
+}
+
+Expected<void> UsbBoard::Impl::plug(const UsbBoardSettings& settings) {
+  unplug();
+  {
+    const std::lock_guard lock(mutex_);
+    settings_ = settings;
+    firmware_ =
+        settings.fabscan ? fabscan_firmware(settings.firmware) : horus_firmware(settings.firmware);
+    firmware_->restart(now());
+    dtr_ = false;
+    unread_.clear();
+  }
+  std::string hex;
+  for (const std::uint8_t byte : descriptors_of(settings.transport))
+    hex += fmt::format("{:02X}", byte);
+  const std::string description = fmt::format(
+      "P: {}\nN: bus/usb/001/002\nE: DEVNAME={}\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\n"
+      "E: BUSNUM=001\nE: DEVNUM=002\nE: MAJOR=189\nE: MINOR=1\nA: busnum=1\\n\nA: devnum=2\\n\n"
+      "A: bConfigurationValue=1\\n\nA: speed=12\\n\nH: descriptors={}\n",
+      kPath + 4, kNode, hex);
+  GError* error = nullptr;
+  if (umockdev_testbed_add_from_string(testbed_.get(), description.c_str(), &error) &&
+      umockdev_testbed_attach_ioctl(testbed_.get(), kNode, calls_.get(), &error))
+    return {};
+  Unexpected failed = fail(ErrorCode::kIo, fmt::format("cannot simulate the USB board: {}; install "
+                                                       "umockdev",
+                                                       error->message));
+  g_error_free(error);
+  return failed;
+}
+
+void UsbBoard::Impl::unplug() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!firmware_) return;
+    base_ += firmware_->table(now());
+    firmware_.reset();
+    for (auto& [handle, client] : clients_) {
+      client.gone = true;
+      for (; !client.reading.empty(); client.reading.pop_front()) {
+        client.reading.front().finish(-ENODEV, 0);
+        client.finished.push_back(std::move(client.reading.front()));
+      }
+      deliver(client);
+    }
+    if (std::exchange(laser_, false)) events_.on_laser(false);
+  }
+  umockdev_testbed_detach_ioctl(testbed_.get(), kNode, nullptr);
+  umockdev_testbed_uevent(testbed_.get(), kPath, "remove");
+  umockdev_testbed_remove_device(testbed_.get(), kPath);
+}
+
+template <class Change>
+void UsbBoard::Impl::change(Change how) {
+  const std::lock_guard lock(mutex_);
+  if (firmware_) how(*firmware_, unread_);
+  settle();
+}
+
+template <class Question>
+auto UsbBoard::Impl::ask(Question question) {
+  const std::lock_guard lock(mutex_);
+  settle();
+  return question(firmware_.get(), table_);
+}
+
+bool UsbBoard::Impl::on_call(UMockdevIoctlClient* handle) {
+  const std::lock_guard lock(mutex_);
+  Client& client = clients_[handle];
+  if (!client.handle) client.handle = share(handle);
+  call(handle, client);
+  settle();
+  changed_.notify_all();
+  return true;
+}
+
+void UsbBoard::Impl::forget(UMockdevIoctlClient* handle) {
+  const std::lock_guard lock(mutex_);
+  clients_.erase(handle);
+}
+
+void UsbBoard::Impl::call(UMockdevIoctlClient* handle, Client& client) {
+  const auto request = umockdev_ioctl_client_get_request(handle);
+  if (request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY) {
+    reap(handle, client);
+  } else if (client.gone || !firmware_) {
+    complete(handle, -1, request == USBDEVFS_DISCARDURB ? EINVAL : ENODEV);
+  } else if (request == USBDEVFS_GET_CAPABILITIES) {
+    const auto data = resolve(umockdev_ioctl_client_get_arg(handle), 0, sizeof(unsigned));
+    *reinterpret_cast<unsigned*>(data->data) = USBDEVFS_CAP_BULK_CONTINUATION;
+    complete(handle, 0);
+  } else if (request == USBDEVFS_GETDRIVER || request == USBDEVFS_IOCTL) {
+    complete(handle, -1, ENODATA);
+  } else if (request == USBDEVFS_CLAIMINTERFACE || request == USBDEVFS_DISCONNECT_CLAIM) {
+    claim(handle, client, true);
+  } else if (request == USBDEVFS_RELEASEINTERFACE) {
+    claim(handle, client, false);
+  } else if (request == USBDEVFS_SUBMITURB) {
+    submit(handle, client);
+  } else if (request == USBDEVFS_DISCARDURB) {
+    discard(handle, client);
+  } else {
+    complete(handle, -1, ENOTTY);
+  }
+}
+
+void UsbBoard::Impl::claim(UMockdevIoctlClient* handle, Client& client, bool on) {
+  const unsigned interface = number_in(handle);
+  if (on) {
+    std::erase_if(clients_, [](const auto& one) {
+      return umockdev_ioctl_client_get_connected(one.first) == FALSE;
+    });
+    for (const auto& [other, state] : clients_)
+      if (other != handle && !state.gone && state.claimed.contains(interface))
+        return complete(handle, -1, EBUSY);
+    client.claimed.insert(interface);
+  } else {
+    client.claimed.erase(interface);
+  }
+  complete(handle, 0);
+}
+
+void UsbBoard::Impl::submit(UMockdevIoctlClient* handle, Client& client) {
+  Transfer transfer;
+  transfer.block = resolve(umockdev_ioctl_client_get_arg(handle), 0, sizeof(usbdevfs_urb));
+  if (!transfer.block) return complete(handle, -1, EFAULT);
+  transfer.buffer = resolve(transfer.block.get(), offsetof(usbdevfs_urb, buffer),
+                            static_cast<std::size_t>(transfer.urb().buffer_length));
+  if (!transfer.buffer) return complete(handle, -1, EFAULT);
+  complete(handle, 0);
+  const usbdevfs_urb& urb = transfer.urb();
+  if (urb.type == USBDEVFS_URB_TYPE_BULK && (urb.endpoint & 0x80) != 0) {
+    client.reading.push_back(std::move(transfer));
+    return;
+  }
+  if (urb.type == USBDEVFS_URB_TYPE_CONTROL) {
+    control(transfer);
+  } else {
+    const auto bytes = transfer.bytes();
+    firmware_->receive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, now());
+    transfer.finish(0, bytes.size());
+  }
+  client.finished.push_back(std::move(transfer));
+}
+
+void UsbBoard::Impl::control(const Transfer& transfer) {
+  constexpr std::size_t kSetup = 8;
+  const Setup setup = setup_from(transfer.bytes());
+  if ((setup.type & 0x80) != 0) {
+    const std::size_t length = answer(setup, transfer.bytes().subspan(kSetup));
+    return transfer.finish(length == 0 ? -EPIPE : 0, length);
+  }
+  if (const auto dtr = dtr_in(settings_.transport, setup)) {
+    if (*dtr && !dtr_) firmware_->restart(now());
+    dtr_ = *dtr;
+  }
+  transfer.finish(0, setup.length);
+}
+
+std::size_t UsbBoard::Impl::answer(const Setup& setup, std::span<std::uint8_t> bytes) {
+  if (setup.type != 0x80 || setup.request != 6 || setup.value >> 8 != 3) return 0;
+  const auto text = string_descriptor(setup.value & 0xff, settings_.serial);
+  const std::size_t length = std::min(text.size(), bytes.size());
+  std::copy_n(text.begin(), length, bytes.begin());
+  return length;
+}
+
+void UsbBoard::Impl::discard(UMockdevIoctlClient* handle, Client& client) {
+  // The argument is the address of the transfer that was submitted.
+  const auto block = resolve(umockdev_ioctl_client_get_arg(handle), 0, sizeof(usbdevfs_urb));
+  for (auto at = client.reading.begin(); block && at != client.reading.end(); ++at) {
+    if (at->block->client_addr != block->client_addr) continue;
+    at->finish(-ENOENT, 0);
+    client.finished.push_back(std::move(*at));
+    client.reading.erase(at);
+    return complete(handle, 0);
+  }
+  complete(handle, -1, EINVAL);
+}
+
+void UsbBoard::Impl::reap(UMockdevIoctlClient* handle, Client& client) {
+  client.waiting = share(handle);
+  client.waiting_until = now() + kHold;
+  deliver(client);
+}
+
+// A finished transfer to who asks for one; "none yet" when it has asked for long enough.
+void UsbBoard::Impl::deliver(Client& client) {
+  if (!client.waiting) return;
+  if (!client.finished.empty()) {
+    const auto slot =
+        resolve(umockdev_ioctl_client_get_arg(client.waiting.get()), 0, sizeof(void*));
+    umockdev_ioctl_data_set_ptr(slot.get(), 0, client.finished.front().block.get());
+    complete(client.waiting.get(), 0);
+    client.finished.pop_front();
+    client.waiting.reset();
+  } else if (client.gone || now() >= client.waiting_until) {
+    complete(client.waiting.get(), -1, client.gone ? ENODEV : EAGAIN);
+    client.waiting.reset();
+  }
+}
+
+void UsbBoard::Impl::hand_out(Client& client, double at) {
+  const bool status_due = settings_.transport == UsbTransport::kFtdi && at >= last_in_ + kFtdiIdle;
+  for (bool first = true; !client.reading.empty() && (!unread_.empty() || (first && status_due));
+       first = false) {
+    Transfer transfer = std::move(client.reading.front());
+    client.reading.pop_front();
+    const auto bytes = packets(settings_.transport, unread_, transfer.bytes().size());
+    std::copy(bytes.begin(), bytes.end(), transfer.bytes().begin());
+    transfer.finish(0, bytes.size());
+    client.finished.push_back(std::move(transfer));
+    last_in_ = at;
+  }
+}
+
+void UsbBoard::Impl::settle() {
+  const double at = now();
+  if (firmware_) {
+    firmware_->advance(at);
+    unread_ += firmware_->take_output();
+    if (unread_.size() > kMostUnread) unread_.erase(0, unread_.size() - kMostUnread);
+    const double table = base_ + firmware_->table(at);
+    if (table != std::exchange(table_, table)) events_.on_turn(table);
+    const bool laser = firmware_->laser();
+    if (laser != std::exchange(laser_, laser)) events_.on_laser(laser);
+  }
+  for (auto& [handle, client] : clients_) {
+    hand_out(client, at);
+    deliver(client);
+  }
+}
+
+double UsbBoard::Impl::next_event() const {
+  double next = firmware_ ? firmware_->next() : std::numeric_limits<double>::infinity();
+  for (const auto& [handle, client] : clients_) {
+    if (client.waiting) next = std::min(next, client.waiting_until);
+    if (!client.reading.empty() && settings_.transport == UsbTransport::kFtdi)
+      next = std::min(next, last_in_ + kFtdiIdle);
+  }
+  return next;
+}
+
+void UsbBoard::Impl::run() {
+  constexpr double kLong = 3600;
+  std::unique_lock lock(mutex_);
+  while (!closing_) {
+    settle();
+    const std::chrono::duration<double> until(std::min(next_event(), now() + kLong));
+    changed_.wait_until(lock, start_ + std::chrono::duration_cast<Clock::duration>(until));
+  }
+}
+
+void enter_testbed(char** argv) {
+  const char* set = std::getenv("LD_PRELOAD");
+  const std::string before = set != nullptr ? set : "";
+  if (before.find(kPreload) != std::string::npos) return;
+  ::setenv("LD_PRELOAD", (kPreload + (':' + before)).c_str(), 1);
+  ::execv("/proc/self/exe", argv);
+}
+
+UsbBoard::UsbBoard(UsbBoardEvents events) : impl_(std::make_unique<Impl>(std::move(events))) {}
+UsbBoard::~UsbBoard() = default;
+
+std::vector<std::string> UsbBoard::environment() const {
+  return impl_->environment();
+}
+Expected<void> UsbBoard::plug(const UsbBoardSettings& settings) {
+  return impl_->plug(settings);
+}
+void UsbBoard::unplug() {
+  impl_->unplug();
+}
+
+void UsbBoard::stall() {
+  impl_->change([](Firmware& firmware, std::string&) { firmware.stall(); });
+}
+
+void UsbBoard::babble(const std::string& bytes) {
+  impl_->change([&](Firmware&, std::string& unread) { unread += bytes; });
+}
+
+double UsbBoard::table() const {
+  return impl_->ask([](const Firmware*, double table) { return table; });
+}
+
+bool UsbBoard::laser() const {
+  return impl_->ask(
+      [](const Firmware* firmware, double) { return firmware != nullptr && firmware->laser(); });
+}
+
+bool UsbBoard::motor() const {
+  return impl_->ask(
+      [](const Firmware* firmware, double) { return firmware != nullptr && firmware->motor(); });
+}
+
+}  // namespace vitrine::rig

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/live_preview.h"
+
+#include <algorithm>
+
+namespace vitrine {
+namespace {
+
+int scale_for(int width) {
+  return std::max(1, (width + kPreviewWidth - 1) / kPreviewWidth);
+}
+
+// The brightest pixel of each square: a thin stripe stays visible.
+std::shared_ptr<const Frame> shrink(const Frame& frame, int scale) {
+  auto small = std::make_shared<Frame>();
+  small->width = frame.width / scale, small->height = frame.height / scale;
+  small->pixels.resize(std::size_t(small->width) * std::size_t(small->height));
+  for (int v = 0; v < small->height * scale; ++v) {
+    const auto row = frame.row(v);
+    std::uint8_t* out = small->pixels.data() + std::size_t(v / scale) * std::size_t(small->width);
+    for (int u = 0; u < small->width * scale; ++u)
+      out[u / scale] = std::max(out[u / scale], row[u]);
+  }
+  return small;
+}
+
+}  // namespace
+
+LivePreview::LivePreview(int steps)
+    : share_(std::max<std::size_t>(1, kCloudPoints / static_cast<std::size_t>(steps))) {}
+
+void LivePreview::show(const Frame& lit) {
+  const int scale = scale_for(lit.width);
+  auto small = shrink(lit, scale);
+  const std::lock_guard lock(mutex_);
+  frame_ = std::move(small), frame_scale_ = scale;
+}
+
+void LivePreview::add(const Profile& profile) {
+  const std::lock_guard lock(mutex_);
+  profile_ = profile;
+  const std::size_t stride = profile.points.size() / share_ + 1;
+  for (std::size_t i = 0; i < profile.points.size(); i += stride) {
+    const Vec3 p = position(profile, profile.points[i]);
+    cloud_.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+}
+
+ScanPreview LivePreview::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return {frame_, frame_scale_, profile_, cloud_.size()};
+}
+
+std::vector<std::array<float, 3>> LivePreview::cloud_from(std::size_t first) const {
+  const std::lock_guard lock(mutex_);
+  return {cloud_.begin() + static_cast<std::ptrdiff_t>(std::min(first, cloud_.size())),
+          cloud_.end()};
+}
+
+}  // namespace vitrine

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/live_scanner.h"
+
+#include <utility>
+
+namespace vitrine {
+
+Expected<LiveScanner> LiveScanner::open(const ScannerDevices& devices,
+                                        const CameraSettings& settings, EmergencyStop& stop) {
+  auto board = devices.open_board();
+  if (!board) return tl::unexpected(board.error());
+  auto camera = devices.open_camera();
+  if (!camera) return tl::unexpected(camera.error());
+  if (auto done = (*camera)->configure(settings); !done) return tl::unexpected(done.error());
+  return LiveScanner(std::move(*camera), std::move(*board), stop);
+}
+
+LiveScanner::LiveScanner(std::unique_ptr<Camera> camera, std::unique_ptr<Board> board,
+                         EmergencyStop& stop)
+    : camera_(std::move(camera)), board_(std::move(board)), stop_(&stop) {
+  stop.guard(board_.get());
+}
+
+LiveScanner::~LiveScanner() {
+  if (!board_) return;  // moved from
+  // Closing switches them off, too; an error has nobody left to be told.
+  (void)board_->laser(false);
+  (void)board_->rest();
+  stop_->guard(nullptr);
+}
+
+Expected<void> LiveScanner::find_position(double otherwise) {
+  const auto position = board_->position();
+  if (!position) return tl::unexpected(position.error());
+  return *position ? Expected<void>{} : board_->set_position(otherwise);
+}
+
+Expected<FramePair> LiveScanner::capture_pair() {
+  FramePair pair;
+  auto dark = capture();
+  if (!dark) return tl::unexpected(dark.error());
+  pair.dark = std::move(*dark);
+  if (auto on = board_->laser(true); !on) return tl::unexpected(on.error());
+  auto lit = capture();
+  if (!lit) return tl::unexpected(lit.error());
+  pair.lit = std::move(*lit);
+  if (auto off = board_->laser(false); !off) return tl::unexpected(off.error());
+  return pair;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/profile_journal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "codec/core/byte_cursor.h"
+#include "codec/core/sha256.h"
+#include "codec/files/atomic_file.h"
+#include "codec/files/read_file.h"
+
+namespace vitrine {
+namespace {
+
+// A record: kind, size of its body, body, and the first eight bytes of the SHA-256 of all these.
+constexpr std::uint32_t kProfile = 1, kTurn = 2;
+constexpr std::size_t kHeadBytes = 8, kChecksumBytes = 8, kPointBytes = 3 * 8 + 4 + 1;
+
+void put_checksum(std::vector<std::uint8_t>& record) {
+  const Sha256 digest = sha256(record);
+  record.insert(record.end(), digest.begin(), digest.begin() + kChecksumBytes);
+}
+
+bool has_checksum(std::span<const std::uint8_t> record) {
+  const auto content = record.first(record.size() - kChecksumBytes);
+  const Sha256 digest = sha256(content);
+  return std::equal(record.end() - kChecksumBytes, record.end(), digest.begin());
+}
+
+std::vector<std::uint8_t> body_of(const Profile& profile) {
+  ByteWriter out;
+  out.f64(profile.theta);
+  for (const ProfilePoint& point : profile.points) {
+    out.f64(point.at.rho), out.f64(point.at.lateral), out.f64(point.at.z);
+    out.u32(static_cast<std::uint32_t>(point.row));
+    out.u8(point.flags);
+  }
+  return out.take();
+}
+
+Profile profile_of(std::span<const std::uint8_t> body) {
+  ByteReader in(body);
+  Profile profile{.theta = in.f64(), .points = {}};
+  profile.points.resize(in.left() / kPointBytes);
+  for (ProfilePoint& point : profile.points) {
+    point.at.rho = in.f64(), point.at.lateral = in.f64(), point.at.z = in.f64();
+    point.row = static_cast<int>(in.u32());
+    point.flags = in.u8();
+  }
+  return profile;
+}
+
+// The next whole record's body, empty at the end or where it is torn.
+std::span<const std::uint8_t> next_record(std::span<const std::uint8_t> rest, std::uint32_t& kind) {
+  ByteReader in(rest);
+  kind = in.u32();
+  const std::uint32_t size = in.u32();
+  const auto body = in.bytes(size);
+  in.bytes(kChecksumBytes);
+  if (!in.ok() || !has_checksum(rest.first(in.position()))) return {};
+  return body;
+}
+
+Unexpected refused(const char* what, const std::filesystem::path& path, int error) {
+  return fail(ErrorCode::kIo, fmt::format("cannot {} {}: {}; {}", what, path.string(),
+                                          std::strerror(error), next_step(error)));
+}
+
+}  // namespace
+
+JournalContents read_journal(std::span<const std::uint8_t> file) {
+  JournalContents contents;
+  std::uint32_t kind = 0;
+  for (;;) {
+    const auto body = next_record(file.subspan(contents.bytes), kind);
+    if (kind == kProfile && body.size() >= 8 && (body.size() - 8) % kPointBytes == 0) {
+      contents.profiles.push_back(profile_of(body));
+    } else if (kind == kTurn && body.size() == 4) {
+      contents.stands_at = static_cast<int>(ByteReader(body).u32());
+    } else {
+      return contents;
+    }
+    contents.bytes += kHeadBytes + body.size() + kChecksumBytes;
+  }
+}
+
+Expected<ProfileJournal> ProfileJournal::open(const std::filesystem::path& path,
+                                              JournalContents& contents) {
+  ProfileJournal journal;
+  journal.path_ = path;
+  journal.file_ =
+      FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  if (!journal.file_) return refused("open", path, errno);
+  const auto bytes = read_file(path, kMaxJournalBytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  contents = read_journal(*bytes);
+  if (contents.bytes < bytes->size() &&
+      ::ftruncate(journal.file_.get(), static_cast<off_t>(contents.bytes)) != 0)
+    return refused("repair", path, errno);
+  if (auto synced = sync_folder(folder_of(path)); !synced) return tl::unexpected(synced.error());
+  return journal;
+}
+
+Expected<void> ProfileJournal::append(const Profile& profile) {
+  if (auto written = write(kProfile, body_of(profile)); !written) return written;
+  if (::fdatasync(file_.get()) != 0) return refused("write", path_, errno);
+  return {};
+}
+
+Expected<void> ProfileJournal::note_turn(int step) {
+  ByteWriter body;
+  body.u32(static_cast<std::uint32_t>(step));
+  return write(kTurn, body.take());
+}
+
+Expected<void> ProfileJournal::write(std::uint32_t kind, std::vector<std::uint8_t> body) {
+  ByteWriter out;
+  out.u32(kind);
+  out.u32(static_cast<std::uint32_t>(body.size()));
+  out.bytes(body);
+  std::vector<std::uint8_t> record = out.take();
+  put_checksum(record);
+  // One write: on a full disk a part of it may be there, which is then a torn record.
+  ssize_t n = 0;
+  do {
+    n = ::write(file_.get(), record.data(), record.size());
+  } while (n < 0 && errno == EINTR);
+  if (n == static_cast<ssize_t>(record.size())) return {};
+  return refused("write", path_, n < 0 ? errno : ENOSPC);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The profiles of a scan on disk: an append-only file of records, each with its checksum. A record
+// that a crash has torn is dropped when the file is read, with all that follows it: those steps are
+// scanned again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "acquisition/profile/profile.h"
+#include "codec/core/expected.h"
+#include "codec/files/file_descriptor.h"
+
+namespace vitrine {
+
+inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{4} << 30;
+
+struct JournalContents {
+  std::vector<Profile> profiles;  // of the steps 0, 1, 2, …
+  std::optional<int> stands_at;   // the step that the table was turned to last
+  std::size_t bytes = 0;          // of whole records; what follows is torn
+};
+
+JournalContents read_journal(std::span<const std::uint8_t> file);
+
+class ProfileJournal {
+ public:
+  // Reads what is there and goes on behind it; a missing file is created. Fails with kIo.
+  static Expected<ProfileJournal> open(const std::filesystem::path& path,
+                                       JournalContents& contents);
+
+  // The profile of the next step; on disk on return. After an error (kIo: a full disk) the file
+  // must be opened anew.
+  Expected<void> append(const Profile& profile);
+
+  // That the table has been turned to `step`. Survives the end of this process, and of the
+  // computer together with the next profile.
+  Expected<void> note_turn(int step);
+
+ private:
+  Expected<void> write(std::uint32_t kind, std::vector<std::uint8_t> body);
+
+  std::filesystem::path path_;
+  FileDescriptor file_;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/reprocess.h"
+
+#include <fmt/core.h>
+
+#include "acquisition/calibration/calibration_store.h"
+
+namespace vitrine {
+namespace {
+
+bool same_calibration(const ScanRecord& record, const Calibration& calibration) {
+  return calibration.camera == record.camera && calibration.region == record.settings.region;
+}
+
+Expected<void> measure_again(std::vector<Profile>& profiles, const ScanFolder& folder,
+                             const ScanRequest& request, const Calibration& calibration,
+                             const StripeOptions& stripe) {
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    const int step = static_cast<int>(i);
+    const auto frames = folder.frames(step);
+    if (!frames) return tl::unexpected(frames.error());
+    auto profile = measure_profile(*frames, calibration, stripe, angle_of(request, step));
+    if (!profile) return tl::unexpected(profile.error());
+    profiles[i] = std::move(*profile);
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<ScannedSurface> reprocess(const ScanFolder& folder,
+                                   const std::filesystem::path& calibrations,
+                                   const ReprocessOptions& options) {
+  const auto record = folder.record();
+  if (!record) return tl::unexpected(record.error());
+  const ScanRequest& request = (*record)->request;
+  const int number = options.calibration == 0 ? (*record)->calibration : options.calibration;
+  const auto calibration = CalibrationStore(calibrations).load(number);
+  if (!calibration) return tl::unexpected(calibration.error());
+  if (!same_calibration(**record, *calibration)) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("calibration {} is not of the camera and region of the scan; choose "
+                            "another",
+                            number));
+  }
+  auto profiles = folder.profiles();
+  if (!profiles) return tl::unexpected(profiles.error());
+  const bool other_points =
+      number != (*record)->calibration || options.processing.stripe != request.processing.stripe;
+  if (other_points && !request.keep_frames) {
+    return fail(ErrorCode::kState,
+                "the pictures of this scan were not kept, so its stripes cannot be found anew; "
+                "scan again and keep them");
+  }
+  if (other_points) {
+    if (auto measured =
+            measure_again(*profiles, folder, request, *calibration, options.processing.stripe);
+        !measured)
+      return tl::unexpected(measured.error());
+  }
+  return mesh_of(std::move(*profiles), *calibration, options.processing);
+}
+
+}  // namespace vitrine

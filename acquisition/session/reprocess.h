@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scan's mesh made anew, with other parameters or another calibration.
+#pragma once
+
+#include "acquisition/session/processing.h"
+#include "acquisition/session/scan_folder.h"
+
+namespace vitrine {
+
+struct ReprocessOptions {
+  Processing processing;
+  int calibration = 0;  // number; 0: the scan's own
+};
+
+// Of all steps that are on disk, also of a scan that was cancelled. Another way to find the stripe
+// and another calibration need the scan's pictures: fails (kState) where they were not kept.
+Expected<ScannedSurface> reprocess(const ScanFolder& folder,
+                                   const std::filesystem::path& calibrations,
+                                   const ReprocessOptions& options);
+
+}  // namespace vitrine

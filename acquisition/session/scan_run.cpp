@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/scan_run.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <utility>
+
+#include "acquisition/calibration/calibration_store.h"
+#include "acquisition/session/first_look.h"
+
+namespace vitrine {
+namespace {
+
+std::string now_as_text() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+std::string board_name(const BoardIdentity& board) {
+  return board.serial.empty() ? board.dialect : board.dialect + " " + board.serial;
+}
+
+Expected<void> same_camera(const ScanRecord& record, const LiveScanner& scanner) {
+  if (scanner.camera().serial == record.camera && scanner.region() == record.settings.region)
+    return {};
+  return fail(ErrorCode::kBadInput,
+              fmt::format("the scan was begun with camera {}, this is {} or another region of it; "
+                          "connect that camera or start a new scan",
+                          record.camera, scanner.camera().serial));
+}
+
+}  // namespace
+
+tl::unexpected<ScanRun::Setback> ScanRun::of_device(const Error& error) {
+  return tl::unexpected(Setback{error, error.code == ErrorCode::kIo});
+}
+
+tl::unexpected<ScanRun::Setback> ScanRun::of_scan(const Error& error) {
+  return tl::unexpected(Setback{error, false});
+}
+
+Expected<void> ScanRun::open_folder() {
+  JournalContents contents;
+  auto journal = ProfileJournal::open(means_.folder.journal(), contents);
+  if (!journal) return tl::unexpected(journal.error());
+  journal_ = std::move(*journal);
+  profiles_ = std::move(contents.profiles);
+  stands_at_ = contents.stands_at.value_or(0);
+  auto record = means_.folder.record();
+  if (!record) return tl::unexpected(record.error());
+  record_ = std::move(*record);
+  if (!record_) return {};
+  auto calibration = CalibrationStore(means_.scanner.calibrations).load(record_->calibration);
+  if (!calibration) return tl::unexpected(calibration.error());
+  calibration_ = std::move(*calibration);
+  return {};
+}
+
+Expected<void> ScanRun::run() {
+  if (auto opened = open_folder(); !opened) return opened;
+  int tries = 0;
+  while (steps_done() < means_.request.steps && !means_.watch.is_interrupted()) {
+    const int before = steps_done();
+    Outcome outcome = scan_on();
+    if (auto settled = settle(); !settled) outcome = of_scan(settled.error());
+    if (outcome) continue;
+    tries = steps_done() > before ? 1 : tries + 1;
+    // A scanner that has not worked yet is wrong rather than gone.
+    const bool may_come_back = outcome.error().is_device && is_checked_;
+    if (!may_come_back || tries > means_.patience.tries)
+      return tl::unexpected(outcome.error().error);
+    means_.watch.waits_for(outcome.error().error);
+    means_.watch.sleep(means_.patience.between);
+  }
+  return {};
+}
+
+ScanRun::Outcome ScanRun::scan_on() {
+  auto scanner = LiveScanner::open(means_.scanner.devices, settings(), means_.stop);
+  if (!scanner) return of_device(scanner.error());
+  if (auto prepared = prepare(*scanner); !prepared) return prepared;
+  for (int step = steps_done(); step < means_.request.steps; ++step) {
+    if (means_.watch.is_interrupted()) return {};
+    auto frames = take(*scanner, step);
+    if (!frames) return tl::unexpected(frames.error());
+    if (auto settled = settle(); !settled) return of_scan(settled.error());
+    measure(step, std::move(*frames));
+  }
+  return {};
+}
+
+CameraSettings ScanRun::settings() const {
+  if (record_) return record_->settings;
+  CameraSettings settings = means_.scanner.settings;
+  settings.exposure_us = means_.request.exposure_us.value_or(settings.exposure_us);
+  return settings;
+}
+
+ScanRun::Outcome ScanRun::prepare(LiveScanner& scanner) {
+  if (auto known = identify(scanner); !known) return of_scan(known.error());
+  if (auto found = scanner.find_position(angle_of(means_.request, stands_at_)); !found)
+    return of_device(found.error());
+  if (!is_checked_) {
+    if (auto seen = look(scanner); !seen) return seen;
+    if (auto begun = begin(scanner); !begun) return of_scan(begun.error());
+    is_checked_ = true;
+    means_.watch.checks_passed();
+  }
+  return {};
+}
+
+// The calibration that this camera is to be used with.
+Expected<void> ScanRun::identify(const LiveScanner& scanner) {
+  if (record_) return same_camera(*record_, scanner);
+  auto calibration = CalibrationStore(means_.scanner.calibrations)
+                         .for_camera(scanner.camera().serial, scanner.region());
+  if (!calibration) return tl::unexpected(calibration.error());
+  calibration_ = std::move(*calibration);
+  return {};
+}
+
+// An object may leave the laser plane at one angle: up to four tell whether it is there.
+ScanRun::Outcome ScanRun::look(LiveScanner& scanner) {
+  const int steps = means_.request.steps;
+  FirstLook seen(calibration_, means_.request.processing.stripe);
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    if (means_.watch.is_interrupted()) return {};
+    const int step = (steps_done() + quarter * steps / 4) % steps;
+    auto frames = take(scanner, step);
+    if (!frames) return tl::unexpected(frames.error());
+    means_.preview.show(frames->lit);
+    if (auto added = seen.add(*frames, angle_of(means_.request, step)); !added)
+      return of_scan(added.error());
+    if (seen.judgement()) return {};
+  }
+  return of_scan(seen.judgement().error());
+}
+
+Expected<void> ScanRun::begin(const LiveScanner& scanner) {
+  if (record_) return {};
+  ScanRecord record{.request = means_.request,
+                    .created = now_as_text(),
+                    .scanner = means_.scanner.name,
+                    .camera = scanner.camera().serial,
+                    .settings = settings(),
+                    .board = board_name(scanner.board()),
+                    .calibration = calibration_.number};
+  record.settings.region = scanner.region();
+  if (auto written = means_.folder.write_record(record); !written) return written;
+  record_ = std::move(record);
+  return {};
+}
+
+tl::expected<FramePair, ScanRun::Setback> ScanRun::take(LiveScanner& scanner, int step) {
+  if (auto turned = scanner.turn_to(angle_of(means_.request, step)); !turned)
+    return of_device(turned.error());
+  if (auto noted = journal_->note_turn(step); !noted) return of_scan(noted.error());
+  stands_at_ = step;
+  auto frames = scanner.capture_pair();
+  if (!frames) return of_device(frames.error());
+  return std::move(*frames);
+}
+
+void ScanRun::measure(int step, FramePair frames) {
+  pending_ = std::async(std::launch::async, [this, step, frames = std::move(frames)] {
+    return measure_and_store(step, frames);
+  });
+}
+
+Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
+  const ScanRequest& request = means_.request;
+  auto profile =
+      measure_profile(frames, calibration_, request.processing.stripe, angle_of(request, step));
+  if (!profile) return tl::unexpected(profile.error());
+  if (request.keep_frames) {
+    if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
+  }
+  if (auto stored = journal_->append(*profile); !stored) return stored;
+  means_.preview.show(frames.lit);
+  means_.preview.add(*profile);
+  fresh_ = std::move(*profile);
+  return {};
+}
+
+// The profile that is being worked on is on disk on return.
+Expected<void> ScanRun::settle() {
+  if (!pending_.valid()) return {};
+  if (auto stored = pending_.get(); !stored) return stored;
+  profiles_.push_back(std::move(fresh_));
+  means_.watch.step_done(steps_done());
+  return {};
+}
+
+}  // namespace vitrine

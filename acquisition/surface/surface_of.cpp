@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/surface/surface_of.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "acquisition/surface/close_holes.h"
+#include "acquisition/surface/cloud.h"
+#include "acquisition/surface/fill_gaps.h"
+#include "acquisition/surface/second_views.h"
+#include "acquisition/surface/smooth.h"
+#include "acquisition/surface/strays.h"
+#include "acquisition/surface/strip.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::size_t kFewestProfiles = 3;  // fewer have no turn to close
+constexpr double kNeighbourhood = 4;        // of s_max, as in eq. 5
+
+std::vector<Profile> without_strays(const Cloud& cloud, const Spacing& spacing,
+                                    const SurfaceOptions& options, SurfaceReport& report) {
+  const Strays strays =
+      find_strays(cloud, kNeighbourhood * spacing.largest, options.smallest_piece);
+  report.outliers = strays.outliers, report.isolated = strays.isolated;
+  return keep(cloud, strays.kept);
+}
+
+std::vector<Profile> without_second_views(const Cloud& cloud, const Spacing& spacing,
+                                          SurfaceReport& report) {
+  const std::vector<bool> kept = first_views(cloud, 2 * spacing.largest);
+  report.seen_twice = static_cast<std::uint64_t>(std::ranges::count(kept, false));
+  return keep(cloud, kept);
+}
+
+void sample_all(std::vector<Profile>& profiles, const SamplingOptions& options,
+                SurfaceReport& report) {
+  for (Profile& profile : profiles) {
+    profile = sample(profile, options);
+    report.sampled += profile.points.size();
+  }
+}
+
+void drop_unused(TriangleMesh& mesh) {
+  constexpr std::uint32_t kUnused = 0xFFFF'FFFF;
+  std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);
+  for (const Triangle& face : mesh.faces) {
+    for (const std::uint32_t v : face)
+      number[v] = 0;
+  }
+  std::uint32_t used = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kUnused) continue;
+    mesh.positions[used] = mesh.positions[v];
+    number[v] = used++;
+  }
+  mesh.positions.resize(used);
+  for (Triangle& face : mesh.faces) {
+    for (std::uint32_t& v : face)
+      v = number[v];
+  }
+}
+
+TriangleMesh mesh_of(const Cloud& cloud, const Spacing& spacing) {
+  TriangleMesh mesh{cloud.positions, {}, {}};
+  mesh.faces.reserve(2 * cloud.size());
+  for (std::size_t k = 0; k < cloud.profiles.size(); ++k)
+    add_strip(cloud, k, spacing, mesh.faces);
+  return mesh;
+}
+
+}  // namespace
+
+Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
+                                    const SurfaceOptions& options) {
+  ScannedSurface surface;
+  SurfaceReport& report = surface.report;
+  Cloud cloud({profiles.begin(), profiles.end()});
+  report.points = cloud.size();
+  if (profiles.size() < kFewestProfiles)
+    return fail(ErrorCode::kBadInput,
+                fmt::format("{} profiles make no surface: scan at least {} steps of a turn",
+                            profiles.size(), kFewestProfiles));
+  const Spacing spacing = spacing_of(cloud, options);
+  report.spacing = spacing.largest;
+  cloud = Cloud(without_strays(cloud, spacing, options, report));
+  cloud = Cloud(without_second_views(cloud, spacing, report));
+  for (Profile& profile : cloud.profiles)
+    report.filled += fill_gaps(profile, options.largest_hole, spacing);
+  report.smoothed = smooth(cloud.profiles, options.noise, spacing);
+  sample_all(cloud.profiles, options.sampling, report);
+  surface.mesh = mesh_of(Cloud(std::move(cloud.profiles)), spacing);
+  report.holes = close_holes(surface.mesh, options.largest_hole);
+  drop_unused(surface.mesh);
+  if (surface.mesh.faces.empty())
+    return fail(ErrorCode::kBadInput,
+                fmt::format("no surface: of {} points {} are outliers and {} isolated, and no "
+                            "neighbouring profiles join; scan with more steps or a higher exposure",
+                            report.points, report.outliers, report.isolated));
+  return surface;
+}
+
+}  // namespace vitrine

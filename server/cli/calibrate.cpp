@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/calibration/calibrate.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <optional>
+
+#include "acquisition/calibration/calibration_store.h"
+#include "acquisition/calibration/report.h"
+#include "acquisition/session/open_scanner.h"
+#include "acquisition/session/rig_link.h"
+#include "acquisition/session/target_pictures.h"
+#include "codec/files/atomic_file.h"
+#include "server/cli/command.h"
+#include "server/cli/console.h"
+#include "server/cli/stop_signals.h"
+
+namespace vitrine::cli {
+namespace {
+
+using nlohmann::json;
+
+Unexpected interrupted() {
+  return fail(ErrorCode::kState, "calibration was interrupted; run it again from the start");
+}
+
+// A line from stdin; nothing at its end.
+std::optional<std::string> read_line() {
+  std::string line;
+  for (char c = 0;;) {
+    const ssize_t n = ::read(STDIN_FILENO, &c, 1);
+    if (n < 0 && errno == EINTR && !StopSignals::arrived()) continue;
+    if (n <= 0) return std::nullopt;
+    if (c == '\n') return line;
+    line += c;
+  }
+}
+
+// Asks whoever is at the terminal.
+Expected<bool> ask_operator(int number) {
+  fmt::print(stderr,
+             "Place {}: put the target on the table or before it, in the laser's line, and press "
+             "Enter; or type \"done\" and Enter. ",
+             number + 1);
+  std::fflush(stderr);
+  const auto line = read_line();
+  if (StopSignals::arrived()) return interrupted();
+  if (!line) return fail(ErrorCode::kState, "nobody answers; run vitrine calibrate in a terminal");
+  return *line != "done";
+}
+
+// The simulated rig puts the target where it is told.
+Expected<CalibrationInput> picture_at_rig(const ScannerConfig& config, const Scanner& scanner,
+                                          const TargetPictureOptions& options,
+                                          const std::function<void(double)>& progress) {
+  auto rig = RigLink::connect(config.rig);
+  if (!rig) return tl::unexpected(rig.error());
+  const auto poses = rig->poses();
+  if (!poses) return tl::unexpected(poses.error());
+  const PlaceTarget place = [&](int number) -> Expected<bool> {
+    if (StopSignals::arrived()) return interrupted();
+    progress(static_cast<double>(number) / *poses);
+    if (number >= *poses) return false;
+    return rig->place_target(number).map([] { return true; });
+  };
+  EmergencyStop stop;
+  auto input = picture_target(scanner, config.target, place, stop, options);
+  const auto restored = rig->place_object();
+  if (input && !restored) return tl::unexpected(restored.error());
+  return input;
+}
+
+Expected<CalibrationInput> take_pictures(const ScannerConfig& config) {
+  const StopSignals signals;
+  const Scanner scanner = open_scanner(config);
+  TargetPictureOptions options;
+  if (config.rig.empty()) {
+    options.progress = [](int places, int pictures) {
+      print_note(fmt::format("{} places, {} pictures that show the target", places, pictures));
+    };
+    EmergencyStop stop;
+    return picture_target(scanner, config.target, ask_operator, stop, options);
+  }
+  ProgressBar bar;
+  const ProgressReport report = bar.report();
+  return picture_at_rig(config, scanner, options,
+                        [&](double share) { report("pictures of the target", share); });
+}
+
+std::string as_text(const Calibration& calibration, const CalibrationReport& report,
+                    const std::string& plot) {
+  const auto& [rms, p95, max] = calibration.residuals;
+  return fmt::format(
+      "calibration {} of camera {}: over held-out poses rms {:.4f} mm, p95 {:.4f} mm, max {:.4f} "
+      "mm\n{} pictures, {} points on the laser's line, polynomial of degree {}; covers {:.0f} % of "
+      "the picture\nresiduals: {}",
+      calibration.number, calibration.camera, rms, p95, max, report.pictures, report.points,
+      calibration.map.degree(), 100 * report.coverage.image_share, plot);
+}
+
+tl::expected<CalibrationOptions, Fault> options_of(const Arguments& arguments) {
+  CalibrationOptions options;
+  if (arguments.text("--degree") == "auto") {
+    options.degree = 0;
+    return options;
+  }
+  const auto degree = arguments.number("--degree", PlaneMap::kLeastDegree, PlaneMap::kMostDegree);
+  if (!degree) return arguments.wrong_value("--degree", "auto or 2 to 5");
+  if (*degree) options.degree = static_cast<int>(**degree);
+  return options;
+}
+
+Outcome run_calibrate(const Arguments& arguments) {
+  if (!arguments.has("--config")) return misused("--config is missing; name the scanner's file");
+  const auto options = options_of(arguments);
+  if (!options) return tl::unexpected(options.error());
+  const auto config = read_scanner_config(arguments.text("--config"));
+  if (!config) return failed(config.error());
+
+  const auto input = take_pictures(*config);
+  if (!input) return failed(input.error());
+  const auto calibrated = calibrate(*input, *options);
+  if (!calibrated) return failed(calibrated.error());
+  const auto stored = CalibrationStore(config->calibrations).add(calibrated->calibration);
+  if (!stored) return failed(stored.error());
+  const std::string svg = residual_plot(*stored, calibrated->report);
+  const std::string plot =
+      (config->calibrations / fmt::format("{:04}.svg", stored->number)).string();
+  const auto written =
+      write_file_atomically(plot, {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()});
+  if (!written) return failed(written.error());
+  if (!arguments.has("--json")) return print(as_text(*stored, calibrated->report, plot));
+  json object = json::parse(report_json(*stored, calibrated->report), nullptr, false);
+  object.update({{"rms", stored->residuals.rms},  // mm, over held-out poses
+                 {"p95", stored->residuals.p95},
+                 {"max", stored->residuals.max},
+                 {"residual_plot", plot}});
+  return print_json(object);
+}
+
+constexpr Flag kCalibrateFlags[] = {
+    {"--config", "rig.json", "the scanner"},
+    {"--degree", "auto|2..5", "of the polynomial (default 3); auto: the best over held-out poses"},
+    {"--json", "", "print one JSON object"}};
+
+}  // namespace
+
+const Command kCalibrate = {"calibrate",
+                            "Calibrates a scanner by its target; prints the error in mm.",
+                            {},
+                            kCalibrateFlags,
+                            run_calibrate};
+
+}  // namespace vitrine::cli

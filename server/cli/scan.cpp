@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/scan.h"
+
+#include <fmt/format.h>
+
+#include "acquisition/session/open_scanner.h"
+#include "codec/export/write_mesh.h"
+#include "codec/files/atomic_file.h"
+#include "server/cli/command.h"
+#include "server/cli/console.h"
+#include "server/cli/stop_signals.h"
+
+namespace vitrine::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kRequestFlags[] = {"--steps", "--sampling", "--length", "--exposure",
+                                              "--keep-frames"};
+
+tl::expected<ScanRequest, Fault> request_of(const Arguments& arguments,
+                                            const ScannerConfig& config) {
+  constexpr std::string_view kSamplings[] = {"adaptive", "paper", "equidistant"};
+  constexpr SamplingMethod kMethods[] = {SamplingMethod::kAdaptive, SamplingMethod::kPaper,
+                                         SamplingMethod::kEquidistant};
+  constexpr std::string_view kLengths[] = {"5", "10", "15", "20"};
+  const auto steps = arguments.number("--steps", kLeastSteps, kMostSteps);
+  if (!steps) return tl::unexpected(steps.error());
+  const auto sampling = arguments.choice("--sampling", kSamplings);
+  if (!sampling) return tl::unexpected(sampling.error());
+  const auto length = arguments.choice("--length", kLengths);
+  if (!length) return tl::unexpected(length.error());
+  const auto exposure =
+      arguments.number("--exposure", 1, static_cast<std::uint64_t>(kMostExposure));
+  if (!exposure) return tl::unexpected(exposure.error());
+  ScanRequest request;
+  request.steps = static_cast<int>(steps->value_or(static_cast<std::uint64_t>(config.steps)));
+  request.processing.sampling.method = kMethods[*sampling];
+  request.processing.sampling.window = 5 * (static_cast<int>(*length) + 1);
+  if (*exposure) request.exposure_us = static_cast<double>(**exposure);
+  request.keep_frames = arguments.has("--keep-frames");
+  return request;
+}
+
+tl::expected<std::unique_ptr<Scan>, Fault> open_scan(const Arguments& arguments,
+                                                     const ScannerConfig& config,
+                                                     const std::string& folder) {
+  const auto request = request_of(arguments, config);
+  if (!request) return tl::unexpected(request.error());
+  auto scan = arguments.has("--resume") ? Scan::reopen(open_scanner(config), folder)
+                                        : Scan::create(open_scanner(config), *request, folder);
+  if (!scan) return failed(scan.error());
+  return std::move(*scan);
+}
+
+// Shows how far it is until it comes to rest. A signal pauses it.
+ScanStatus follow(Scan& scan) {
+  ProgressBar bar;
+  const ProgressReport report = bar.report();
+  std::string note;
+  for (;;) {
+    constexpr std::chrono::milliseconds kLook{100};
+    const ScanStatus status = scan.wait(kLook);
+    if (!is_running(status.state)) return status;
+    if (StopSignals::arrived()) (void)scan.pause();  // one that meshes ends by itself
+    if (!status.note.empty() && status.note != note) print_note(status.note);
+    note = status.note;
+    report(name_of(status.state), status.progress);
+  }
+}
+
+Outcome unfinished(const Scan& scan, const ScanStatus& status) {
+  const auto record = scan.folder().record();
+  if (record && !*record) {  // nothing was measured that --resume could go on with
+    std::error_code ignored;
+    std::filesystem::remove_all(scan.folder().path(), ignored);
+  }
+  if (status.state == ScanState::kFailed) return failed(*status.error);
+  return failed(fmt::format("the scan is {} after step {} of {}; {}", name_of(status.state),
+                            status.steps_done, status.steps,
+                            record && !*record ? "start it again" : "go on with --resume"));
+}
+
+json describe(const Scan& scan, const ScanRecord& record, const std::string& out) {
+  const auto surface = scan.surface();
+  const SurfaceReport& report = surface->report;
+  return {{"out", out},
+          {"steps", record.request.steps},
+          {"camera", record.camera},
+          {"calibration", record.calibration},
+          {"vertices", surface->mesh.positions.size()},
+          {"faces", surface->mesh.faces.size()},
+          {"points",
+           {{"measured", report.points},
+            {"outliers", report.outliers},
+            {"isolated", report.isolated},
+            {"filled", report.filled}}},
+          {"spacing", report.spacing}};
+}
+
+std::string as_text(const json& r) {
+  return fmt::format("{}: {} vertices, {} faces from {} points in {} steps, calibration {}",
+                     r["out"].get<std::string>(), r["vertices"].get<std::uint64_t>(),
+                     r["faces"].get<std::uint64_t>(), r["points"]["measured"].get<std::uint64_t>(),
+                     r["steps"].get<int>(), r["calibration"].get<int>());
+}
+
+Outcome write_surface(const Scan& scan, MeshFormat format, const std::string& out) {
+  const auto file = write_mesh(scan.surface()->mesh, format, "mm");
+  if (!file) return failed(file.error());
+  if (const auto written = write_file_atomically(out, *file); !written)
+    return failed(written.error());
+  return {};
+}
+
+Outcome check_usage(const Arguments& arguments) {
+  if (!arguments.has("--config")) return misused("--config is missing; name the scanner's file");
+  if (!arguments.has("-o")) return misused("-o is missing; name the mesh to write");
+  for (const std::string_view flag : kRequestFlags) {
+    if (arguments.has("--resume") && arguments.has(flag)) {
+      return misused(
+          fmt::format("{} was chosen when the scan began; leave it out with --resume", flag));
+    }
+  }
+  return {};
+}
+
+Outcome run_scan(const Arguments& arguments) {
+  if (auto right = check_usage(arguments); !right) return right;
+  const std::string out = arguments.text("-o"), folder = out + ".scan";
+  const auto format = format_of_extension(std::filesystem::path(out).extension().string());
+  if (!format) return misused("the output's name must end in .ply or that of another mesh format");
+  const auto config = read_scanner_config(arguments.text("--config"));
+  if (!config) return failed(config.error());
+  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
+
+  const StopSignals signals;
+  auto scan = open_scan(arguments, *config, folder);
+  if (!scan) return tl::unexpected(scan.error());
+  if (auto started = (*scan)->resume(); !started) return failed(started.error());
+  const ScanStatus status = follow(**scan);
+  if (status.state != ScanState::kDone) return unfinished(**scan, status);
+  if (auto written = write_surface(**scan, *format, out); !written) return written;
+  const auto record = (*scan)->folder().record();
+  if (!record || !*record) return failed("the scan's record is gone; scan again");
+  const json report = describe(**scan, **record, out);
+  const bool keep = (*record)->request.keep_frames;
+  scan->reset();
+  std::error_code ignored;  // what is left of a scan that is done harms nobody
+  if (!keep) std::filesystem::remove_all(folder, ignored);
+  return arguments.has("--json") ? print_json(report) : print(as_text(report));
+}
+
+constexpr Flag kScanFlags[] = {
+    {"--config", "rig.json", "the scanner; it must be calibrated"},
+    {"-o", "OUT.ply", "the mesh to write, in mm"},
+    {"--steps", "N", "of one turn of the table (default: the scanner's)"},
+    {"--sampling", "adaptive|paper|equidistant", "of each profile (default adaptive)"},
+    {"--length", "5|10|15|20", "points that become one, about (default 5)"},
+    {"--exposure", "US", "microseconds (default: the scanner's)"},
+    {"--keep-frames", "", "keep OUT.ply.scan with all pictures"},
+    {"--resume", "", "go on with the scan in OUT.ply.scan; it is there until it is done"},
+    {"--json", "", "print one JSON object"}};
+
+}  // namespace
+
+const Command kScan = {"scan", "Scans the object on a scanner's table.", {}, kScanFlags, run_scan};
+
+}  // namespace vitrine::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jobs, scans and scanners as the API shows them, and what their handlers share.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "server/http/problem.h"
+#include "server/http/query.h"
+#include "server/http/router.h"
+#include "server/http/services.h"
+
+namespace vitrine {
+
+nlohmann::ordered_json job_json(const JobStatus& job);
+nlohmann::ordered_json scan_json(const ScanInfo& scan);
+nlohmann::ordered_json scanner_json(const ScannerStatus& scanner);
+
+// What changes all the time is not kept by anybody.
+Response json_answer(const nlohmann::ordered_json& json, unsigned status = 200);
+
+// 409 for kState, 422 for kBadInput, 500 with the reason in the log for all else.
+Response refused(const Error& error, const Request& request, Services& services);
+
+// The request's Idempotency-Key, of its caller alone, and what it is about; nothing without one.
+// The error is the answer.
+tl::expected<std::optional<OnceKey>, Response> once_key(const Request& request);
+
+// ?limit= &cursor= of a list; the errors name the parameter.
+tl::expected<PageOf, std::vector<ParameterFault>> read_page(const Query& query);
+
+// 401: somebody with a token may.
+Response token_needed(const Request& request);
+
+}  // namespace vitrine

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "server/http/event_source.h"
+#include "server/http/handlers.h"
+#include "server/http/job_json.h"
+#include "server/http/published.h"
+#include "server/http/query.h"
+
+namespace vitrine {
+namespace {
+
+// A job as events, from now to its end.
+class JobEvents final : public EventSource {
+ public:
+  JobEvents(JobStatus first, std::shared_ptr<const JobRun> run)
+      : newest_(std::move(first)), run_(std::move(run)) {}
+
+  std::optional<Event> next() override {
+    if (run_) newest_ = run_->status();
+    if (told_ == newest_) return std::nullopt;
+    told_ = newest_;
+    return Event{"job",
+                 job_json(newest_).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+  }
+  bool ended() const override { return told_ && has_ended(told_->record.state); }
+
+ private:
+  JobStatus newest_;
+  std::optional<JobStatus> told_;
+  const std::shared_ptr<const JobRun> run_;
+};
+
+bool is_readable(const JobRecord& job, const Request& request, Services& services) {
+  if (request.caller) return true;
+  if (!job.scan) return false;
+  const auto scan = services.scans.find(*job.scan);
+  return scan && *scan && (*scan)->entry.is_public;
+}
+
+// Calls `answer(job)` with the request's job, or answers 401, 404 or 500.
+template <class Answer>
+Response with_job(const Request& request, Services& services, Answer&& answer) {
+  const auto job = services.scans.jobs().find(request.parameters.id);
+  if (!job) return internal_error(job.error(), request, services);
+  if (*job && is_readable((*job)->record, request, services)) return answer(**job);
+  if (!request.caller) return token_needed(request);  // which jobs there are is nobody's business
+  return problem(404, "there is no such job", request.id);
+}
+
+}  // namespace
+
+Response list_jobs(const Request& request, Services& services) {
+  const auto query = Query::parse(request.query);
+  if (!query) return problem(400, "the query is malformed", request.id);
+  const auto page = read_page(*query);
+  if (!page) return problem(400, "a parameter is out of range", request.id, page.error());
+  const auto jobs = services.scans.jobs().list(*page);
+  if (!jobs) return internal_error(jobs.error(), request, services);
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const JobStatus& job : *jobs)
+    list.push_back(job_json(job));
+  const bool may_go_on = jobs->size() == page->limit;
+  nlohmann::ordered_json json = {{"jobs", std::move(list)}, {"next", nullptr}};
+  if (may_go_on) json["next"] = jobs->back().record.id.to_string();
+  return json_answer(json);
+}
+
+Response show_job(const Request& request, Services& services) {
+  return with_job(request, services,
+                  [](const JobStatus& job) { return json_answer(job_json(job)); });
+}
+
+Response cancel_job(const Request& request, Services& services) {
+  return with_job(request, services, [&](const JobStatus& job) {
+    const auto cancelled = services.scans.jobs().cancel(job.record.id);
+    if (!cancelled) return refused(cancelled.error(), request, services);
+    return json_answer(job_json(*cancelled), 202);  // it ends at its next step
+  });
+}
+
+Response show_job_events(const Request& request, Services& services) {
+  return with_job(request, services, [&](const JobStatus& job) {
+    Response response;
+    response.type = "text/event-stream";
+    response.events = std::make_shared<JobEvents>(job, services.scans.jobs().run(job.record.id));
+    return response;
+  });
+}
+
+}  // namespace vitrine

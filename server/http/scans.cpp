@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "server/http/handlers.h"
+#include "server/http/job_json.h"
+#include "server/http/published.h"
+#include "server/http/query.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::size_t kMaxPoints = 250'000;  // of one answer
+
+Response invalid(const FieldFaults& faults, const Request& request) {
+  std::vector<ParameterFault> errors;
+  for (const FieldFault& fault : faults)
+    errors.push_back({fault.field, fault.detail});
+  return problem(422, "a field of the body is missing, unknown or out of range", request.id,
+                 errors);
+}
+
+// Calls `answer(scan)` with the request's scan, or answers 401, 404 or 500.
+template <class Answer>
+Response with_scan(const Request& request, Services& services, Answer&& answer) {
+  const auto scan = services.scans.find(request.parameters.id);
+  if (!scan) return internal_error(scan.error(), request, services);
+  if (*scan && (request.caller || (*scan)->entry.is_public)) return answer(**scan);
+  if (!request.caller) return token_needed(request);  // which scans there are is nobody's business
+  return problem(404, "there is no such scan", request.id);
+}
+
+Response started(const ScanStarted& scan) {
+  Response response =
+      json_answer({{"id", scan.scan.to_string()}, {"job", scan.job.to_string()}}, 202);
+  response.fields = {{"Location", "/api/v1/jobs/" + scan.job.to_string()}};
+  return response;
+}
+
+Response state_after(const Expected<void>& done, const ScanId& id, const Request& request,
+                     Services& services) {
+  if (!done) return refused(done.error(), request, services);
+  const auto scan = services.scans.find(id);
+  if (!scan || !*scan) return problem(404, "there is no such scan", request.id);
+  return json_answer(scan_json(**scan), 202);  // it takes effect at the next step
+}
+
+std::optional<std::size_t> read_from(const Query& query) {
+  const auto text = query.get("from");
+  if (!text) return 0;
+  std::size_t from = 0;
+  const auto [end, fault] = std::from_chars(text->data(), text->data() + text->size(), from);
+  if (fault != std::errc{} || end != text->data() + text->size()) return std::nullopt;
+  return from;
+}
+
+std::string little_endian(std::span<const std::array<float, 3>> points) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string bytes(points.size_bytes(), '\0');
+  std::memcpy(bytes.data(), points.data(), points.size_bytes());
+  return bytes;
+}
+
+}  // namespace
+
+Response start_scan(const Request& request, Services& services) {
+  const auto order = parse_scan_order(request.body);
+  if (!order) return invalid(order.error(), request);
+  if (services.scans.scanner(order->scanner) == nullptr)
+    return invalid({{"scanner", "the name of one of /api/v1/scanners"}}, request);
+  const auto once = once_key(request);
+  if (!once) return once.error();
+  const auto scan = services.scans.scan(*order, *once);
+  return scan ? started(*scan) : refused(scan.error(), request, services);
+}
+
+Response list_scans(const Request& request, Services& services) {
+  const auto query = Query::parse(request.query);
+  if (!query) return problem(400, "the query is malformed", request.id);
+  const auto page = read_page(*query);
+  if (!page) return problem(400, "a parameter is out of range", request.id, page.error());
+  const auto scans = services.scans.list(*page);
+  if (!scans) return internal_error(scans.error(), request, services);
+  auto list = nlohmann::ordered_json::array();
+  for (const ScanInfo& scan : *scans)
+    list.push_back(scan_json(scan));
+  nlohmann::ordered_json json = {{"scans", std::move(list)}, {"next", nullptr}};
+  if (scans->size() == page->limit) json["next"] = scans->back().entry.id.to_string();
+  return json_answer(json);
+}
+
+Response show_scan(const Request& request, Services& services) {
+  return with_scan(request, services,
+                   [](const ScanInfo& scan) { return json_answer(scan_json(scan)); });
+}
+
+Response show_points(const Request& request, Services& services) {
+  return with_scan(request, services, [&](const ScanInfo& scan) {
+    const auto query = Query::parse(request.query);
+    const auto from = query ? read_from(*query) : std::nullopt;
+    if (!from)
+      return problem(400, "a parameter is out of range", request.id,
+                     {{"from", "a whole number, 0 or more"}});
+    const auto view = services.scans.view(scan.entry);
+    if (!view) return refused(view.error(), request, services);
+    Response response;
+    response.type = "application/octet-stream";
+    if (*view) {
+      auto points = (*view)->points_from(*from);
+      points.resize(std::min(points.size(), kMaxPoints));
+      response.body = little_endian(points);
+    }
+    return response;
+  });
+}
+
+Response show_profile(const Request& request, Services& services) {
+  return with_scan(request, services, [&](const ScanInfo& scan) {
+    const auto view = services.scans.view(scan.entry);
+    if (!view) return refused(view.error(), request, services);
+    auto points = nlohmann::ordered_json::array();
+    if (*view) points = (*view)->profile();
+    return json_answer(points);
+  });
+}
+
+Response pause_scan(const Request& request, Services& services) {
+  return with_scan(request, services, [&](const ScanInfo& scan) {
+    return state_after(services.scans.pause(scan.entry), scan.entry.id, request, services);
+  });
+}
+
+Response resume_scan(const Request& request, Services& services) {
+  return with_scan(request, services, [&](const ScanInfo& scan) {
+    return state_after(services.scans.resume(scan.entry), scan.entry.id, request, services);
+  });
+}
+
+Response reprocess_scan(const Request& request, Services& services) {
+  return with_scan(request, services, [&](const ScanInfo& scan) {
+    const auto before = ScanService::order_of(scan.entry);
+    if (!before) return refused(before.error(), request, services);
+    const auto order = parse_reprocess_order(request.body, *before);
+    if (!order) return invalid(order.error(), request);
+    const auto once = once_key(request);
+    if (!once) return once.error();
+    const auto job = services.scans.reprocess(scan.entry, *order, *once);
+    return job ? started(*job) : refused(job.error(), request, services);
+  });
+}
+
+}  // namespace vitrine

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/job_queue.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "server/jobs/clock.h"
+
+namespace vitrine {
+namespace {
+
+// Jobs that need no device share a lane.
+std::string lane_name(const JobRecord& job) {
+  return job.kind == JobKind::kReprocess ? "" : job.scanner;
+}
+
+Unexpected stopping() {
+  return fail(ErrorCode::kState, "the daemon is stopping; try again later");
+}
+
+Unexpected not_now(const JobRecord& job, std::string_view what) {
+  return fail(ErrorCode::kState,
+              fmt::format("job {} {}; look at its state", job.id.to_string(), what));
+}
+
+}  // namespace
+
+JobStatus JobRun::status() const {
+  const std::scoped_lock lock(mutex_);
+  return status_;
+}
+
+JobWish JobRun::wish() const {
+  const std::scoped_lock lock(mutex_);
+  return wish_;
+}
+
+void JobRun::when_asked(std::function<void()> react) {
+  const std::scoped_lock lock(mutex_);
+  react_ = std::move(react);
+  if (react_ && wish_ != JobWish::kNone) react_();
+}
+
+void JobRun::ask(JobWish wish) {
+  const std::scoped_lock lock(mutex_);
+  // Nothing takes a cancellation back, and what is paused stays so when the daemon ends.
+  if (wish_ == JobWish::kCancel || (wish_ == JobWish::kPause && wish == JobWish::kStop)) return;
+  wish_ = wish;
+  if (react_ && wish != JobWish::kNone) react_();
+}
+
+void JobRun::report(std::string_view stage, double progress, std::optional<double> eta) {
+  std::optional<JobRecord> entered;
+  {
+    const std::scoped_lock lock(mutex_);
+    const bool is_new = status_.record.stage != stage;
+    status_.record.stage = stage;
+    status_.record.progress = progress;
+    status_.eta = eta;
+    if (is_new) entered = status_.record;
+  }
+  if (entered) entered_stage_(*entered);
+}
+
+void JobRun::made(const ModelId& model) {
+  const std::scoped_lock lock(mutex_);
+  status_.record.model = model;
+}
+
+JobQueue::JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task)
+    : catalogue_(catalogue), events_(events), task_(std::move(task)) {}
+
+Expected<void> JobQueue::start() {
+  const auto left = catalogue_.unfinished_jobs();
+  if (!left) return Unexpected(left.error());
+  const std::scoped_lock lock(mutex_);
+  for (const JobRecord& job : *left)
+    take_up(job);
+  return {};
+}
+
+void JobQueue::stop() {
+  std::map<std::string, std::unique_ptr<Lane>> lanes;
+  {
+    const std::scoped_lock lock(mutex_);
+    stopping_ = true;
+    for (const auto& [id, run] : runs_)
+      run->ask(JobWish::kStop);
+    lanes.swap(lanes_);
+  }
+  for (const auto& [name, lane] : lanes)
+    lane->finish();
+}
+
+void JobQueue::take_up(const JobRecord& job) {
+  const Run run = std::make_shared<JobRun>(job);
+  // Not at every step: each change of the catalogue makes visitors' caches ask anew.
+  run->entered_stage_ = [this](const JobRecord& now) { store(now); };
+  runs_[job.id] = run;
+  if (job.state != JobState::kPaused) post(run);
+}
+
+void JobQueue::post(const Run& run) {
+  set_state(run, JobState::kQueued);
+  lane_of(lane_name(run->job())).post([this, run] { work(run); });
+}
+
+Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<ScanEntry>& scan,
+                                  const std::optional<OnceKey>& once) {
+  const std::scoped_lock lock(mutex_);
+  if (once) {
+    const auto earlier = catalogue_.find_once(once->key);
+    if (!earlier) return Unexpected(earlier.error());
+    if (*earlier && (*earlier)->request != once->request) {
+      return fail(ErrorCode::kBadInput,
+                  "the key was used for another request; give each request a key of its own");
+    }
+    if (*earlier) {
+      const auto found = catalogue_.find_job((*earlier)->job);
+      if (!found) return Unexpected(found.error());
+      return **found;
+    }
+  }
+  if (stopping_) return stopping();
+  if (job.kind != JobKind::kReprocess) {
+    if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
+  }
+  if (auto added = catalogue_.add(job, scan, once); !added) return Unexpected(added.error());
+  take_up(job);
+  return job;
+}
+
+Expected<void> JobQueue::check_free(const std::string& scanner) const {
+  const Run busy = run_of(scanner);
+  if (!busy) return {};
+  return fail(ErrorCode::kState,
+              fmt::format("scanner {} is busy with job {}; wait for its end or cancel it", scanner,
+                          busy->job().id.to_string()));
+}
+
+Expected<void> JobQueue::post_command(const std::string& scanner, std::function<void()> command) {
+  const std::scoped_lock lock(mutex_);
+  if (stopping_) return stopping();
+  if (auto is_free = check_free(scanner); !is_free) return is_free;
+  lane_of(scanner).post(std::move(command));
+  return {};
+}
+
+Expected<JobQueue::Run> JobQueue::unfinished(const JobId& id) const {
+  const auto found = runs_.find(id);
+  if (found != runs_.end()) return found->second;
+  return fail(ErrorCode::kState, fmt::format("job {} has ended; start another", id.to_string()));
+}
+
+JobQueue::Run JobQueue::run_of(const std::string& scanner) const {
+  for (const auto& [id, run] : runs_) {
+    const JobRecord job = run->job();
+    if (job.kind != JobKind::kReprocess && job.scanner == scanner) return run;
+  }
+  return nullptr;
+}
+
+std::shared_ptr<const JobRun> JobQueue::run(const JobId& id) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = runs_.find(id);
+  return found == runs_.end() ? nullptr : found->second;
+}
+
+std::optional<JobStatus> JobQueue::job_of(const std::string& scanner) const {
+  const std::scoped_lock lock(mutex_);
+  const Run run = run_of(scanner);
+  return run ? std::optional(run->status()) : std::nullopt;
+}
+
+void JobQueue::set_state(const Run& run, JobState state) {
+  {
+    const std::scoped_lock lock(run->mutex_);
+    run->status_.record.state = state;
+    run->status_.eta.reset();
+    if (state == JobState::kQueued) run->wish_ = JobWish::kNone;
+    if (has_ended(state)) run->status_.record.ended = now_in_milliseconds();
+    if (state == JobState::kDone) run->status_.record.progress = 1;
+  }
+  const JobRecord job = run->job();
+  if (has_ended(state)) runs_.erase(job.id);
+  store(job);
+}
+
+Expected<JobStatus> JobQueue::pause(const JobId& id) {
+  const std::scoped_lock lock(mutex_);
+  const auto run = unfinished(id);
+  if (!run) return Unexpected(run.error());
+  const JobRecord job = (*run)->job();
+  if (job.state == JobState::kPaused) return not_now(job, "is paused already");
+  if (job.state == JobState::kQueued) set_state(*run, JobState::kPaused);
+  if (job.state == JobState::kRunning) (*run)->ask(JobWish::kPause);
+  return (*run)->status();
+}
+
+Expected<JobStatus> JobQueue::resume(const JobId& id) {
+  const std::scoped_lock lock(mutex_);
+  const auto run = unfinished(id);
+  if (!run) return Unexpected(run.error());
+  const JobRecord job = (*run)->job();
+  if (job.state != JobState::kPaused) return not_now(job, "is not paused");
+  if (stopping_) return stopping();
+  post(*run);
+  return (*run)->status();
+}
+
+Expected<JobStatus> JobQueue::cancel(const JobId& id) {
+  const std::scoped_lock lock(mutex_);
+  const auto run = unfinished(id);
+  if (!run) return Unexpected(run.error());
+  if ((*run)->job().state == JobState::kRunning) {
+    (*run)->ask(JobWish::kCancel);
+  } else {
+    set_state(*run, JobState::kCancelled);
+  }
+  return (*run)->status();
+}
+
+Expected<std::optional<JobStatus>> JobQueue::find(const JobId& id) {
+  if (const auto unfinished = run(id)) return unfinished->status();
+  const auto stored = catalogue_.find_job(id);
+  if (!stored) return Unexpected(stored.error());
+  if (!*stored) return std::nullopt;
+  return JobStatus{**stored, std::nullopt};
+}
+
+Expected<std::vector<JobStatus>> JobQueue::list(const PageOf& page) {
+  const auto stored = catalogue_.jobs(page);
+  if (!stored) return Unexpected(stored.error());
+  std::vector<JobStatus> jobs;
+  for (const JobRecord& job : *stored) {
+    const auto now = find(job.id);
+    if (!now) return Unexpected(now.error());
+    if (*now) jobs.push_back(**now);
+  }
+  return jobs;
+}
+
+Lane& JobQueue::lane(const std::string& scanner) {
+  const std::scoped_lock lock(mutex_);
+  return lane_of(scanner);
+}
+
+Lane& JobQueue::lane_of(const std::string& name) {
+  auto& lane = lanes_[name];
+  if (!lane) lane = std::make_unique<Lane>();
+  return *lane;
+}
+
+void JobQueue::work(const Run& run) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (stopping_ || run->job().state != JobState::kQueued) return;
+    set_state(run, JobState::kRunning);
+  }
+  Expected<JobEnd> result = JobEnd::kDone;
+  try {
+    result = task_(*run);
+  } catch (const std::exception& fault) {  // out of memory: this job ends, the daemon goes on
+    result = fail(ErrorCode::kIo, fault.what());
+  }
+  run->when_asked({});
+  end(run, result);
+}
+
+void JobQueue::end(const Run& run, const Expected<JobEnd>& result) {
+  const std::scoped_lock lock(mutex_);
+  const JobWish wish = run->wish();
+  if (result && *result == JobEnd::kDone) return set_state(run, JobState::kDone);
+  if (wish == JobWish::kCancel) return set_state(run, JobState::kCancelled);
+  if (wish == JobWish::kPause) return set_state(run, JobState::kPaused);
+  if (wish == JobWish::kStop)
+    return set_state(run, JobState::kQueued);  // goes on at the next start
+  {
+    const std::scoped_lock inner(run->mutex_);
+    run->status_.record.error = result ? "the job was put aside unasked" : result.error().message;
+  }
+  set_state(run, JobState::kFailed);
+}
+
+void JobQueue::store(const JobRecord& job) {
+  const auto stored = catalogue_.update(job);
+  if (!stored) events_.event(Severity::kError, stored.error().message);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jobs and their states. Each scanner has a lane of its own and at most one unfinished job; what
+// needs no scanner shares another lane and waits there. All is in the catalogue, so that a daemon
+// that died goes on where it was.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/catalogue/jobs.h"
+#include "server/jobs/lane.h"
+#include "server/log/log.h"
+
+namespace vitrine {
+
+// What somebody wants of a job that runs.
+enum class JobWish : std::uint8_t {
+  kNone,
+  kPause,   // to put it aside, until it is resumed
+  kCancel,  // to end it; what is done stays
+  kStop,    // to put it aside, because the daemon ends
+};
+
+enum class JobEnd : std::uint8_t { kDone, kPutAside };  // the latter where a wish asked for it
+
+struct JobStatus {
+  JobRecord record;
+  std::optional<double> eta;  // seconds
+
+  bool operator==(const JobStatus&) const = default;
+};
+
+// A job as its task sees it. Thread-safe.
+class JobRun {
+ public:
+  explicit JobRun(JobRecord job) : status_{std::move(job), std::nullopt} {}
+
+  JobStatus status() const;  // also once it has ended
+  JobRecord job() const { return status().record; }
+  JobWish wish() const;
+
+  // `react` is called, by another thread, when a wish comes; at once, where one has come already.
+  // Replaces the one before; {} takes it away, and it is not being called any more on return.
+  void when_asked(std::function<void()> react);
+
+  // `stage` in a word; `progress` 0..1 of the whole job; seconds that are left, where known.
+  void report(std::string_view stage, double progress, std::optional<double> eta = {});
+  void made(const ModelId& model);
+
+ private:
+  friend class JobQueue;
+  void ask(JobWish wish);
+
+  mutable std::mutex mutex_;  // guards what follows
+  JobStatus status_;
+  JobWish wish_ = JobWish::kNone;
+  std::function<void()> react_;
+
+  std::function<void(const JobRecord&)> entered_stage_;  // set once, before the task starts
+};
+
+// Does one job, or goes on with it. An error is the end of the job, unless a wish came meanwhile.
+using JobTask = std::function<Expected<JobEnd>(JobRun& run)>;
+
+// Thread-safe. Errors: kState where a job is not in a state for that, kIo of the catalogue.
+class JobQueue {
+ public:
+  JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task);
+  ~JobQueue() { stop(); }
+
+  // Takes up what an earlier daemon left: what was paused stays paused, all else goes on.
+  Expected<void> start();
+
+  // Every job that runs is put aside, and every lane ends.
+  void stop();
+
+  // kState where the scanner is busy; kBadInput where the key was used with another request, and
+  // with the same one the job of then is the result.
+  Expected<JobRecord> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
+                          const std::optional<OnceKey>& once);
+
+  Expected<JobStatus> pause(const JobId& id);
+  Expected<JobStatus> resume(const JobId& id);
+  Expected<JobStatus> cancel(const JobId& id);
+
+  // Nothing where there is no such job.
+  Expected<std::optional<JobStatus>> find(const JobId& id);
+  Expected<std::vector<JobStatus>> list(const PageOf& page);
+
+  // An unfinished job, to be watched to its end; null where there is none.
+  std::shared_ptr<const JobRun> run(const JobId& id) const;
+
+  // The unfinished job of a scanner.
+  std::optional<JobStatus> job_of(const std::string& scanner) const;
+
+  // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
+  // is done, where it is busy.
+  Expected<void> post_command(const std::string& scanner, std::function<void()> command);
+
+  // Where the scanner's devices are used.
+  Lane& lane(const std::string& scanner);
+
+ private:
+  using Run = std::shared_ptr<JobRun>;
+
+  // With the lock held, as all until the next line.
+  Expected<void> check_free(const std::string& scanner) const;
+  Expected<Run> unfinished(const JobId& id) const;
+  Run run_of(const std::string& scanner) const;
+  void take_up(const JobRecord& job);
+  void post(const Run& run);
+  void set_state(const Run& run, JobState state);
+  Lane& lane_of(const std::string& name);
+
+  void work(const Run& run);
+  void end(const Run& run, const Expected<JobEnd>& result);
+  void store(const JobRecord& job);
+
+  JobCatalogue& catalogue_;
+  const Log& events_;
+  const JobTask task_;
+
+  mutable std::mutex mutex_;   // guards what follows
+  std::map<JobId, Run> runs_;  // the unfinished ones
+  std::map<std::string, std::unique_ptr<Lane>> lanes_;
+  bool stopping_ = false;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A thread that does one thing after another, in the order in which they were handed in.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <thread>
+
+namespace vitrine {
+
+class Lane {
+ public:
+  Lane();
+  ~Lane() { finish(); }  // what is waiting is done first
+  Lane(const Lane&) = delete;
+  Lane& operator=(const Lane&) = delete;
+
+  void post(std::function<void()> task);
+
+  // Has `task` done there and returns what it returns. Not to be called by the lane's own tasks.
+  template <class Task>
+  auto run(Task task) {
+    std::packaged_task<decltype(task())()> packaged(std::move(task));
+    auto result = packaged.get_future();
+    post([&packaged] { packaged(); });
+    return result.get();
+  }
+
+  // Does what is waiting and ends. Nothing may be handed in afterwards.
+  void finish();
+
+ private:
+  void work();
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> waiting_;
+  bool finishing_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace vitrine

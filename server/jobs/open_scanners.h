@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "server/jobs/scanner_backend.h"
+
+namespace vitrine {
+
+// The scanners that rig.json files describe. Nothing is opened yet. Fails (kBadInput) where two
+// have one name or a name is none for a path, and as read_scanner_config().
+Expected<std::vector<std::unique_ptr<ScannerBackend>>> open_scanners(
+    std::span<const std::filesystem::path> configs);
+
+}  // namespace vitrine

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/scan_order.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+
+#include "codec/progressive/manifest.h"
+#include "server/store/text.h"
+
+namespace vitrine {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kLeastSteps = 8, kMostSteps = 36'000;
+constexpr double kLeastExposure = 1, kMostExposure = 10e6;  // microseconds
+constexpr int kLongestWindow = 1'000;
+constexpr std::size_t kMaxTextBytes = 4096;
+constexpr std::string_view kSamplings[] = {"equidistant", "paper", "adaptive"};
+constexpr std::string_view kPlacements[] = {"midpoint", "pyramid"};
+
+std::string joined(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+  return text;
+}
+
+// Reads the members of one object; what is absent or wrong stays as it was.
+class Fields {
+ public:
+  Fields(const Json& object, std::string prefix, FieldFaults& faults)
+      : object_(object), prefix_(std::move(prefix)), faults_(faults) {}
+
+  void only(std::span<const std::string_view> known) {
+    for (const auto& [name, value] : object_.items()) {
+      if (std::ranges::find(known, name) == known.end()) fault(name, "unknown here");
+    }
+  }
+
+  void text(const char* name, std::string& value) {
+    const auto found = object_.find(name);
+    if (found == object_.end()) return;
+    const auto* given = found->get_ptr<const std::string*>();
+    if (given == nullptr || given->size() > kMaxTextBytes || !is_plain_text(*given)) {
+      return fault(name, fmt::format("one line of text of at most {} bytes", kMaxTextBytes));
+    }
+    value = *given;
+  }
+
+  void whole(const char* name, int low, int high, int& value) {
+    const auto found = object_.find(name);
+    if (found == object_.end()) return;
+    const bool is_whole = found->is_number_integer();
+    if (!is_whole || *found < low || *found > high) {
+      return fault(name, fmt::format("a whole number from {} to {}", low, high));
+    }
+    value = found->get<int>();
+  }
+
+  void real(const char* name, double low, double high, std::optional<double>& value) {
+    const auto found = object_.find(name);
+    if (found == object_.end() || found->is_null()) return;
+    if (!found->is_number() || !(*found >= low && *found <= high)) {
+      return fault(name, fmt::format("a number from {} to {}", low, high));
+    }
+    value = found->get<double>();
+  }
+
+  void flag(const char* name, bool& value) {
+    const auto found = object_.find(name);
+    if (found == object_.end()) return;
+    if (!found->is_boolean()) return fault(name, "true or false");
+    value = found->get<bool>();
+  }
+
+  template <class Enum>
+  void choice(const char* name, std::span<const std::string_view> names, Enum& value) {
+    const auto found = object_.find(name);
+    if (found == object_.end()) return;
+    const auto* given = found->get_ptr<const std::string*>();
+    const auto at = given == nullptr ? names.end() : std::ranges::find(names, *given);
+    if (at == names.end()) return fault(name, "one of " + joined(names));
+    value = static_cast<Enum>(at - names.begin());
+  }
+
+  void fault(const std::string& name, std::string expected) {
+    faults_.push_back({prefix_ + name, std::move(expected)});
+  }
+
+ private:
+  const Json& object_;
+  const std::string prefix_;
+  FieldFaults& faults_;
+};
+
+// 0 and "auto": by the mesh.
+void read_bits(Fields& fields, const Json& body, int& bits) {
+  const auto found = body.find("bits");
+  if (found == body.end() || *found == "auto") return;
+  if (found->is_number_integer() && *found == 0) {
+    bits = 0;
+    return;
+  }
+  const bool fits = found->is_number_integer() && *found >= kMinBits && *found <= kMaxBits;
+  if (!fits) {
+    return fields.fault("bits",
+                        fmt::format("auto or a whole number from {} to {}", kMinBits, kMaxBits));
+  }
+  bits = found->get<int>();
+}
+
+void read_metadata(Fields& fields, const Json& body, ModelMetadata& metadata, FieldFaults& faults) {
+  constexpr std::string_view kKnown[] = {"title", "creator", "rights", "licence"};
+  const auto found = body.find("metadata");
+  if (found == body.end()) return;
+  if (!found->is_object()) return fields.fault("metadata", "an object");
+  Fields texts(*found, "metadata.", faults);
+  texts.only(kKnown);
+  texts.text("title", metadata.title);
+  texts.text("creator", metadata.creator);
+  texts.text("rights", metadata.rights);
+  texts.text("licence", metadata.licence);
+}
+
+void read_model(Fields& fields, const Json& body, ScanOrder& order, FieldFaults& faults) {
+  fields.choice("sampling", kSamplings, order.sampling);
+  fields.whole("length", 1, kLongestWindow, order.length);
+  read_bits(fields, body, order.bits);
+  fields.choice("placement", kPlacements, order.placement);
+  read_metadata(fields, body, order.metadata, faults);
+  fields.flag("publish", order.publish);
+}
+
+tl::expected<ScanOrder, FieldFaults> result(ScanOrder order, FieldFaults faults) {
+  if (!faults.empty()) return tl::unexpected(std::move(faults));
+  return order;
+}
+
+}  // namespace
+
+tl::expected<ScanOrder, FieldFaults> parse_scan_order(const Json& body) {
+  constexpr std::string_view kKnown[] = {"scanner", "steps",      "exposure",  "sampling",
+                                         "length",  "bits",       "placement", "metadata",
+                                         "publish", "keep_frames"};
+  FieldFaults faults;
+  Fields fields(body, "", faults);
+  ScanOrder order;
+  fields.only(kKnown);
+  fields.text("scanner", order.scanner);
+  if (!body.contains("scanner")) fields.fault("scanner", "the name of one of /api/v1/scanners");
+  fields.whole("steps", kLeastSteps, kMostSteps, order.steps);
+  fields.real("exposure", kLeastExposure, kMostExposure, order.exposure);
+  fields.flag("keep_frames", order.keep_frames);
+  read_model(fields, body, order, faults);
+  return result(std::move(order), std::move(faults));
+}
+
+tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const Json& body,
+                                                           const ScanOrder& scan) {
+  constexpr std::string_view kKnown[] = {"sampling",  "length",   "bits",
+                                         "placement", "metadata", "publish"};
+  FieldFaults faults;
+  Fields fields(body, "", faults);
+  ScanOrder order = scan;
+  fields.only(kKnown);
+  read_model(fields, body, order, faults);
+  return result(std::move(order), std::move(faults));
+}
+
+std::string to_json_text(const ScanOrder& order) {
+  const ModelMetadata& texts = order.metadata;
+  Json json = {{"scanner", order.scanner},
+               {"steps", order.steps},
+               {"keep_frames", order.keep_frames},
+               {"sampling", kSamplings[static_cast<std::size_t>(order.sampling)]},
+               {"length", order.length},
+               {"bits", order.bits},
+               {"placement", kPlacements[static_cast<std::size_t>(order.placement)]},
+               {"metadata",
+                {{"title", texts.title},
+                 {"creator", texts.creator},
+                 {"rights", texts.rights},
+                 {"licence", texts.licence}}},
+               {"publish", order.publish}};
+  if (order.exposure) json["exposure"] = *order.exposure;
+  return json.dump();
+}
+
+}  // namespace vitrine

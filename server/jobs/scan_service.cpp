@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/scan_service.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "codec/export/write_mesh.h"
+#include "server/jobs/build_child.h"
+#include "server/jobs/clock.h"
+
+namespace vitrine {
+namespace {
+
+constexpr double kMeshed = 0.85, kBuilt = 0.99;  // progress at the ends of the stages
+constexpr std::size_t kViews = 4;                // of ended scans, kept in memory
+
+JobRecord new_job(JobKind kind, const std::string& scanner) {
+  JobRecord job;
+  job.id = JobId::generate();
+  job.kind = kind;
+  job.scanner = scanner;
+  job.created = now_in_milliseconds();
+  return job;
+}
+
+std::string title_of(const ScanOrder& order, std::int64_t created) {
+  if (!order.metadata.title.empty()) return order.metadata.title;
+  return fmt::format("Scan of {:%Y-%m-%d %H:%M}",
+                     fmt::gmtime(static_cast<std::time_t>(created / 1000)));
+}
+
+ScanEntry new_scan(ScanOrder order) {
+  ScanEntry scan;
+  scan.id = ScanId::generate();
+  scan.created = now_in_milliseconds();
+  order.metadata.title = title_of(order, scan.created);
+  scan.scanner = order.scanner;
+  scan.is_public = order.publish;
+  scan.title = order.metadata.title;
+  scan.parameters = to_json_text(order);
+  scan.steps = order.steps;
+  return scan;
+}
+
+Expected<ScanOrder> stored_order(const std::string& parameters) {
+  const auto json = nlohmann::json::parse(parameters, nullptr, /*allow_exceptions=*/false);
+  auto order = parse_scan_order(json.is_object() ? json : nlohmann::json::object());
+  if (order) return *order;
+  return fail(ErrorCode::kState, fmt::format("the scan's parameters are damaged at {}; scan again",
+                                             order.error().front().field));
+}
+
+}  // namespace
+
+// Carries what a backend tells into the job, the row and the view.
+class ScanService::Listener final : public ScanListener {
+ public:
+  Listener(ScanService& service, JobRun& run, ScanEntry entry)
+      : service_(service), run_(run), entry_(std::move(entry)) {}
+  ~Listener() override {
+    const std::scoped_lock lock(service_.mutex_);
+    service_.live_.erase(entry_.id);
+  }
+
+  void begins(std::shared_ptr<const ScanView> view) override {
+    const std::scoped_lock lock(service_.mutex_);
+    service_.views_.erase(entry_.id);
+    view_ = std::move(view);
+    service_.live_[entry_.id] = {entry_, view_};
+  }
+
+  void told(const ScanTold& told) override {
+    const bool calibration_is_new = entry_.calibration != told.calibration && told.calibration > 0;
+    entry_.step = told.step;
+    if (calibration_is_new) entry_.calibration = told.calibration;
+    if (view_) entry_.points = view_->points();
+    {
+      const std::scoped_lock lock(service_.mutex_);
+      service_.live_[entry_.id] = {entry_, view_};
+    }
+    run_.report(told.stage, kMeshed * told.progress, told.eta);
+    if (calibration_is_new) keep();
+  }
+
+  bool is_interrupted() const override { return run_.wish() != JobWish::kNone; }
+  bool is_cancelled() const override { return run_.wish() == JobWish::kCancel; }
+
+  void keep() { service_.keep(entry_); }
+
+ private:
+  ScanService& service_;
+  JobRun& run_;
+  ScanEntry entry_;
+  std::shared_ptr<const ScanView> view_;
+};
+
+ScanService::ScanService(const ScanMeans& means,
+                         std::vector<std::unique_ptr<ScannerBackend>> scanners)
+    : means_(means),
+      backends_(std::move(scanners)),
+      queue_(means.jobs, means.events, [this](JobRun& run) { return work(run); }) {
+  for (const auto& backend : backends_)
+    stations_.push_back(std::make_unique<ScannerStation>(*backend, queue_));
+}
+
+Expected<void> ScanService::start() {
+  for (const auto& station : stations_)
+    station->look_for_it();
+  return queue_.start();
+}
+
+void ScanService::stop() {
+  const std::scoped_lock one(stopping_);
+  for (const auto& station : stations_)
+    station->close_after_all();
+  queue_.stop();
+}
+
+std::vector<ScannerStatus> ScanService::scanners() {
+  std::vector<ScannerStatus> all;
+  for (const auto& station : stations_)
+    all.push_back(station->status());
+  return all;
+}
+
+ScannerStation* ScanService::scanner(std::string_view name) {
+  const auto found =
+      std::ranges::find_if(stations_, [&](const auto& station) { return station->name() == name; });
+  return found == stations_.end() ? nullptr : found->get();
+}
+
+Expected<Frame> ScanService::picture(ScannerStation& scanner) {
+  const auto job = queue_.job_of(scanner.name());
+  if (!job || !job->record.scan) return scanner.picture();
+  const std::scoped_lock lock(mutex_);
+  const auto live = live_.find(*job->record.scan);
+  const auto frame =
+      live != live_.end() && live->second.view ? live->second.view->frame() : nullptr;
+  if (frame) return *frame;
+  return fail(ErrorCode::kState, "the scan has taken no picture yet; ask again in a second");
+}
+
+Expected<JobRecord> ScanService::calibrate(ScannerStation& scanner,
+                                           const std::optional<OnceKey>& once) {
+  scanner.backend().allow();
+  return queue_.add(new_job(JobKind::kCalibrate, scanner.name()), std::nullopt, once);
+}
+
+Expected<ScanStarted> ScanService::add(JobRecord job, ScanEntry scan,
+                                       const std::optional<OnceKey>& once) {
+  job.scan = scan.id;
+  scan.job = job.id;
+  const auto added = queue_.add(job, scan, once);
+  if (!added) return Unexpected(added.error());
+  return ScanStarted{added->scan.value_or(scan.id), added->id};
+}
+
+Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
+                                        const std::optional<OnceKey>& once) {
+  if (ScannerStation* station = scanner(order.scanner)) station->backend().allow();
+  return add(new_job(JobKind::kScan, order.scanner), new_scan(order), once);
+}
+
+Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOrder& order,
+                                             const std::optional<OnceKey>& once) {
+  if (queue_.run(scan.job)) {
+    return fail(ErrorCode::kState,
+                fmt::format("job {} works on the scan; wait for its end", scan.job.to_string()));
+  }
+  JobRecord job = new_job(JobKind::kReprocess, scan.scanner);
+  job.parameters = to_json_text(order);
+  return add(job, scan, once);
+}
+
+Expected<void> ScanService::pause(const ScanEntry& scan) {
+  const auto paused = queue_.pause(scan.job);
+  return paused ? Expected<void>{} : Unexpected(paused.error());
+}
+
+Expected<void> ScanService::resume(const ScanEntry& scan) {
+  const auto job = queue_.find(scan.job);
+  if (!job) return Unexpected(job.error());
+  if (ScannerStation* station = scanner(scan.scanner)) station->backend().allow();
+  const bool failed = *job && (*job)->record.state == JobState::kFailed;
+  if (failed && (*job)->record.kind == JobKind::kScan) {
+    const auto added = add(new_job(JobKind::kScan, scan.scanner), scan, std::nullopt);
+    return added ? Expected<void>{} : Unexpected(added.error());
+  }
+  const auto resumed = queue_.resume(scan.job);
+  return resumed ? Expected<void>{} : Unexpected(resumed.error());
+}
+
+Expected<ScanInfo> ScanService::with_job(ScanEntry entry) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto live = live_.find(entry.id); live != live_.end()) entry = live->second.entry;
+  }
+  const auto job = queue_.find(entry.job);
+  if (!job) return Unexpected(job.error());
+  return ScanInfo{std::move(entry), job->value_or(JobStatus{})};
+}
+
+Expected<std::optional<ScanInfo>> ScanService::find(const ScanId& id) {
+  const auto entry = means_.jobs.find_scan(id);
+  if (!entry) return Unexpected(entry.error());
+  if (!*entry) return std::nullopt;
+  const auto status = with_job(**entry);
+  if (!status) return Unexpected(status.error());
+  return *status;
+}
+
+Expected<std::vector<ScanInfo>> ScanService::list(const PageOf& page) {
+  const auto entries = means_.jobs.scans(page);
+  if (!entries) return Unexpected(entries.error());
+  std::vector<ScanInfo> scans;
+  for (const ScanEntry& entry : *entries) {
+    auto status = with_job(entry);
+    if (!status) return Unexpected(status.error());
+    scans.push_back(std::move(*status));
+  }
+  return scans;
+}
+
+Expected<ScanOrder> ScanService::order_of(const ScanEntry& scan) {
+  return stored_order(scan.parameters);
+}
+
+Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& scan) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto live = live_.find(scan.id); live != live_.end()) return live->second.view;
+    if (const auto kept = views_.find(scan.id); kept != views_.end()) return kept->second;
+  }
+  ScannerStation* station = scanner(scan.scanner);
+  if (station == nullptr || scan.step == 0) return nullptr;
+  auto view = station->backend().view(folder_of(scan.id));
+  if (!view) return view;
+  const std::scoped_lock lock(mutex_);
+  if (views_.size() >= kViews) views_.erase(views_.begin());
+  views_[scan.id] = *view;
+  return view;
+}
+
+std::filesystem::path ScanService::folder_of(const ScanId& id) const {
+  return means_.data / "scans" / id.to_string();
+}
+
+void ScanService::keep(const ScanEntry& entry) {
+  const auto kept = means_.jobs.update(entry);
+  if (!kept) means_.events.event(Severity::kError, kept.error().message);
+}
+
+Expected<JobEnd> ScanService::work(JobRun& run) {
+  const JobRecord job = run.job();
+  ScannerStation* station = scanner(job.scanner);
+  if (station == nullptr) {
+    return fail(ErrorCode::kState,
+                fmt::format("there is no scanner {}; name its rig.json in the setting scanners",
+                            job.scanner));
+  }
+  switch (job.kind) {
+    case JobKind::kScan:
+      return work_on_scan(run, *station);
+    case JobKind::kReprocess:
+      return reprocess(run, *station);
+    case JobKind::kCalibrate:
+      return calibrate(run, *station);
+  }
+  return JobEnd::kDone;
+}
+
+Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
+  const auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));
+  if (!entry) return Unexpected(entry.error());
+  if (!*entry) return fail(ErrorCode::kState, "the scan is not in the catalogue; scan again");
+  const auto order = stored_order((*entry)->parameters);
+  if (!order) return Unexpected(order.error());
+  Expected<std::optional<TriangleMesh>> mesh;
+  {
+    Listener listener(*this, run, **entry);
+    run.report("scanning", 0);
+    mesh = station.backend().scan(*order, folder_of((*entry)->id), listener);
+    listener.keep();
+  }
+  if (!mesh) return Unexpected(mesh.error());
+  return *mesh ? make_model(run, *order, **mesh) : JobEnd::kPutAside;
+}
+
+Expected<JobEnd> ScanService::reprocess(JobRun& run, ScannerStation& station) {
+  const auto order = stored_order(run.job().parameters);
+  if (!order) return Unexpected(order.error());
+  run.report("meshing", 0);
+  const auto mesh =
+      station.backend().mesh_anew(*order, folder_of(run.job().scan.value_or(ScanId())));
+  if (!mesh) return Unexpected(mesh.error());
+  return make_model(run, *order, *mesh);
+}
+
+Expected<JobEnd> ScanService::calibrate(JobRun& run, ScannerStation& station) {
+  class Progress final : public ScanListener {
+   public:
+    explicit Progress(JobRun& r) : run_(r) {}
+    void begins(std::shared_ptr<const ScanView>) override {}
+    void told(const ScanTold& told) override {
+      run_.report("calibrating", told.progress, told.eta);
+    }
+    bool is_interrupted() const override { return run_.wish() != JobWish::kNone; }
+    bool is_cancelled() const override { return run_.wish() == JobWish::kCancel; }
+
+   private:
+    JobRun& run_;
+  };
+  Progress progress(run);
+  run.report("calibrating", 0);
+  const auto number = station.backend().calibrate(progress);
+  if (!number) return Unexpected(number.error());
+  station.look();
+  return *number ? JobEnd::kDone : JobEnd::kPutAside;
+}
+
+// The model has the job's id, so that a job which is interrupted after this makes no second one.
+Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
+                                         const TriangleMesh& mesh) {
+  run.report("building", kMeshed);
+  const auto file = write_mesh(mesh, MeshFormat::kPly, "mm");
+  if (!file) return Unexpected(file.error());
+  BuildChild child;
+  run.when_asked([&child] { child.stop(); });
+  const BuildOrder build{.bits = order.bits,
+                         .placement = order.placement,
+                         .z_is_up = true,
+                         .folder = means_.data,
+                         .program = means_.program};
+  const auto pmesh = child.build(*file, build, [&](std::string_view, double done) {
+    run.report("building", std::lerp(kMeshed, kBuilt, done));
+  });
+  run.when_asked({});
+  if (!pmesh) return Unexpected(pmesh.error());
+  const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
+  const auto model = publish(means_.store, means_.catalogue, *pmesh, order.metadata,
+                             {.state = state, .id = run.job().id});
+  if (!model) return Unexpected(model.error());
+  run.made(model->id);
+  auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));
+  if (!entry || !*entry) return JobEnd::kDone;
+  (*entry)->model = model->id;
+  (*entry)->is_public = (*entry)->is_public || order.publish;
+  keep(**entry);
+  return JobEnd::kDone;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scanners, their scans and calibrations, for the handlers of the API: orders become jobs, and a
+// scan becomes a model. A scan is a folder DATA/scans/ID, a row in the catalogue, and a view in
+// memory while it grows.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "server/jobs/job_queue.h"
+#include "server/jobs/scanner_station.h"
+#include "server/store/object_store.h"
+
+namespace vitrine {
+
+struct ScanInfo {
+  ScanEntry entry;
+  JobStatus job;  // the newest that works or worked on it
+};
+
+struct ScanStarted {
+  ScanId scan;
+  JobId job;
+};
+
+// All of it outlives the service.
+struct ScanMeans {
+  ObjectStore& store;
+  Catalogue& catalogue;
+  JobCatalogue& jobs;
+  const Log& events;
+  std::filesystem::path data;                        // of the installation
+  std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
+};
+
+// Thread-safe. Errors: kState where something is not possible now, kBadInput where an idempotency
+// key was used otherwise, kIo.
+class ScanService {
+ public:
+  ScanService(const ScanMeans& means, std::vector<std::unique_ptr<ScannerBackend>> scanners);
+  ~ScanService() { stop(); }
+
+  // Takes up what an earlier daemon left, and looks for the scanners.
+  Expected<void> start();
+  // Puts aside what runs: it goes on at the next start. Laser and motor are off on return.
+  void stop();
+
+  JobQueue& jobs() { return queue_; }
+
+  std::vector<ScannerStatus> scanners();
+  ScannerStation* scanner(std::string_view name);  // null where there is none of that name
+  // A fresh picture, the latest of the scan while there is one.
+  Expected<Frame> picture(ScannerStation& scanner);
+  Expected<JobRecord> calibrate(ScannerStation& scanner, const std::optional<OnceKey>& once);
+
+  // `order.scanner` is that of a station.
+  Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<OnceKey>& once);
+  // Another model of a scan that nobody works on.
+  Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
+                                  const std::optional<OnceKey>& once);
+  Expected<void> pause(const ScanEntry& scan);
+  // Goes on with one that is paused, or, as a new job, that failed.
+  Expected<void> resume(const ScanEntry& scan);
+
+  Expected<std::optional<ScanInfo>> find(const ScanId& id);
+  Expected<std::vector<ScanInfo>> list(const PageOf& page);
+  static Expected<ScanOrder> order_of(const ScanEntry& scan);
+
+  // Null where nothing is to be seen yet.
+  Expected<std::shared_ptr<const ScanView>> view(const ScanEntry& scan);
+
+ private:
+  class Listener;
+  struct Live {
+    ScanEntry entry;
+    std::shared_ptr<const ScanView> view;
+  };
+
+  Expected<JobEnd> work(JobRun& run);
+  Expected<JobEnd> work_on_scan(JobRun& run, ScannerStation& station);
+  Expected<JobEnd> reprocess(JobRun& run, ScannerStation& station);
+  Expected<JobEnd> calibrate(JobRun& run, ScannerStation& station);
+  Expected<JobEnd> make_model(JobRun& run, const ScanOrder& order, const TriangleMesh& mesh);
+  std::filesystem::path folder_of(const ScanId& id) const;
+  Expected<ScanInfo> with_job(ScanEntry entry);
+  void keep(const ScanEntry& entry);
+  Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);
+
+  const ScanMeans means_;
+  std::mutex stopping_;  // one stop() at a time
+  std::vector<std::unique_ptr<ScannerBackend>> backends_;
+
+  std::mutex mutex_;                                         // guards what follows
+  std::map<ScanId, Live> live_;                              // those that grow
+  std::map<ScanId, std::shared_ptr<const ScanView>> views_;  // of a few that have ended
+
+  JobQueue queue_;
+  std::vector<std::unique_ptr<ScannerStation>> stations_;
+};
+
+}  // namespace vitrine

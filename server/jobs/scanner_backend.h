@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// One scanner as jobs use it: devices, scans and calibrations.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "acquisition/device/board.h"
+#include "acquisition/device/camera.h"
+#include "acquisition/frame/frame.h"
+#include "codec/mesh/triangle_mesh.h"
+#include "server/jobs/scan_order.h"
+
+namespace vitrine {
+
+struct ScannerIdentity {
+  CameraIdentity camera;
+  BoardIdentity board;
+  std::optional<int> calibration;  // the newest that fits the camera; nothing: there is none
+};
+
+// What is to be seen of a scan while it grows and afterwards. Thread-safe; nobody waits for long.
+class ScanView {
+ public:
+  virtual ~ScanView() = default;
+
+  virtual std::shared_ptr<const Frame> frame() const = 0;  // the latest, laser on; may be null
+  virtual std::vector<std::array<double, 2>> profile() const = 0;  // the latest: rho, z in mm
+  virtual std::size_t points() const = 0;
+  // mm, z upwards, in the order in which they came, from number `first` on. Grows only.
+  virtual std::vector<std::array<float, 3>> points_from(std::size_t first) const = 0;
+};
+
+struct ScanTold {
+  const char* stage = "scanning";  // or "meshing"
+  int step = 0;                    // done so far
+  double progress = 0;             // 0..1 of the stages above
+  std::optional<double> eta;       // seconds
+  int calibration = 0;             // its number; 0: not known yet
+};
+
+// Who is told about a scan or a calibration, from the thread that does it, and may put it aside.
+class ScanListener {
+ public:
+  virtual ~ScanListener() = default;
+
+  virtual void begins(std::shared_ptr<const ScanView> view) = 0;
+  virtual void told(const ScanTold& told) = 0;
+  virtual bool is_interrupted() const = 0;
+  virtual bool is_cancelled() const = 0;  // is_interrupted(), and not to be gone on with
+};
+
+struct CalibrationSummary {
+  int number = 0;
+  std::string created, camera;
+  SensorRegion region;
+  double rms = 0, p95 = 0, max = 0;  // mm, over held-out poses
+  std::optional<double> coverage;    // share of the picture; nothing where it is not known
+};
+
+// Everything up to `close` is called by one thread, the rest by any.
+class ScannerBackend {
+ public:
+  virtual ~ScannerBackend() = default;
+
+  // These open the devices where they are closed. An error closes them.
+  virtual Expected<ScannerIdentity> identify() = 0;
+  virtual Expected<void> jog(double degrees) = 0;  // from where the table stands
+  virtual Expected<void> laser(bool on) = 0;
+  virtual Expected<Frame> picture() = 0;
+
+  // Scans what `folder` does not hold yet, and meshes all of it; nothing where it was interrupted:
+  // a later call goes on. Laser and motor are off on return.
+  virtual Expected<std::optional<TriangleMesh>> scan(const ScanOrder& order,
+                                                     const std::filesystem::path& folder,
+                                                     ScanListener& listener) = 0;
+  // The new calibration's number; nothing where it was interrupted.
+  virtual Expected<std::optional<int>> calibrate(ScanListener& listener) = 0;
+
+  virtual void close() = 0;
+
+  virtual const std::string& name() const = 0;
+
+  // Laser and motor off at once, and no device is used before allow().
+  virtual void emergency_stop() noexcept = 0;
+  virtual void allow() noexcept = 0;
+
+  // Of a scan that nobody works on.
+  virtual Expected<TriangleMesh> mesh_anew(const ScanOrder& order,
+                                           const std::filesystem::path& folder) = 0;
+  virtual Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) = 0;
+
+  virtual Expected<std::vector<CalibrationSummary>> calibrations() = 0;  // newest first
+  // JSON and SVG; nothing where there is no such number.
+  virtual Expected<std::optional<std::string>> calibration_report(int number) = 0;
+  virtual Expected<std::optional<std::string>> residual_plot(int number) = 0;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/scanner_station.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::chrono::seconds kPatience{3};  // with a scanner that is looked for
+
+}  // namespace
+
+ScannerStation::ScannerStation(ScannerBackend& backend, JobQueue& jobs)
+    : backend_(backend), jobs_(jobs) {}
+
+void ScannerStation::look_for_it() {
+  const auto done = std::make_shared<std::promise<void>>();
+  looked_ = done->get_future().share();
+  jobs_.lane(name()).post([this, done] {
+    look();
+    done->set_value();
+  });
+}
+
+void ScannerStation::look() {
+  remember(backend_.identify());
+  backend_.close();
+}
+
+void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
+  const std::scoped_lock lock(mutex_);
+  if (seen) identity_ = *seen;
+  problem_ = seen ? "" : seen.error().message;
+}
+
+ScannerStatus ScannerStation::status() {
+  const auto job = jobs_.job_of(name());
+  if (!job && looked_.valid()) looked_.wait_for(kPatience);  // a job may be in front of the look
+  const std::scoped_lock lock(mutex_);
+  ScannerStatus status{.name = name(), .identity = identity_, .problem = problem_};
+  if (!problem_.empty()) status.state = ScannerState::kUnreachable;
+  if (job) {
+    status.state = ScannerState::kBusy;
+    status.scan = job->record.scan;
+  }
+  return status;
+}
+
+template <class Action>
+auto ScannerStation::command(Action action) -> decltype(action()) {
+  std::promise<decltype(action())> done;
+  backend_.allow();
+  const auto posted = jobs_.post_command(name(), [&] {
+    const auto seen = backend_.identify();
+    remember(seen);
+    done.set_value(seen ? action() : Unexpected(seen.error()));
+  });
+  if (!posted) return Unexpected(posted.error());
+  return done.get_future().get();
+}
+
+Expected<void> ScannerStation::jog(double degrees) {
+  return command([&] { return backend_.jog(degrees); });
+}
+
+Expected<void> ScannerStation::laser(bool on) {
+  return command([&] { return backend_.laser(on); });
+}
+
+Expected<Frame> ScannerStation::picture() {
+  return command([&] { return backend_.picture(); });
+}
+
+void ScannerStation::stop() {
+  backend_.emergency_stop();  // first of all
+  if (const auto job = jobs_.job_of(name())) static_cast<void>(jobs_.pause(job->record.id));
+}
+
+void ScannerStation::close_after_all() {
+  jobs_.lane(name()).post([this] { backend_.close(); });
+}
+
+}  // namespace vitrine

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scanner between its jobs: what is known of it, and the commands that an operator gives by hand.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "server/jobs/job_queue.h"
+#include "server/jobs/scanner_backend.h"
+
+namespace vitrine {
+
+enum class ScannerState : std::uint8_t { kIdle, kBusy, kUnreachable };
+
+struct ScannerStatus {
+  std::string name;
+  ScannerState state = ScannerState::kIdle;
+  std::optional<ScannerIdentity> identity;  // as last seen; nothing before that
+  std::optional<ScanId> scan;               // that it works on or has paused
+  std::string problem;                      // why it is unreachable
+};
+
+// Thread-safe. Commands fail with kState while a job has the scanner, and with the devices' own
+// errors.
+class ScannerStation {
+ public:
+  // Both outlive it.
+  ScannerStation(ScannerBackend& backend, JobQueue& jobs);
+
+  // Has the scanner looked for, once; status() waits for that.
+  void look_for_it();
+
+  ScannerBackend& backend() { return backend_; }
+  const std::string& name() const { return backend_.name(); }
+
+  ScannerStatus status();  // uses no device
+
+  Expected<void> jog(double degrees);
+  Expected<void> laser(bool on);
+  Expected<Frame> picture();
+
+  // Laser and motor off at once, whatever is under way; a job that runs is paused.
+  void stop();
+
+  // By the scanner's lane: who it is now. Closes the devices.
+  void look();
+  // Closes the devices once the lane has done what it has been given.
+  void close_after_all();
+
+ private:
+  template <class Action>
+  auto command(Action action) -> decltype(action());
+  void remember(const Expected<ScannerIdentity>& seen);
+
+  ScannerBackend& backend_;
+  JobQueue& jobs_;
+  std::shared_future<void> looked_;  // valid once look_for_it() was called
+
+  std::mutex mutex_;  // guards what follows
+  std::optional<ScannerIdentity> identity_;
+  std::string problem_;
+};
+
+}  // namespace vitrine

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/session_backend.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "acquisition/calibration/calibrate.h"
+#include "acquisition/calibration/calibration_store.h"
+#include "acquisition/session/reprocess.h"
+#include "acquisition/session/rig_link.h"
+#include "acquisition/session/target_pictures.h"
+#include "codec/files/atomic_file.h"
+#include "codec/files/read_file.h"
+
+namespace vitrine {
+namespace {
+
+constexpr std::chrono::milliseconds kTick{100};  // how often a scan is asked how far it is
+constexpr std::uint64_t kMaxReport = 16 << 20;   // bytes
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+Processing processing_of(const ScanOrder& order) {
+  constexpr SamplingMethod kMethods[] = {SamplingMethod::kEquidistant, SamplingMethod::kPaper,
+                                         SamplingMethod::kAdaptive};
+  Processing processing;
+  processing.sampling.method = kMethods[static_cast<std::size_t>(order.sampling)];
+  processing.sampling.window = order.length;
+  return processing;
+}
+
+ScanRequest request_of(const ScanOrder& order) {
+  return {.steps = order.steps,
+          .exposure_us = order.exposure,
+          .keep_frames = order.keep_frames,
+          .processing = processing_of(order)};
+}
+
+bool is_under_way(ScanState state) {
+  return state == ScanState::kChecking || state == ScanState::kScanning ||
+         state == ScanState::kMeshing;
+}
+
+// What a session shows, and what it showed once it has ended.
+class SessionView final : public ScanView {
+ public:
+  explicit SessionView(std::shared_ptr<const Scan> scan) : scan_(std::move(scan)) {}
+
+  std::shared_ptr<const Frame> frame() const override { return scan_->preview().snapshot().frame; }
+  std::vector<std::array<double, 2>> profile() const override {
+    std::vector<std::array<double, 2>> points;
+    for (const ProfilePoint& point : scan_->preview().snapshot().profile.points)
+      points.push_back({point.at.rho, point.at.z});
+    return points;
+  }
+  std::size_t points() const override { return scan_->preview().snapshot().cloud_size; }
+  std::vector<std::array<float, 3>> points_from(std::size_t first) const override {
+    return scan_->preview().cloud_from(first);
+  }
+
+ private:
+  const std::shared_ptr<const Scan> scan_;
+};
+
+int calibration_of(const Scan& scan) {
+  const auto record = scan.folder().record();
+  return record && *record ? (*record)->calibration : 0;
+}
+
+// Waits for the scan and carries words both ways; returns how it ended.
+ScanStatus follow(Scan& scan, ScanListener& listener) {
+  bool asked = false;
+  int calibration = 0;
+  for (;;) {
+    const ScanStatus status = scan.wait(kTick);
+    if (calibration == 0 && status.steps_done > 0) calibration = calibration_of(scan);
+    listener.told({.stage = status.state == ScanState::kMeshing ? "meshing" : "scanning",
+                   .step = status.steps_done,
+                   .progress = status.progress,
+                   .eta = status.seconds_left,
+                   .calibration = calibration});
+    if (!is_under_way(status.state)) return status;
+    if (asked || !listener.is_interrupted()) continue;
+    // One that meshes by now cannot be paused, and ends by itself.
+    asked = (listener.is_cancelled() ? scan.cancel() : scan.pause()).has_value();
+  }
+}
+
+CalibrationSummary summary_of(const Calibration& calibration) {
+  return {.number = calibration.number,
+          .created = calibration.created,
+          .camera = calibration.camera,
+          .region = calibration.region,
+          .rms = calibration.residuals.rms,
+          .p95 = calibration.residuals.p95,
+          .max = calibration.residuals.max,
+          .coverage = std::nullopt};
+}
+
+Expected<std::optional<std::string>> text_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return std::nullopt;
+  const auto bytes = read_file(file, kMaxReport);
+  if (!bytes) return Unexpected(bytes.error());
+  return std::string(bytes->begin(), bytes->end());
+}
+
+}  // namespace
+
+Expected<void> SessionBackend::open() {
+  if (stop_.is_pressed()) {
+    return fail(ErrorCode::kState,
+                fmt::format("scanner {} was stopped; give it another command", config_.name));
+  }
+  if (!board_) {
+    auto board = scanner_.devices.open_board();
+    if (!board) return Unexpected(board.error());
+    board_ = std::move(*board);
+    stop_.guard(board_.get());
+  }
+  if (camera_) return {};
+  auto camera = scanner_.devices.open_camera();
+  if (!camera) return Unexpected(camera.error());
+  camera_ = std::move(*camera);
+  return camera_->configure(scanner_.settings);
+}
+
+void SessionBackend::close() {
+  stop_.guard(nullptr);
+  camera_.reset();
+  board_.reset();
+}
+
+template <class T>
+Expected<T> SessionBackend::closed_on_error(Expected<T> result) {
+  if (!result) close();
+  return result;
+}
+
+Expected<ScannerIdentity> SessionBackend::identify() {
+  if (auto opened = closed_on_error(open()); !opened) return Unexpected(opened.error());
+  ScannerIdentity identity{camera_->identity(), board_->identity(), std::nullopt};
+  const auto calibration =
+      CalibrationStore(config_.calibrations).for_camera(identity.camera.serial, camera_->region());
+  if (calibration) identity.calibration = calibration->number;
+  return identity;
+}
+
+Expected<void> SessionBackend::jog(double degrees) {
+  return closed_on_error(open()
+                             .and_then([&] { return board_->position(); })
+                             .and_then([&](std::optional<double> from) -> Expected<void> {
+                               if (!from) {
+                                 if (auto told = board_->set_position(0); !told) return told;
+                               }
+                               return board_->turn_to(from.value_or(0) + degrees);
+                             })
+                             .and_then([&] { return board_->rest(); }));
+}
+
+Expected<void> SessionBackend::laser(bool on) {
+  return closed_on_error(open().and_then([&] { return board_->laser(on); }));
+}
+
+Expected<Frame> SessionBackend::picture() {
+  return closed_on_error(open().and_then([&] { return camera_->capture(); }));
+}
+
+Expected<std::shared_ptr<Scan>> SessionBackend::open_scan(const ScanOrder& order,
+                                                          const std::filesystem::path& folder) {
+  std::error_code error;
+  const bool is_begun = std::filesystem::exists(folder / "scan.json", error);
+  auto scan =
+      is_begun ? Scan::reopen(scanner_, folder) : Scan::create(scanner_, request_of(order), folder);
+  if (!scan) return Unexpected(scan.error());
+  return std::shared_ptr<Scan>(std::move(*scan));
+}
+
+// From now on the scan's devices are those to be stopped; null: none any more.
+void SessionBackend::drive(const std::shared_ptr<Scan>& scan) {
+  const std::scoped_lock lock(mutex_);
+  scan_ = scan;
+}
+
+Expected<std::optional<TriangleMesh>> SessionBackend::scan(const ScanOrder& order,
+                                                           const std::filesystem::path& folder,
+                                                           ScanListener& listener) {
+  close();
+  auto scan = open_scan(order, folder);
+  if (!scan) return Unexpected(scan.error());
+  listener.begins(std::make_shared<SessionView>(*scan));
+  if (auto resumed = (*scan)->resume(); !resumed) return Unexpected(resumed.error());
+  drive(*scan);
+  if (stop_.is_pressed()) (*scan)->emergency_stop();  // it came before the line above
+  const ScanStatus end = follow(**scan, listener);
+  drive(nullptr);
+  if (end.state == ScanState::kFailed)
+    return fail(end.error ? end.error->code : ErrorCode::kIo, end.error ? end.error->message : "");
+  const auto surface = (*scan)->surface();
+  return surface ? std::optional(surface->mesh) : std::nullopt;
+}
+
+void SessionBackend::emergency_stop() noexcept {
+  stop_.press();
+  const std::scoped_lock lock(mutex_);
+  if (scan_) scan_->emergency_stop();
+}
+
+Expected<std::optional<int>> SessionBackend::calibrate(ScanListener& listener) {
+  close();
+  if (config_.rig.empty()) {
+    return fail(ErrorCode::kState,
+                "somebody must place the target; stop the daemon and run vitrine calibrate there");
+  }
+  auto rig = RigLink::connect(config_.rig);
+  if (!rig) return Unexpected(rig.error());
+  const auto poses = rig->poses();
+  if (!poses) return Unexpected(poses.error());
+  const PlaceTarget place = [&](int number) -> Expected<bool> {
+    if (listener.is_interrupted()) return fail(ErrorCode::kState, "the calibration was stopped");
+    listener.told({.stage = "calibrating", .progress = static_cast<double>(number) / *poses});
+    if (number >= *poses) return false;
+    return rig->place_target(number).map([] { return true; });
+  };
+  const auto pictures = picture_target(scanner_, config_.target, place, stop_);
+  const auto restored = rig->place_object();
+  if (!pictures) return Unexpected(pictures.error());
+  if (!restored) return Unexpected(restored.error());
+  const auto calibrated = vitrine::calibrate(*pictures, {});
+  if (!calibrated) return Unexpected(calibrated.error());
+  return keep(*calibrated);
+}
+
+Expected<std::optional<int>> SessionBackend::keep(const Calibrated& calibrated) {
+  const auto stored = CalibrationStore(config_.calibrations).add(calibrated.calibration);
+  if (!stored) return Unexpected(stored.error());
+  const std::pair<const char*, std::string> reports[] = {
+      {".report.json", report_json(*stored, calibrated.report)},
+      {".svg", vitrine::residual_plot(*stored, calibrated.report)}};
+  for (const auto& [ending, text] : reports) {
+    const auto file = calibration_file(stored->number, ending);
+    if (auto written = write_file_atomically(file, bytes_of(text)); !written)
+      return Unexpected(written.error());
+  }
+  return stored->number;
+}
+
+Expected<TriangleMesh> SessionBackend::mesh_anew(const ScanOrder& order,
+                                                 const std::filesystem::path& folder) {
+  const auto scan = ScanFolder::open(folder);
+  if (!scan) return Unexpected(scan.error());
+  auto surface = reprocess(*scan, config_.calibrations, {.processing = processing_of(order)});
+  if (!surface) return Unexpected(surface.error());
+  return std::move(surface->mesh);
+}
+
+Expected<std::shared_ptr<const ScanView>> SessionBackend::view(
+    const std::filesystem::path& folder) {
+  auto scan = Scan::reopen(scanner_, folder);
+  if (!scan) return Unexpected(scan.error());
+  return std::make_shared<SessionView>(std::shared_ptr<const Scan>(std::move(*scan)));
+}
+
+Expected<std::vector<CalibrationSummary>> SessionBackend::calibrations() {
+  const CalibrationStore store(config_.calibrations);
+  auto numbers = store.numbers();
+  if (!numbers) return Unexpected(numbers.error());
+  std::vector<CalibrationSummary> all;
+  for (auto number = numbers->rbegin(); number != numbers->rend(); ++number) {
+    const auto calibration = store.load(*number);
+    if (!calibration) return Unexpected(calibration.error());
+    all.push_back(summary_of(*calibration));
+  }
+  return all;
+}
+
+std::filesystem::path SessionBackend::calibration_file(int number, const char* ending) const {
+  return config_.calibrations / fmt::format("{:04}{}", number, ending);
+}
+
+// One that was made elsewhere may have no report: then it is itself what is known of it.
+Expected<std::optional<std::string>> SessionBackend::calibration_report(int number) {
+  auto report = text_of(calibration_file(number, ".report.json"));
+  if (!report || *report) return report;
+  return text_of(calibration_file(number, ".json"));
+}
+
+Expected<std::optional<std::string>> SessionBackend::residual_plot(int number) {
+  return text_of(calibration_file(number, ".svg"));
+}
+
+}  // namespace vitrine

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scanner with real devices, or with those of the simulated rig.
+#pragma once
+
+#include <mutex>
+
+#include "acquisition/calibration/report.h"
+#include "acquisition/session/emergency_stop.h"
+#include "acquisition/session/scan.h"
+#include "acquisition/session/scanner_config.h"
+#include "server/jobs/scanner_backend.h"
+
+namespace vitrine {
+
+class SessionBackend final : public ScannerBackend {
+ public:
+  SessionBackend(ScannerConfig config, Scanner scanner)
+      : config_(std::move(config)), scanner_(std::move(scanner)) {}
+  ~SessionBackend() override { close(); }
+
+  Expected<ScannerIdentity> identify() override;
+  Expected<void> jog(double degrees) override;
+  Expected<void> laser(bool on) override;
+  Expected<Frame> picture() override;
+  Expected<std::optional<TriangleMesh>> scan(const ScanOrder& order,
+                                             const std::filesystem::path& folder,
+                                             ScanListener& listener) override;
+  Expected<std::optional<int>> calibrate(ScanListener& listener) override;
+  void close() override;
+
+  const std::string& name() const override { return config_.name; }
+  void emergency_stop() noexcept override;
+  void allow() noexcept override { stop_.release(); }
+  Expected<TriangleMesh> mesh_anew(const ScanOrder& order,
+                                   const std::filesystem::path& folder) override;
+  Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override;
+  Expected<std::vector<CalibrationSummary>> calibrations() override;
+  Expected<std::optional<std::string>> calibration_report(int number) override;
+  Expected<std::optional<std::string>> residual_plot(int number) override;
+
+ private:
+  Expected<void> open();
+  // Closes the devices where `result` is an error.
+  template <class T>
+  Expected<T> closed_on_error(Expected<T> result);
+  Expected<std::shared_ptr<Scan>> open_scan(const ScanOrder& order,
+                                            const std::filesystem::path& folder);
+  Expected<std::optional<int>> keep(const Calibrated& calibrated);
+  void drive(const std::shared_ptr<Scan>& scan);
+  std::filesystem::path calibration_file(int number, const char* ending) const;
+
+  const ScannerConfig config_;
+  const Scanner scanner_;
+  EmergencyStop stop_;
+  std::unique_ptr<Camera> camera_;  // between jobs
+  std::unique_ptr<Board> board_;
+
+  std::mutex mutex_;            // guards what follows
+  std::shared_ptr<Scan> scan_;  // that runs
+};
+
+}  // namespace vitrine

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/device/camera.h"
+
+#include <arv.h>
+#include <arvfakecamera.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+
+#include "acquisition/device/own_network.h"
+
+namespace vitrine {
+namespace {
+
+// A GigE Vision camera on loopback, whose n-th frame is filled with n.
+class SimulatedCamera {
+ public:
+  explicit SimulatedCamera(const char* address)
+      : camera_(arv_gv_fake_camera_new_full(address, "S1", nullptr)) {
+    ArvFakeCamera* fake = arv_gv_fake_camera_get_fake_camera(camera_);
+    arv_fake_camera_set_trigger_frequency(fake, 500);
+    arv_fake_camera_set_fill_pattern(
+        fake,
+        [](ArvBuffer* buffer, void* count, guint32, guint32, ArvPixelFormat) {
+          std::size_t size = 0;
+          auto* bytes =
+              static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &size)));
+          const int pixels =
+              arv_buffer_get_image_width(buffer) * arv_buffer_get_image_height(buffer);
+          std::fill_n(bytes, pixels, ++*static_cast<std::atomic<std::uint8_t>*>(count));
+        },
+        &count_);
+  }
+  ~SimulatedCamera() { g_object_unref(camera_); }
+
+  bool runs() const { return arv_gv_fake_camera_is_running(camera_) != FALSE; }
+
+ private:
+  std::atomic<std::uint8_t> count_{0};
+  ArvGvFakeCamera* camera_;
+};
+
+constexpr char kAddress[] = "127.0.0.1";
+
+class CameraTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { test::enter_own_network(); }
+};
+
+TEST_F(CameraTest, GivesOneFrameATrigger) {
+  const SimulatedCamera simulated(kAddress);
+  ASSERT_TRUE(simulated.runs());
+  auto camera = open_camera({.address = kAddress});
+  ASSERT_TRUE(camera) << camera.error().message;
+  EXPECT_EQ((*camera)->identity().serial, "S1");
+  ASSERT_TRUE((*camera)->configure({.exposure_us = 1000, .region = {0, 0, 320, 200}}));
+  EXPECT_EQ((*camera)->region(), (SensorRegion{0, 0, 320, 200}));
+  int last = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto frame = (*camera)->capture();
+    ASSERT_TRUE(frame) << frame.error().message;
+    ASSERT_EQ(frame->pixels.size(), 320u * 200u);
+    EXPECT_EQ(frame->pixels.front(), frame->pixels.back());
+    EXPECT_GT(frame->pixels.front(), last) << "a new one each time";
+    last = frame->pixels.front();
+  }
+}
+
+TEST_F(CameraTest, IsFoundBySerialNumber) {
+  const SimulatedCamera simulated(kAddress);
+  const auto camera = open_camera({.serial = "S1"});
+  ASSERT_TRUE(camera) << camera.error().message;
+  EXPECT_TRUE((*camera)->capture());
+  EXPECT_NE(open_camera({.serial = "S2"}).error().message.find("no camera has that serial number"),
+            std::string::npos);
+}
+
+TEST_F(CameraTest, NamesItsLimits) {
+  const SimulatedCamera simulated(kAddress);
+  auto camera = open_camera({.address = kAddress});
+  ASSERT_TRUE(camera) << camera.error().message;
+  const auto wide = (*camera)->configure({.region = {0, 0, 100'000, 10}});
+  ASSERT_FALSE(wide);
+  EXPECT_EQ(wide.error().code, ErrorCode::kBadInput) << wide.error().message;
+  const auto dark = (*camera)->configure({.exposure_us = 1e12});
+  ASSERT_FALSE(dark);
+  EXPECT_EQ(dark.error().code, ErrorCode::kBadInput) << dark.error().message;
+}
+
+TEST_F(CameraTest, ThatIsGoneIsAnErrorAndIsOpenedAnewWhenItIsBack) {
+  auto simulated = std::make_unique<SimulatedCamera>(kAddress);
+  auto camera = open_camera({.address = kAddress});
+  ASSERT_TRUE(camera) << camera.error().message;
+  ASSERT_TRUE((*camera)->capture());
+  simulated.reset();
+  const auto frame = (*camera)->capture();
+  ASSERT_FALSE(frame);
+  EXPECT_EQ(frame.error().code, ErrorCode::kIo);
+  EXPECT_NE(frame.error().message.find("check its cable"), std::string::npos);
+  camera->reset();
+  const auto absent = open_camera({.address = kAddress});
+  ASSERT_FALSE(absent);
+  EXPECT_NE(absent.error().message.find("does not answer"), std::string::npos);
+
+  simulated = std::make_unique<SimulatedCamera>(kAddress);
+  camera = open_camera({.address = kAddress});
+  ASSERT_TRUE(camera) << camera.error().message;
+  EXPECT_TRUE((*camera)->capture());
+}
+
+TEST_F(CameraTest, IsNamedByAddressOrSerialNumber) {
+  EXPECT_EQ(open_camera({}).error().code, ErrorCode::kBadInput);
+  EXPECT_EQ(open_camera({.address = "127.0.0.1", .serial = "S"}).error().code,
+            ErrorCode::kBadInput);
+}
+
+}  // namespace
+}  // namespace vitrine

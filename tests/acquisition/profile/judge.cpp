@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/profile/judge.h"
+
+#include <gmock/gmock.h>
+
+namespace vitrine {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string verdict(const Expected<void>& judged) {
+  return judged ? "" : judged.error().message;
+}
+
+std::vector<StripePoint> stripe(int rows, std::uint8_t flags) {
+  std::vector<StripePoint> points;
+  for (int row = 0; row < rows; ++row)
+    points.push_back({row, 100, 90, flags});
+  return points;
+}
+
+TEST(Judge, AScanWithAStripeIsFine) {
+  EXPECT_EQ(verdict(judge(count(stripe(500, 0)) + count(stripe(100, kSaturated)))), "");
+}
+
+TEST(Judge, NoStripeNamesWhatToDo) {
+  EXPECT_THAT(verdict(judge(count({}) + count({}))),
+              AllOf(StartsWith("no stripe: 0 rows of 2 pictures"), HasSubstr("laser is on"),
+                    HasSubstr("raise the exposure")));
+  EXPECT_THAT(verdict(judge(StripeCount{})), StartsWith("no stripe"));
+}
+
+TEST(Judge, AllSaturatedNamesWhatToDo) {
+  EXPECT_THAT(verdict(judge(count(stripe(500, kSaturated)))),
+              AllOf(StartsWith("all saturated: 500 of 500"), HasSubstr("lower the exposure")));
+}
+
+TEST(Judge, TwoStripesNameWhatToDo) {
+  EXPECT_THAT(verdict(judge(count(stripe(500, kDouble)) + count(stripe(300, 0)))),
+              AllOf(StartsWith("two stripes: 500 of 800"), HasSubstr("cover")));
+}
+
+TEST(Judge, AFlatScanIsAnEmptyTurntable) {
+  const std::vector<Profile> flat(4, Profile{0, {{{10, 0, 1.0}, 7}, {{12, 0, 1.4}, 8}}});
+  EXPECT_THAT(verdict(judge(std::span(flat))),
+              AllOf(StartsWith("empty turntable: all 8 points"), HasSubstr("put an object")));
+  const std::vector<Profile> tall(4, Profile{0, {{{10, 0, 1}, 7}, {{10, 0, 9}, 8}}});
+  EXPECT_EQ(verdict(judge(std::span(tall))), "");
+}
+
+TEST(Judge, AScanOutsideTheCalibrationNamesWhatToDo) {
+  EXPECT_THAT(verdict(judge(std::span<const Profile>{})), HasSubstr("calibrated region"));
+}
+
+}  // namespace
+}  // namespace vitrine

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whatever fails at whatever moment: laser and motor are off, no profile is lost, and the mesh is
+// in the end the same, bit for bit.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "scan_test.h"
+
+namespace vitrine::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<std::string> kCalls = {"turn",      "capture", "laser on",
+                                         "laser off", "rest",    "position"};
+
+TEST_F(ScanTest, a_device_unplugged_at_any_call_is_opened_anew_and_nothing_is_lost) {
+  const std::string expected = undisturbed();
+  for (const bool forgets : {false, true}) {
+    for (const std::string& lost : kCalls) {
+      for (int moment = 2; moment <= 2 * kSteps + 2; ++moment) {
+        const std::string name = fmt::format("{}-{}-{}", lost, moment, forgets);
+        world_.calls.clear();
+        world_.degrees = 0, world_.position_known = true;
+        world_.forgets_position = false;
+        bool is_lost = false;
+        world_.fault = [&](const std::string& call, int count) {
+          if (call != lost || count != moment) return false;
+          is_lost = true;
+          world_.forgets_position = forgets;
+          return true;
+        };
+        auto scan = this->scan(name);
+        // A scanner that fails before it has worked is not waited for.
+        if (run(*scan) == ScanState::kFailed) {
+          expect_dark(world_);
+          EXPECT_TRUE(is_lost);
+          EXPECT_EQ(run(*scan), ScanState::kDone) << name;
+        }
+        EXPECT_EQ(mesh_text(*scan), expected) << name;
+        expect_dark(world_);
+        if (!is_lost) break;  // there are no more of these calls
+      }
+    }
+  }
+}
+
+// What a process leaves that is killed at that moment: the folder, and a table somewhere.
+TEST_F(ScanTest, a_process_killed_at_any_step_loses_nothing) {
+  const std::string expected = undisturbed();
+  for (const bool forgets : {false, true}) {
+    for (const char* moment : {"turn", "capture"}) {
+      for (int count = 1; count <= 2 * kSteps + 8; ++count) {
+        const std::string name = fmt::format("killed-{}-{}-{}", moment, count, forgets);
+        world_.calls.clear();
+        world_.degrees = 0, world_.position_known = true, world_.forgets_position = false;
+        double stood_at = 0;
+        bool killed = false;
+        world_.meanwhile = [&](const std::string& call, int n) {
+          if (call != moment || n != count) return;
+          std::filesystem::copy(path(name), path(name + "-left"));
+          stood_at = world_.degrees;
+          killed = true;
+        };
+        run(*scan(name));
+        world_.meanwhile = {};
+        if (!killed) break;  // there are no more of these calls
+        world_.degrees = stood_at, world_.forgets_position = forgets;
+        auto opened = Scan::reopen(scanner(), path(name + "-left"), impatient());
+        if (!opened) continue;  // before the first checks had passed: nothing to go on with
+        EXPECT_EQ(run(**opened), ScanState::kDone);
+        EXPECT_EQ(mesh_text(**opened), expected) << name;
+      }
+    }
+  }
+}
+
+TEST_F(ScanTest, a_journal_torn_anywhere_is_completed) {
+  const std::string expected = undisturbed();
+  run(*scan());
+  const auto size = std::filesystem::file_size(path() / "profiles");
+  const auto step = size / 12 + 1;
+  for (std::uintmax_t left = 0; left < size; left += step) {
+    const std::string name = fmt::format("torn-{}", left);
+    std::filesystem::copy(path(), path(name));
+    std::filesystem::resize_file(path(name) / "profiles", left);
+    auto scan = reopened(name);
+    EXPECT_EQ(run(*scan), ScanState::kDone);
+    EXPECT_EQ(mesh_text(*scan), expected) << left;
+  }
+}
+
+TEST_F(ScanTest, a_camera_that_stays_away_is_an_error_and_its_return_is_enough) {
+  bool is_away = false;
+  auto scan = this->scan();
+  world_.fault = [&](const std::string& call, int count) {
+    is_away = is_away || (call == "capture" && count == 9);
+    return is_away && (call == "capture" || call == "open camera");
+  };
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  EXPECT_THAT(scan->status().error->message, HasSubstr("is gone at \"open camera\""));
+  EXPECT_EQ(world_.calls["open camera"], 1 + 3);  // as patient as told
+  EXPECT_GE(scan->status().steps_done, 2);
+  expect_dark(world_);
+  EXPECT_EQ(reopened()->status().state, ScanState::kFailed);
+  world_.fault = {};
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), undisturbed());
+}
+
+TEST_F(ScanTest, while_it_waits_for_a_device_it_says_so_and_can_be_paused) {
+  auto made = Scan::create(scanner(), request(), path(),
+                           {.patience = {.tries = 1'000'000, .between = kForever}});
+  Scan& scan = **made;
+  std::atomic<bool> is_away = false;
+  world_.fault = [&](const std::string& call, int count) {
+    is_away = is_away || (call == "turn" && count == 5);
+    return is_away.load();
+  };
+  ASSERT_TRUE(scan.resume());
+  while (scan.status().note.empty())
+    std::this_thread::yield();
+  EXPECT_EQ(scan.status().state, ScanState::kScanning);
+  expect_dark(world_);
+  EXPECT_TRUE(scan.pause());
+  EXPECT_EQ(scan.wait(kForever).state, ScanState::kPaused);
+}
+
+TEST_F(ScanTest, the_emergency_stop_reaches_the_board_within_a_motion) {
+  auto scan = this->scan();
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call != "turn" || count != 5) return;
+    std::thread([&] { scan->emergency_stop(); }).join();
+    const std::lock_guard lock(world_.mutex);
+    EXPECT_TRUE(world_.stopped);
+    EXPECT_FALSE(world_.laser || world_.motor);
+  };
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  EXPECT_THAT(scan->status().error->message, HasSubstr("emergency stop"));
+  EXPECT_EQ(world_.calls["open board"], 1);  // nobody switches it on again
+  world_.meanwhile = {};
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), undisturbed());
+}
+
+TEST_F(ScanTest, a_stop_while_the_board_is_opened_keeps_the_laser_off) {
+  auto scan = this->scan();
+  world_.meanwhile = [&](const std::string& call, int) {
+    if (call == "open board") scan->emergency_stop();
+  };
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  EXPECT_EQ(world_.calls["laser on"], 0);
+}
+
+// The largest file that this process may write, as a disk that is full.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit small{bytes, old_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &old_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit old_{};
+  void (*old_handler_)(int);
+};
+
+TEST_F(ScanTest, a_full_disk_stops_the_scan_and_space_lets_it_go_on) {
+  const std::string expected = undisturbed();
+  const auto whole = std::filesystem::file_size(path("undisturbed") / "profiles");
+  for (const double share : {0.3, 0.5, 0.77}) {
+    const std::string name = fmt::format("full-{}", share);
+    auto scan = this->scan(name);
+    {
+      const SmallDisk disk(static_cast<rlim_t>(share * static_cast<double>(whole)));
+      EXPECT_EQ(run(*scan), ScanState::kFailed);
+    }
+    EXPECT_THAT(scan->status().error->message, HasSubstr("cannot write"));
+    EXPECT_GT(scan->status().steps_done, 0);
+    expect_dark(world_);
+    EXPECT_EQ(run(*scan), ScanState::kDone);
+    EXPECT_EQ(mesh_text(*scan), expected);
+  }
+}
+
+}  // namespace
+}  // namespace vitrine::test

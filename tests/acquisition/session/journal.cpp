@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <fstream>
+
+#include "acquisition/session/profile_journal.h"
+#include "codec/files/read_file.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine::test {
+namespace {
+
+class Journal : public testing::Test {
+ protected:
+  // Profiles of 0, 1, 2, … points, and where the file ended after each.
+  void write(int profiles) {
+    JournalContents contents;
+    auto journal = ProfileJournal::open(path_, contents);
+    ASSERT_TRUE(journal);
+    for (int i = 0; i < profiles; ++i) {
+      ASSERT_TRUE(journal->note_turn(i));
+      ends_.push_back(std::filesystem::file_size(path_));
+      ASSERT_TRUE(journal->append(profile(i)));
+      ends_.push_back(std::filesystem::file_size(path_));
+    }
+  }
+  static Profile profile(int points) {
+    Profile profile{.theta = 0.1 * points, .points = {}};
+    for (int i = 0; i < points; ++i)
+      profile.points.push_back({{1.0 / (i + 3), -0.1 * i, 0.3 * i}, 2 * i, kDouble});
+    return profile;
+  }
+  std::vector<std::uint8_t> bytes() const { return *read_file(path_, 1 << 20); }
+
+  static void expect_profiles(const std::vector<Profile>& profiles, std::size_t count) {
+    ASSERT_EQ(profiles.size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Profile wanted = profile(static_cast<int>(i));
+      EXPECT_EQ(profiles[i].theta, wanted.theta);
+      ASSERT_EQ(profiles[i].points.size(), wanted.points.size());
+      for (std::size_t j = 0; j < wanted.points.size(); ++j) {
+        EXPECT_EQ(profiles[i].points[j].at.rho, wanted.points[j].at.rho);
+        EXPECT_EQ(profiles[i].points[j].at.lateral, wanted.points[j].at.lateral);
+        EXPECT_EQ(profiles[i].points[j].at.z, wanted.points[j].at.z);
+        EXPECT_EQ(profiles[i].points[j].row, wanted.points[j].row);
+        EXPECT_EQ(profiles[i].points[j].flags, wanted.points[j].flags);
+      }
+    }
+  }
+  // Turn and profile take turns.
+  std::size_t whole_records(std::size_t size) const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(ends_, [&](std::uintmax_t end) { return end <= size; }));
+  }
+
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "profiles";
+  std::vector<std::uintmax_t> ends_;
+};
+
+TEST_F(Journal, cut_at_any_byte_it_holds_all_whole_profiles) {
+  write(6);
+  const auto file = bytes();
+  for (std::size_t size = 0; size <= file.size(); ++size) {
+    const JournalContents contents = read_journal(std::span(file).first(size));
+    const std::size_t records = whole_records(size);
+    expect_profiles(contents.profiles, records / 2);
+    EXPECT_EQ(contents.bytes, records == 0 ? 0 : ends_[records - 1]);
+    EXPECT_EQ(contents.stands_at.has_value(), records > 0);
+    if (records > 0) {
+      EXPECT_EQ(*contents.stands_at, static_cast<int>((records - 1) / 2));
+    }
+  }
+}
+
+TEST_F(Journal, damage_in_any_byte_costs_what_follows_it_and_no_more) {
+  write(4);
+  const auto file = bytes();
+  for (std::size_t at = 0; at < file.size(); ++at) {
+    auto damaged = file;
+    damaged[at] ^= 0x10;
+    expect_profiles(read_journal(damaged).profiles, whole_records(at) / 2);
+  }
+}
+
+TEST_F(Journal, cut_at_any_byte_it_is_gone_on_with) {
+  write(3);
+  const auto file = bytes();
+  for (std::size_t size = 0; size < file.size(); ++size) {
+    std::filesystem::resize_file(path_, size);
+    JournalContents contents;
+    auto journal = ProfileJournal::open(path_, contents);
+    ASSERT_TRUE(journal);
+    for (int i = static_cast<int>(contents.profiles.size()); i < 5; ++i)
+      ASSERT_TRUE(journal->append(profile(i)));
+    expect_profiles(read_journal(bytes()).profiles, 5);
+    std::ofstream(path_, std::ios::binary)
+        .write(reinterpret_cast<const char*>(file.data()),
+               static_cast<std::streamsize>(file.size()));
+  }
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scan_test.h"
+
+namespace vitrine::test {
+namespace {
+
+TEST_F(ScanTest, the_preview_shows_frame_profile_and_a_cloud_that_grows) {
+  auto scan = this->scan();
+  EXPECT_EQ(scan->preview().snapshot().frame, nullptr);
+  std::size_t before = 0;
+  world_.meanwhile = [&](const std::string&, int) {
+    const std::size_t size = scan->preview().snapshot().cloud_size;
+    EXPECT_GE(size, before);
+    before = size;
+  };
+  ASSERT_EQ(run(*scan), ScanState::kDone);
+  const ScanPreview preview = scan->preview().snapshot();
+  ASSERT_TRUE(preview.frame);
+  EXPECT_EQ(preview.frame->width, kFakeWidth);
+  EXPECT_EQ(preview.frame_scale, 1);
+  EXPECT_EQ(preview.profile.points.size(), static_cast<std::size_t>(kFakeHeight));
+  EXPECT_EQ(preview.cloud_size, static_cast<std::size_t>(kSteps * kFakeHeight));
+  const auto all = scan->preview().cloud_from(0);
+  const auto rest = scan->preview().cloud_from(100);
+  ASSERT_EQ(rest.size(), all.size() - 100);
+  EXPECT_EQ(rest.front(), all[100]);
+  EXPECT_TRUE(scan->preview().cloud_from(all.size() + 5).empty());
+}
+
+TEST(LivePreview, a_large_frame_is_shrunk_and_its_thin_stripe_stays) {
+  LivePreview preview(10);
+  Frame frame{1300, 1030, std::vector<std::uint8_t>(1300 * 1030)};
+  for (int v = 0; v < frame.height; ++v)
+    frame.pixels[static_cast<std::size_t>(v) * 1300 + 601] = 200;
+  preview.show(frame);
+  const ScanPreview shown = preview.snapshot();
+  EXPECT_EQ(shown.frame_scale, 2);
+  EXPECT_EQ(shown.frame->width, 650);
+  EXPECT_EQ(shown.frame->height, 515);
+  for (int v = 0; v < shown.frame->height; ++v) {
+    EXPECT_EQ(shown.frame->row(v)[300], 200);
+    EXPECT_EQ(shown.frame->row(v)[299], 0);
+  }
+}
+
+TEST(LivePreview, a_long_scan_has_no_larger_cloud) {
+  constexpr int kManySteps = 1'000;
+  LivePreview preview(kManySteps);
+  Profile profile;
+  profile.points.resize(1'030);
+  for (int i = 0; i < kManySteps; ++i)
+    preview.add(profile);
+  EXPECT_LE(preview.snapshot().cloud_size, kCloudPoints);
+  EXPECT_GT(preview.snapshot().cloud_size, kCloudPoints / 2);
+}
+
+TEST_F(ScanTest, a_reopened_scan_shows_what_it_has) {
+  run(*scan());
+  EXPECT_EQ(reopened()->preview().snapshot().cloud_size,
+            static_cast<std::size_t>(kSteps * kFakeHeight));
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/reprocess.h"
+
+#include "acquisition/session/pgm.h"
+#include "scan_test.h"
+
+namespace vitrine::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Reprocess : public ScanTest {
+ protected:
+  void scan_once(bool keep_frames) {
+    auto scan = this->scan("scan", {.steps = kSteps, .keep_frames = keep_frames});
+    ASSERT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
+    surface_ = scan->surface();
+  }
+  Expected<ScannedSurface> again(const ReprocessOptions& options) {
+    return reprocess(*ScanFolder::open(path()), calibrations_, options);
+  }
+
+  std::shared_ptr<const ScannedSurface> surface_;
+};
+
+TEST_F(Reprocess, with_the_same_parameters_the_mesh_is_the_same) {
+  scan_once(false);
+  const auto surface = again({});
+  ASSERT_TRUE(surface);
+  EXPECT_EQ(surface->mesh.positions, surface_->mesh.positions);
+}
+
+TEST_F(Reprocess, another_sampling_needs_no_pictures) {
+  scan_once(false);
+  const auto surface =
+      again({.processing = {.sampling = {.method = SamplingMethod::kEquidistant, .window = 10}}});
+  ASSERT_TRUE(surface) << surface.error().message;
+  EXPECT_LT(surface->mesh.positions.size(), surface_->mesh.positions.size());
+}
+
+TEST_F(Reprocess, another_way_to_find_the_stripe_needs_the_pictures) {
+  const ReprocessOptions other{.processing = {.stripe = {.method = StripeMethod::kCentreOfMass}}};
+  scan_once(false);
+  const auto refused = again(other);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("were not kept"));
+  std::filesystem::remove_all(path());
+  scan_once(true);
+  const auto surface = again(other);
+  ASSERT_TRUE(surface) << surface.error().message;
+  EXPECT_NE(surface->mesh.positions, surface_->mesh.positions);
+}
+
+TEST_F(Reprocess, another_calibration_moves_the_points) {
+  scan_once(true);
+  Calibration moved = fake_calibration();
+  moved.axis.a = 1;
+  ASSERT_EQ(CalibrationStore(calibrations_).add(moved)->number, 2);
+  const auto surface = again({.calibration = 2});
+  ASSERT_TRUE(surface) << surface.error().message;
+  EXPECT_NE(surface->mesh.positions, surface_->mesh.positions);
+  moved.camera = "another";
+  ASSERT_TRUE(CalibrationStore(calibrations_).add(moved));
+  EXPECT_THAT(again({.calibration = 3}).error().message, HasSubstr("is not of the camera"));
+}
+
+TEST_F(Reprocess, kept_pictures_measured_again_give_the_same_profiles) {
+  scan_once(true);
+  Calibration same = fake_calibration();
+  ASSERT_EQ(CalibrationStore(calibrations_).add(same)->number, 2);
+  const auto surface = again({.calibration = 2});
+  ASSERT_TRUE(surface) << surface.error().message;
+  EXPECT_EQ(surface->mesh.positions, surface_->mesh.positions);
+}
+
+TEST(Pgm, a_frame_comes_back_as_it_was) {
+  const Frame frame{3, 2, {0, 10, 255, 13, 32, 1}};
+  EXPECT_EQ(*from_pgm(to_pgm(frame)), frame);
+}
+
+TEST(Pgm, cut_or_changed_files_are_refused) {
+  const auto file = to_pgm({3, 2, {0, 10, 255, 13, 32, 1}});
+  for (std::size_t size = 0; size < file.size(); ++size)
+    EXPECT_FALSE(from_pgm(std::span(file).first(size)));
+  for (std::size_t i = 0; i < file.size() - 6; ++i) {
+    auto changed = file;
+    changed[i] ^= 0x44;
+    EXPECT_FALSE(from_pgm(changed)) << i;
+  }
+  const std::string huge = "P5\n32768 32768\n255\n";
+  EXPECT_FALSE(
+      from_pgm(std::span(reinterpret_cast<const std::uint8_t*>(huge.data()), huge.size())));
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// The states of a scan: who may do what when, and what is left on disk.
+#include "acquisition/session/scan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <future>
+#include <numbers>
+
+#include "scan_test.h"
+
+namespace vitrine::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST_F(ScanTest, an_undisturbed_scan_passes_through_its_states_and_ends_in_a_mesh) {
+  std::vector<ScanState> seen;
+  auto scan = this->scan();
+  EXPECT_EQ(scan->status().state, ScanState::kIdle);
+  world_.meanwhile = [&](const std::string&, int) {
+    const ScanState state = scan->status().state;
+    if (seen.empty() || seen.back() != state) seen.push_back(state);
+  };
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  // The devices are closed before the mesh is made.
+  EXPECT_THAT(seen, ElementsAre(ScanState::kChecking, ScanState::kScanning));
+  ASSERT_TRUE(scan->surface());
+  EXPECT_GT(scan->surface()->mesh.faces.size(), 50u);
+  EXPECT_EQ(scan->status().steps_done, kSteps);
+  EXPECT_EQ(scan->status().progress, 1);
+}
+
+TEST_F(ScanTest, the_mesh_is_the_column_that_stands_on_the_table) {
+  auto scan = this->scan("scan", {.steps = 60});
+  ASSERT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
+  for (const Vec3& p : scan->surface()->mesh.positions) {
+    const double degrees = std::atan2(p.y, p.x) * 180 / std::numbers::pi;
+    EXPECT_NEAR(std::hypot(p.x, p.y), fake_radius(-degrees), 0.2);
+  }
+}
+
+TEST_F(ScanTest, it_writes_down_what_it_was) {
+  run(*scan());
+  const auto record = reopened()->folder().record();
+  ASSERT_TRUE(record && *record);
+  EXPECT_EQ((*record)->camera, kFakeSerial);
+  EXPECT_EQ((*record)->calibration, 1);
+  EXPECT_EQ((*record)->board, "horus board-1");
+  EXPECT_EQ((*record)->request.steps, kSteps);
+  EXPECT_EQ((*record)->settings.region, (SensorRegion{0, 0, kFakeWidth, kFakeHeight}));
+}
+
+TEST_F(ScanTest, a_paused_scan_goes_on_to_the_same_mesh) {
+  const std::string expected = undisturbed();
+  for (int step = 1; step <= kSteps; ++step) {
+    const std::string name = fmt::format("paused-{}", step);
+    auto scan = this->scan(name);
+    bool paused = false;
+    world_.calls.clear();
+    world_.meanwhile = [&](const std::string& call, int count) {
+      if (call == "turn" && count == step && !std::exchange(paused, true)) {
+        EXPECT_TRUE(scan->pause());
+      }
+    };
+    ASSERT_EQ(run(*scan), ScanState::kPaused);
+    expect_dark(world_);
+    EXPECT_LT(scan->status().steps_done, kSteps);
+    EXPECT_EQ(run(*scan), ScanState::kDone);
+    EXPECT_EQ(mesh_text(*scan), expected);
+  }
+}
+
+TEST_F(ScanTest, one_that_is_destroyed_while_it_runs_can_be_reopened) {
+  {
+    auto scan = this->scan();
+    std::promise<void> begun;
+    world_.meanwhile = [&](const std::string& call, int count) {
+      if (call == "turn" && count == 4) begun.set_value();
+    };
+    ASSERT_TRUE(scan->resume());
+    begun.get_future().wait();
+  }
+  expect_dark(world_);
+  world_.meanwhile = {};
+  auto scan = reopened();
+  EXPECT_EQ(scan->status().state, ScanState::kPaused);
+  EXPECT_GE(scan->status().steps_done, 2);
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), undisturbed());
+}
+
+TEST_F(ScanTest, cancelling_keeps_what_was_measured) {
+  auto scan = this->scan();
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call == "turn" && count == 6) {
+      EXPECT_TRUE(scan->cancel());
+    }
+  };
+  EXPECT_EQ(run(*scan), ScanState::kCancelled);
+  expect_dark(world_);
+  EXPECT_FALSE(scan->resume());
+  EXPECT_FALSE(scan->cancel());
+  EXPECT_FALSE(scan->pause());
+  const auto again = reopened();
+  EXPECT_EQ(again->status().state, ScanState::kCancelled);
+  EXPECT_EQ(again->folder().profiles()->size(), 5u);
+}
+
+TEST_F(ScanTest, what_a_state_does_not_allow_is_refused_with_the_state) {
+  auto scan = this->scan();
+  EXPECT_THAT(scan->pause().error().message, HasSubstr("a scan that is idle"));
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call == "turn" && count == 4) {
+      EXPECT_THAT(scan->resume().error().message, HasSubstr("a scan that is scanning"));
+    }
+  };
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_FALSE(scan->cancel());
+  EXPECT_FALSE(scan->pause());
+}
+
+TEST_F(ScanTest, an_idle_one_is_cancelled_at_once) {
+  auto scan = this->scan();
+  EXPECT_TRUE(scan->cancel());
+  EXPECT_EQ(scan->status().state, ScanState::kCancelled);
+}
+
+TEST_F(ScanTest, a_done_one_is_meshed_again_without_the_devices) {
+  std::string mesh;
+  {
+    auto scan = this->scan();
+    run(*scan);
+    mesh = mesh_text(*scan);
+  }
+  world_.fault = [](const std::string&, int) { return true; };
+  auto scan = reopened();
+  EXPECT_EQ(scan->status().state, ScanState::kDone);
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), mesh);
+}
+
+TEST_F(ScanTest, a_folder_that_holds_a_scan_is_not_used_for_another) {
+  run(*scan());
+  const auto second = Scan::create(scanner(), request(), path());
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::kState);
+  EXPECT_THAT(second.error().message, HasSubstr("holds a scan already; resume"));
+}
+
+TEST_F(ScanTest, nothing_is_reopened_where_nothing_is) {
+  const auto none = Scan::reopen(scanner(), path("none"));
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("there is no scan in"));
+}
+
+TEST_F(ScanTest, requests_beyond_bounds_are_refused) {
+  const auto refused = [&](ScanRequest request, const char* why) {
+    const auto made = Scan::create(scanner(), request, path());
+    ASSERT_FALSE(made) << why;
+    EXPECT_THAT(made.error().message, HasSubstr(why));
+  };
+  refused({.steps = 7}, "7 steps");
+  refused({.steps = 36'001}, "36001 steps");
+  refused({.exposure_us = 0}, "exposure of 0");
+  refused({.processing = {.sampling = {.window = 7}}}, "length of 7 points");
+}
+
+TEST_F(ScanTest, progress_and_the_time_left_follow_the_steps) {
+  double clock = 100;
+  std::mutex mutex;
+  ScanSettings settings = impatient();
+  settings.seconds = [&] {
+    const std::lock_guard lock(mutex);
+    return clock;
+  };
+  auto made = Scan::create(scanner(), request(), path(), settings);
+  Scan& scan = **made;
+  double before = 0;
+  std::optional<double> left;
+  world_.meanwhile = [&](const std::string& call, int) {
+    const ScanStatus status = scan.status();
+    EXPECT_GE(status.progress, before);
+    before = status.progress;
+    if (status.seconds_left) left = status.seconds_left;
+    const std::lock_guard lock(mutex);
+    if (call == "turn") clock += 2;
+  };
+  EXPECT_EQ(run(scan), ScanState::kDone);
+  EXPECT_GT(before, 0.5);
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(*left, 2, 2);
+}
+
+TEST_F(ScanTest, without_a_calibration_of_this_camera_and_region_nothing_begins) {
+  const auto refused = [&](const char* why) {
+    auto scan = Scan::create(scanner(), request(), path());
+    EXPECT_EQ(run(**scan), ScanState::kFailed);
+    EXPECT_THAT((*scan)->status().error->message, HasSubstr(why));
+    EXPECT_EQ(world_.calls["laser on"], 0);
+    EXPECT_EQ(world_.calls["turn"], 0);
+  };
+  std::filesystem::remove_all(calibrations_);
+  refused("there is no calibration");
+  Calibration other = fake_calibration();
+  other.camera = "another";
+  ASSERT_TRUE(CalibrationStore(calibrations_).add(other));
+  refused("is not calibrated");
+  other = fake_calibration();
+  other.region.x = 8;
+  ASSERT_TRUE(CalibrationStore(calibrations_).add(other));
+  refused("is calibrated for the region");
+}
+
+TEST_F(ScanTest, a_newer_calibration_does_not_touch_a_scan_that_has_begun) {
+  const std::string expected = undisturbed();
+  auto scan = this->scan();
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call == "turn" && count == 4) {
+      EXPECT_TRUE(scan->pause());
+    }
+  };
+  ASSERT_EQ(run(*scan), ScanState::kPaused);
+  Calibration newer = fake_calibration();
+  newer.axis.a = 3;
+  ASSERT_TRUE(CalibrationStore(calibrations_).add(newer));
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), expected);
+}
+
+TEST_F(ScanTest, it_goes_on_with_no_other_camera) {
+  {
+    auto scan = this->scan();
+    world_.meanwhile = [&](const std::string& call, int count) {
+      if (call == "turn" && count == 4) {
+        EXPECT_TRUE(scan->pause());
+      }
+    };
+    run(*scan);
+  }
+  world_.meanwhile = {};
+  world_.serial = "fake-2";
+  auto scan = reopened();
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  EXPECT_THAT(scan->status().error->message, HasSubstr("begun with camera fake-1, this is fake-2"));
+}
+
+TEST_F(ScanTest, what_the_first_frames_lack_is_named_with_what_to_do) {
+  const auto refused = [&](FakeObject object, const char* name) {
+    world_.object = object;
+    auto scan = Scan::create(scanner(), request(), path());
+    EXPECT_EQ(run(**scan), ScanState::kFailed) << name;
+    EXPECT_THAT((*scan)->status().error.value_or(Error{}).message, HasSubstr(name));
+    expect_dark(world_);
+    EXPECT_EQ((*scan)->status().steps_done, 0);
+  };
+  refused(FakeObject::kNothing, "no stripe");
+  refused(FakeObject::kEmptyTable, "empty turntable");
+  refused(FakeObject::kSaturated, "all saturated");
+  refused(FakeObject::kTwoStripes, "two stripes");
+}
+
+TEST_F(ScanTest, an_object_put_on_the_table_after_a_refusal_is_scanned) {
+  world_.object = FakeObject::kNothing;
+  auto scan = this->scan();
+  ASSERT_EQ(run(*scan), ScanState::kFailed);
+  world_.object = FakeObject::kColumn;
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), undisturbed());
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes wrong; vitrine-rig shows what goes right.
+#include "acquisition/session/target_pictures.h"
+
+#include "scan_test.h"
+
+namespace vitrine::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Target kTarget{9, 14, 8, 6, "DICT_4X4_100"};
+
+PlaceTarget places(int count) {
+  return [count](int number) -> Expected<bool> { return number < count; };
+}
+
+TEST_F(ScanTest, a_target_that_is_never_seen_is_named) {
+  EmergencyStop stop;
+  const auto none = picture_target(scanner(), kTarget, places(2), stop);
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("target never seen: "));
+}
+
+TEST_F(ScanTest, an_operator_who_places_no_target_is_told) {
+  EmergencyStop stop;
+  EXPECT_THAT(picture_target(scanner(), kTarget, places(0), stop).error().message,
+              HasSubstr("it was never placed; put it on the table"));
+}
+
+TEST_F(ScanTest, laser_and_motor_rest_while_hands_are_at_the_table) {
+  EmergencyStop stop;
+  const PlaceTarget place = [&](int number) -> Expected<bool> {
+    const std::lock_guard lock(world_.mutex);
+    EXPECT_FALSE(world_.laser || world_.motor);
+    EXPECT_EQ(world_.degrees, 0);
+    return number < 2;
+  };
+  EXPECT_FALSE(picture_target(scanner(), kTarget, place, stop));
+}
+
+TEST_F(ScanTest, a_device_lost_during_calibration_is_the_error) {
+  world_.fault = [](const std::string& call, int count) { return call == "capture" && count == 5; };
+  EmergencyStop stop;
+  EXPECT_THAT(picture_target(scanner(), kTarget, places(3), stop).error().message,
+              HasSubstr("is gone at \"capture\""));
+}
+
+}  // namespace
+}  // namespace vitrine::test

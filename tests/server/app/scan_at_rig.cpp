@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole way: the daemon drives the scanner that vitrine-rig is, over the real protocols, from
+// the calibration to a model that visitors can open.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "codec/export/write_mesh.h"
+#include "support/http_client.h"
+#include "support/meshes.h"
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kSteps = 48;
+
+// Waits for what another process does.
+template <class Condition>
+void wait_until(Condition condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(3);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) throw std::runtime_error("it did not come");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+class DaemonAtRig : public testing::Test {
+ protected:
+  DaemonAtRig() {
+    const auto mesh = write_mesh(torus(60, 30), MeshFormat::kPly, "mm").value();
+    std::ofstream(path("object.ply"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(mesh.data()),
+               static_cast<std::streamsize>(mesh.size()));
+    const ProgramResult made = run_program({VITRINE_BIN_DIR "/vitrine", "token", "create", "--role",
+                                            "operator", "--data", path("data"), "--json"});
+    token_ = json::parse(made.output)["token"];
+    rig_ = std::thread([this] { result_ = run_program(words()); });
+    wait_for_port();
+  }
+  ~DaemonAtRig() override {
+    std::ofstream(path("end"));
+    signal_daemon(SIGTERM);
+    rig_.join();
+    EXPECT_EQ(result_.exit_code, 0) << result_.errors;
+  }
+
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  static std::string text(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  // The daemon is started anew whenever it ends.
+  std::vector<std::string> words() const {
+    const int number = ::getpid();  // an address of this process alone: tests run side by side
+    return {VITRINE_BIN_DIR "/vitrine-rig",
+            "--mesh",
+            path("object.ply"),
+            "--height-mm",
+            "40",
+            "--steps",
+            std::to_string(kSteps),
+            "--address",
+            fmt::format("127.{}.{}.{}", 1 + number / 62'500 % 250, number / 250 % 250,
+                        1 + number % 250),
+            "--write-config",
+            path("rig.json"),
+            "--",
+            "sh",
+            "-c",
+            "cd \"$0\" && while ! test -e end; do rm -f port; \"$1\" --listen 127.0.0.1:0 "
+            "--port-file port --data data --scanners rig.json --access-log '' & echo $! > pid.new; "
+            "mv pid.new pid; wait; done",
+            folder_.path().string(),
+            VITRINE_BIN_DIR "/vitrined"};
+  }
+
+  void signal_daemon(int number) const { ::kill(std::stoi(text(path("pid"))), number); }
+  void wait_for_port() {
+    wait_until([this] { return !text(path("port")).empty(); });
+  }
+  void kill_daemon() {
+    const std::string before = text(path("pid"));
+    signal_daemon(SIGKILL);
+    wait_until([&] { return text(path("pid")) != before; });
+    wait_for_port();
+  }
+
+  HttpAnswer ask(const std::string& method, const std::string& target, const json& body = nullptr) {
+    const std::string content = body.is_null() ? "" : body.dump();
+    HttpClient client(static_cast<std::uint16_t>(std::stoi(text(path("port")))));
+    client.send(
+        fmt::format("{} /api/v1{} HTTP/1.1\r\nHost: a\r\nAuthorization: Bearer {}\r\n"
+                    "Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{}",
+                    method, target, token_, content.size(), content));
+    return client.receive();
+  }
+  json get(const std::string& target) { return json::parse(ask("GET", target).body); }
+
+  void calibrate() {
+    const HttpAnswer answer = ask("POST", "/scanners/rig/calibrations");
+    ASSERT_EQ(answer.status, 202) << answer.body;
+    const json job = end_of("/jobs/" + json::parse(answer.body)["job"].get<std::string>());
+    ASSERT_EQ(job["state"], "done") << job;
+  }
+  std::string begin_scan() {
+    const HttpAnswer answer = ask(
+        "POST", "/scans",
+        {{"scanner", "rig"}, {"steps", kSteps}, {"publish", true}, {"metadata", {{"title", "t"}}}});
+    EXPECT_EQ(answer.status, 202) << answer.body;
+    return "/scans/" + json::parse(answer.body)["id"].get<std::string>();
+  }
+  // Of a job or a scan.
+  json end_of(const std::string& target) {
+    json now;
+    wait_until([&] {
+      now = get(target);
+      const std::string state = now["state"];
+      return state == "done" || state == "failed" || state == "cancelled";
+    });
+    return now;
+  }
+  std::string exported(const json& scan) {
+    return ask("GET", "/models/" + scan["model"].get<std::string>() + "/export.ply").body;
+  }
+
+  TemporaryFolder folder_;
+  std::string token_;
+  ProgramResult result_;
+  std::thread rig_;
+};
+
+TEST_F(DaemonAtRig, it_calibrates_scans_and_publishes_and_the_points_grow) {
+  const json scanner = get("/scanners/rig");
+  EXPECT_EQ(scanner["state"], "idle") << scanner;
+  EXPECT_EQ(scanner["calibration"], nullptr);
+  calibrate();
+  EXPECT_EQ(get("/scanners/rig")["calibration"], 1);
+  const std::string scan = begin_scan();
+  wait_until([&] { return get(scan)["step"] >= 4; });
+  const std::size_t early = ask("GET", scan + "/points").body.size();
+  EXPECT_GT(early, 0u);
+  EXPECT_FALSE(get(scan + "/profile").empty());
+  const json done = end_of(scan);
+  ASSERT_EQ(done["state"], "done") << done;
+  EXPECT_EQ(done["calibration"], 1);
+  EXPECT_GT(ask("GET", scan + "/points").body.size(), early);
+  EXPECT_EQ(get("/models/" + done["model"].get<std::string>())["title"], "t");
+}
+
+TEST_F(DaemonAtRig, killed_in_the_middle_it_goes_on_and_the_mesh_is_the_same) {
+  calibrate();
+  const json calm = end_of(begin_scan());
+  ASSERT_EQ(calm["state"], "done") << calm;
+  const std::string scan = begin_scan();
+  wait_until([&] { return get(scan)["step"] >= kSteps / 3; });
+  kill_daemon();
+  const json resumed = end_of(scan);
+  ASSERT_EQ(resumed["state"], "done") << resumed;
+  EXPECT_TRUE(exported(resumed) == exported(calm));
+}
+
+TEST_F(DaemonAtRig, stopped_in_the_middle_it_goes_on_at_the_next_start) {
+  calibrate();
+  const std::string scan = begin_scan();
+  wait_until([&] { return get(scan)["step"] >= kSteps / 3; });
+  const std::string before = text(path("pid"));
+  signal_daemon(SIGTERM);
+  wait_until([&] { return text(path("pid")) != before; });
+  wait_for_port();
+  EXPECT_GE(get(scan)["step"], kSteps / 3);
+  EXPECT_EQ(end_of(scan)["state"], "done");
+}
+
+}  // namespace
+}  // namespace vitrine::test

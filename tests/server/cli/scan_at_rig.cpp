@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole way over the real protocols: vitrine-rig is the scanner, vitrine calibrates it by its
+// target and scans a mesh, and the result is compared with the truth.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr int kSteps = 60;
+
+class ScanAtRig : public VitrineCommand {
+ protected:
+  ScanAtRig() { write("object.ply", bumpy_ply(3'000)); }
+
+  // Of this process alone: tests run side by side.
+  static std::string address() {
+    const int number = ::getpid();
+    return fmt::format("127.{}.{}.{}", 1 + number / 62'500 % 250, number / 250 % 250,
+                       1 + number % 250);
+  }
+
+  // Runs the script in the folder of the test, where rig.json describes the scanner.
+  ProgramResult at_rig(const std::string& script, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> words = {VITRINE_BIN_DIR "/vitrine-rig",
+                                      "--mesh",
+                                      path("object.ply"),
+                                      "--height-mm",
+                                      "40",
+                                      "--steps",
+                                      std::to_string(kSteps),
+                                      "--address",
+                                      address(),
+                                      "--write-config",
+                                      path("rig.json"),
+                                      "--write-truth",
+                                      path("truth.ply")};
+    words.insert(words.end(), options.begin(), options.end());
+    words.insert(words.end(), {"--", "sh", "-c", "cd \"$0\" && vitrine=\"$1\" && " + script,
+                               folder_.path().string(), kVitrine});
+    return run_program(words);
+  }
+  // Numbers of calibration 1, which later rigs of the same seed find, too.
+  void calibrate() {
+    const ProgramResult result =
+        at_rig("\"$vitrine\" calibrate --config rig.json --json > calibration.json");
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+  }
+  static std::string scan_to(const std::string& out, const std::string& more = "") {
+    return "\"$vitrine\" scan --config rig.json -o " + out + " " + more;
+  }
+  // The mesh of a scan that nothing disturbs.
+  std::string undisturbed() {
+    const ProgramResult result = at_rig(scan_to("calm.ply", "--json > scan.json"));
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_FALSE(std::filesystem::exists(path("calm.ply.scan")));
+    return read("calm.ply");
+  }
+};
+
+TEST_F(ScanAtRig, a_calibrated_scanner_measures_what_stands_on_its_table) {
+  calibrate();
+  const json calibration = json::parse(read("calibration.json"));
+  EXPECT_LT(calibration["rms"].get<double>(), 0.1);
+  EXPECT_EQ(calibration["number"], 1);
+  EXPECT_TRUE(std::filesystem::exists(path("calibrations/0001.svg")));
+  undisturbed();
+  const json scan = json::parse(read("scan.json"));
+  EXPECT_EQ(scan["steps"], kSteps);
+  EXPECT_EQ(scan["calibration"], 1);
+  EXPECT_GT(scan["faces"].get<int>(), 1'000);
+  const json distance = vitrine_json({"measure", path("calm.ply"), path("truth.ply")});
+  EXPECT_LT(distance["a_to_b"]["rms"].get<double>(), 0.3);
+}
+
+TEST_F(ScanAtRig, unplugged_devices_and_missing_packets_change_nothing) {
+  calibrate();
+  const std::string expected = undisturbed();
+  for (const std::string fault :
+       {"camera-unplug@20", "usb-unplug@30", "lost-packets", "missed-trigger@25"}) {
+    const ProgramResult result = at_rig(scan_to("out.ply"), {"--fault", fault});
+    EXPECT_EQ(result.exit_code, 0) << fault << ": " << result.errors;
+    EXPECT_TRUE(read("out.ply") == expected) << fault;
+  }
+}
+
+TEST_F(ScanAtRig, killed_or_interrupted_and_resumed_it_is_the_same_mesh) {
+  calibrate();
+  const std::string expected = undisturbed();
+  for (const std::string signal : {"KILL", "INT"}) {
+    const std::string out = signal + ".ply";
+    const std::string script = scan_to(out) + " & scan=$!; " + "until [ \"$(stat -c %s " + out +
+                               ".scan/profiles 2>/dev/null || echo 0)\" -gt 100000 ]; "
+                               "do sleep 0.02; done; kill -" +
+                               signal + " $scan; wait $scan; test ! -e " + out + " && { " +
+                               scan_to("other.ply", "--resume") + "; test $? = 1; } && " +
+                               scan_to(out, "--resume");
+    const ProgramResult result = at_rig(script);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_TRUE(read(out) == expected) << signal;
+  }
+}
+
+TEST_F(ScanAtRig, an_uncalibrated_scanner_does_not_scan) {
+  const ProgramResult result = at_rig(scan_to("out.ply"));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.errors, HasSubstr("there is no calibration in"));
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply.scan")));
+}
+
+}  // namespace
+}  // namespace vitrine::test

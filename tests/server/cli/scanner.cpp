@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// `calibrate` and `scan` without a scanner: what they refuse, and how. tests/acquisition/rig runs
+// them on the simulated one.
+#include <gmock/gmock.h>
+
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ScannerCommands : public VitrineCommand {
+ protected:
+  // A scanner that is not there.
+  std::string config(const std::string& camera = R"({"address": "127.0.0.2"})") const {
+    return write("rig.json", R"({"camera": )" + camera + R"(,
+      "board": {"dialect": "horus", "vendor": "0x2341", "product": "0x0043", "serial": "absent"},
+      "target": {"squares_x": 9, "squares_y": 14, "square_mm": 8, "marker_mm": 6,
+                 "dictionary": "DICT_4X4_100"}})");
+  }
+};
+
+TEST_F(ScannerCommands, wrong_usage_is_exit_code_2) {
+  const std::string rig = config(), out = path("out.ply");
+  const std::vector<std::vector<std::string>> lines = {
+      {"calibrate"},
+      {"calibrate", "--config", rig, "--degree", "6"},
+      {"calibrate", "--config", rig, "extra"},
+      {"scan", "-o", out},
+      {"scan", "--config", rig},
+      {"scan", "--config", rig, "-o", path("out.xyz")},
+      {"scan", "--config", rig, "-o", out, "--steps", "7"},
+      {"scan", "--config", rig, "-o", out, "--steps", "36001"},
+      {"scan", "--config", rig, "-o", out, "--length", "6"},
+      {"scan", "--config", rig, "-o", out, "--sampling", "best"},
+      {"scan", "--config", rig, "-o", out, "--exposure", "0"},
+      {"scan", "--config", rig, "-o", out, "--resume", "--steps", "100"},
+      {"scan", "--config", rig, "-o", out, "--resume", "--keep-frames"},
+  };
+  for (const auto& words : lines) {
+    const ProgramResult result = vitrine(words);
+    EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(words) << result.errors;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+    EXPECT_EQ(result.output, "");
+  }
+  EXPECT_THAT(files(), ElementsAre("rig.json"));
+}
+
+TEST_F(ScannerCommands, a_fault_of_the_configuration_names_file_and_key) {
+  const std::string rig = config(R"({"adress": "127.0.0.2"})");
+  const ProgramResult result = vitrine({"scan", "--config", rig, "-o", path("out.ply")});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("rig.json: camera: \"adress\" is not known here"));
+  expect_fault(vitrine({"calibrate", "--config", rig}), 1);
+  expect_fault(vitrine({"calibrate", "--config", path("absent.json")}), 1);
+}
+
+TEST_F(ScannerCommands, a_scanner_that_is_not_there_leaves_nothing_behind) {
+  const std::string rig = config();
+  expect_fault(vitrine({"scan", "--config", rig, "-o", path("out.ply")}), 1);
+  expect_fault(vitrine({"calibrate", "--config", rig}), 1);
+  EXPECT_THAT(files(), ElementsAre("rig.json"));
+}
+
+TEST_F(ScannerCommands, there_is_nothing_to_resume) {
+  const ProgramResult result =
+      vitrine({"scan", "--config", config(), "-o", path("out.ply"), "--resume"});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("there is no scan in"));
+}
+
+TEST_F(ScannerCommands, what_is_to_be_written_must_be_writable) {
+  const ProgramResult result =
+      vitrine({"scan", "--config", config(), "-o", path("absent/out.ply")});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("create the folder"));
+}
+
+}  // namespace
+}  // namespace vitrine::test

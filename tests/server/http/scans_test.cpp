@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scanners, calibrations, scans and jobs over HTTP, at a scanner without devices.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "local_server.h"
+#include "server/http/routes.h"
+#include "support/fake_backend.h"
+#include "support/http_client.h"
+
+namespace vitrine {
+namespace {
+
+using nlohmann::json;
+using test::FakeScanner;
+using test::HeldAtStep;
+using test::HttpAnswer;
+using test::HttpClient;
+using test::LocalServer;
+
+class ScanRoutes : public testing::Test {
+ protected:
+  ScanRoutes() { EXPECT_TRUE(server_.scans().start()); }
+
+  static std::vector<std::unique_ptr<ScannerBackend>> one(FakeScanner& world) {
+    std::vector<std::unique_ptr<ScannerBackend>> backends;
+    backends.push_back(std::make_unique<test::FakeBackend>(world));
+    return backends;
+  }
+  HttpAnswer ask(const std::string& method, const std::string& path, const std::string& who,
+                 const json& body = nullptr, const std::string& fields = "") {
+    const std::string text = body.is_null() ? "" : body.dump();
+    const std::string about = text.empty() ? "" : "Content-Type: application/json\r\n";
+    HttpClient client(server_.port());
+    client.send(method + " /api/v1" + path + " HTTP/1.1\r\nHost: a\r\n" + who + fields + about +
+                "Content-Length: " + std::to_string(text.size()) + "\r\n\r\n" + text);
+    return client.receive();
+  }
+  HttpAnswer get(const std::string& path) { return ask("GET", path, viewer_); }
+  HttpAnswer post(const std::string& path, const json& body = nullptr,
+                  const std::string& fields = "") {
+    return ask("POST", path, operator_, body, fields);
+  }
+  json begin(const json& more = json::object()) {
+    json body = {{"scanner", "rig"}, {"steps", 12}};
+    body.update(more);
+    const HttpAnswer answer = post("/scans", body);
+    EXPECT_EQ(answer.status, 202) << answer.body;
+    const json started = json::parse(answer.body);
+    EXPECT_EQ(answer.field("location"), "/api/v1/jobs/" + started["job"].get<std::string>());
+    return started;
+  }
+  static std::string scan_path(const json& started) {
+    return "/scans/" + started["id"].get<std::string>();
+  }
+  static std::string job_path(const json& started) {
+    return "/jobs/" + started["job"].get<std::string>();
+  }
+  // What the scanner has been given before is done on return.
+  void settle(const std::string& lane = "rig") {
+    server_.scans().jobs().lane(lane).run([] {});
+  }
+
+  static std::string fault_of(const HttpAnswer& answer) {
+    return json::parse(answer.body)["errors"].at(0)["parameter"];
+  }
+
+  FakeScanner world_;
+  LocalServer server_{public_routes(), std::chrono::seconds(30), one(world_)};
+  const std::string viewer_ = server_.bearer(Role::kViewer);
+  const std::string operator_ = server_.bearer(Role::kOperator);
+};
+
+TEST_F(ScanRoutes, ScannersAreListedAndShownWithTheirDevices) {
+  const json listed = json::parse(get("/scanners").body);
+  ASSERT_EQ(listed["scanners"].size(), 1u);
+  const json shown = json::parse(get("/scanners/rig").body);
+  EXPECT_EQ(listed["scanners"][0], shown);
+  EXPECT_EQ(shown, json::parse(R"({"id":"rig","name":"rig","state":"idle",
+    "camera":{"vendor":"Acme","model":"C1","serial":"42"},
+    "board":{"dialect":"horus","firmware":"fake 1.0"},
+    "calibration":1,"scan":null,"problem":null})"));
+  EXPECT_EQ(get("/scanners/other").status, 404);
+}
+
+TEST_F(ScanRoutes, CommandsAreForOperators) {
+  for (const std::string path : {"/scanners/rig/jog", "/scanners/rig/laser", "/scanners/rig/stop",
+                                 "/scanners/rig/calibrations", "/scans"}) {
+    EXPECT_EQ(ask("POST", path, "", json::object()).status, 401) << path;
+    EXPECT_EQ(ask("POST", path, viewer_, json::object()).status, 403) << path;
+  }
+  EXPECT_EQ(ask("GET", "/scanners", "").status, 401);
+  EXPECT_EQ(ask("GET", "/scans", "").status, 401);
+  EXPECT_EQ(ask("GET", "/jobs", "").status, 401);
+  EXPECT_EQ(get("/scanners/rig/preview").status, 403);
+  EXPECT_EQ(world_.degrees, 0);
+}
+
+TEST_F(ScanRoutes, JogLaserAndStopReachTheDevices) {
+  EXPECT_EQ(post("/scanners/rig/jog", {{"degrees", -12.5}}).status, 200);
+  EXPECT_EQ(world_.degrees, -12.5);
+  EXPECT_EQ(post("/scanners/rig/laser", {{"on", true}}).status, 200);
+  EXPECT_TRUE(world_.laser);
+  const HttpAnswer stopped = post("/scanners/rig/stop");
+  EXPECT_EQ(stopped.status, 200);
+  EXPECT_EQ(json::parse(stopped.body)["name"], "rig");
+  EXPECT_TRUE(world_.stopped);
+  EXPECT_FALSE(world_.laser);
+  world_.reachable = false;
+  const HttpAnswer lost = post("/scanners/rig/jog", {{"degrees", 1}});
+  EXPECT_EQ(lost.status, 409);
+  EXPECT_NE(lost.body.find("check its cable"), std::string::npos);
+  EXPECT_EQ(json::parse(get("/scanners/rig").body)["state"], "unreachable");
+}
+
+TEST_F(ScanRoutes, AWrongCommandNamesItsField) {
+  for (const json& body : {json::object(), json{{"degrees", "10"}}, json{{"degrees", 1e9}},
+                           json{{"degrees", 1}, {"fast", true}}}) {
+    const HttpAnswer answer = post("/scanners/rig/jog", body);
+    EXPECT_EQ(answer.status, 422) << body;
+    EXPECT_EQ(fault_of(answer), "degrees");
+  }
+  EXPECT_EQ(fault_of(post("/scanners/rig/laser", {{"on", 1}})), "on");
+  EXPECT_EQ(fault_of(post("/scanners/rig/calibrations", {{"poses", 1}})), "poses");
+  EXPECT_EQ(fault_of(post("/scans", {{"scanner", "rig"}, {"steps", 1}})), "steps");
+  EXPECT_EQ(fault_of(post("/scans", {{"scanner", "other"}})), "scanner");
+  EXPECT_EQ(fault_of(post("/scans", {{"scanner", "rig"}}, "Idempotency-Key: \x01\r\n")),
+            "Idempotency-Key");
+}
+
+TEST_F(ScanRoutes, ThePreviewIsAPicture) {
+  const HttpAnswer answer = ask("GET", "/scanners/rig/preview", operator_);
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.field("content-type"), "image/png");
+  EXPECT_EQ(answer.body.substr(1, 3), "PNG");
+}
+
+TEST_F(ScanRoutes, CalibrationsAreListedShownAndMadeByAJob) {
+  const HttpAnswer answer = post("/scanners/rig/calibrations");
+  EXPECT_EQ(answer.status, 202);
+  settle();
+  const json job =
+      json::parse(get("/jobs/" + json::parse(answer.body)["job"].get<std::string>()).body);
+  EXPECT_EQ(job["kind"], "calibrate");
+  EXPECT_EQ(job["state"], "done");
+  const json all = json::parse(get("/scanners/rig/calibrations").body)["calibrations"];
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0]["number"], 2);
+  EXPECT_EQ(all[0]["region"]["width"], 64);
+  EXPECT_EQ(all[0]["rms"], 0.02);
+  EXPECT_EQ(json::parse(get("/scanners/rig/calibrations/2").body)["number"], 2);
+  EXPECT_EQ(get("/scanners/rig/calibrations/3").status, 404);
+  EXPECT_EQ(get("/scanners/rig/calibrations/2/residuals.svg").field("content-type"),
+            "image/svg+xml");
+}
+
+TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
+  HeldAtStep held(world_, 5);
+  const json started = begin({{"metadata", {{"title", "A ring"}}}});
+  held.await();
+  json scan = json::parse(get(scan_path(started)).body);
+  EXPECT_EQ(scan["state"], "scanning");
+  EXPECT_EQ(scan["step"], 5);
+  EXPECT_EQ(scan["steps"], 12);
+  EXPECT_EQ(scan["title"], "A ring");
+  EXPECT_EQ(scan["points"], 50);
+  EXPECT_EQ(json::parse(get("/scanners/rig").body)["scan"], started["id"]);
+  const HttpAnswer points = get(scan_path(started) + "/points?from=48");
+  ASSERT_EQ(points.body.size(), 2 * 12u);
+  float first[3];
+  std::memcpy(first, points.body.data(), sizeof first);
+  EXPECT_EQ(first[0], 4);
+  EXPECT_EQ(first[1], 8);
+  EXPECT_EQ(get(scan_path(started) + "/points?from=50").body, "");
+  EXPECT_EQ(get(scan_path(started) + "/points?from=x").status, 400);
+  EXPECT_EQ(json::parse(get(scan_path(started) + "/profile").body),
+            json::parse("[[12.5,3],[12.25,4]]"));
+  held.open();
+  settle();
+  scan = json::parse(get(scan_path(started)).body);
+  EXPECT_EQ(scan["state"], "done") << scan;
+  EXPECT_EQ(scan["progress"], 1);
+  ASSERT_TRUE(scan["model"].is_string());
+  EXPECT_EQ(get("/models/" + scan["model"].get<std::string>()).status, 404);  // a draft
+  EXPECT_EQ(get(scan_path(started) + "/points").body.size(), 12 * 10 * 12u);
+}
+
+TEST_F(ScanRoutes, APublicScanIsSeenByEverybodyAndBecomesAModel) {
+  const json started = begin({{"publish", true}});
+  const json other = [&] {
+    settle();
+    return begin();
+  }();
+  settle();
+  const HttpAnswer answer = ask("GET", scan_path(started), "");
+  ASSERT_EQ(answer.status, 200);
+  const std::string model = json::parse(answer.body)["model"];
+  EXPECT_EQ(ask("GET", "/models/" + model, "").status, 200);
+  EXPECT_EQ(ask("GET", scan_path(started) + "/points", "").status, 200);
+  EXPECT_EQ(ask("GET", job_path(started), "").status, 200);
+  for (const std::string& path : {scan_path(other), scan_path(other) + "/points", job_path(other)})
+    EXPECT_EQ(ask("GET", path, "").status, 401) << path;
+}
+
+TEST_F(ScanRoutes, WhatTheScannerOrTheStateDoesNotAllowIsAConflict) {
+  HeldAtStep held(world_, 3);
+  const json started = begin();
+  held.await();
+  EXPECT_EQ(post("/scans", {{"scanner", "rig"}}).status, 409);
+  EXPECT_EQ(post("/scanners/rig/calibrations").status, 409);
+  EXPECT_EQ(post("/scanners/rig/jog", {{"degrees", 1}}).status, 409);
+  EXPECT_EQ(post("/scanners/rig/laser", {{"on", true}}).status, 409);
+  EXPECT_EQ(post(scan_path(started) + "/resume").status, 409);
+  EXPECT_EQ(post(scan_path(started) + "/reprocess").status, 409);
+  held.open();
+  settle();
+  EXPECT_EQ(post(scan_path(started) + "/pause").status, 409);
+  EXPECT_EQ(ask("DELETE", job_path(started), operator_).status, 409);
+  EXPECT_EQ(fault_of(post(scan_path(started) + "/reprocess", {{"steps", 5}})), "steps");
+}
+
+TEST_F(ScanRoutes, AScanIsPausedResumedCancelledAndReprocessed) {
+  HeldAtStep held(world_, 3);
+  const json started = begin();
+  held.await();
+  EXPECT_EQ(post(scan_path(started) + "/pause").status, 202);
+  held.open();
+  settle();
+  EXPECT_EQ(json::parse(get(scan_path(started)).body)["state"], "paused");
+  HeldAtStep again(world_, 6);
+  EXPECT_EQ(post(scan_path(started) + "/resume").status, 202);
+  again.await();
+  EXPECT_EQ(ask("DELETE", job_path(started), viewer_).status, 403);
+  EXPECT_EQ(ask("DELETE", job_path(started), operator_).status, 202);
+  again.open();
+  settle();
+  const json scan = json::parse(get(scan_path(started)).body);
+  EXPECT_EQ(scan["state"], "cancelled");
+  EXPECT_EQ(scan["step"], 6);
+  const HttpAnswer reprocessed = post(scan_path(started) + "/reprocess", {{"length", 5}});
+  EXPECT_EQ(reprocessed.status, 202) << reprocessed.body;
+  settle("");
+  EXPECT_TRUE(json::parse(get(scan_path(started)).body)["model"].is_string());
+}
+
+TEST_F(ScanRoutes, AKeyMakesARequestHaveItsEffectOnce) {
+  HeldAtStep held(world_, 1);
+  const std::string key = "Idempotency-Key: abc\r\n";
+  const json body = {{"scanner", "rig"}, {"steps", 12}};
+  const HttpAnswer first = post("/scans", body, key), second = post("/scans", body, key);
+  EXPECT_EQ(first.status, 202);
+  EXPECT_EQ(second.status, 202);
+  EXPECT_EQ(first.body, second.body);
+  const HttpAnswer other = post("/scans", {{"scanner", "rig"}, {"steps", 13}}, key);
+  EXPECT_EQ(other.status, 422);
+  EXPECT_EQ(fault_of(other), "Idempotency-Key");
+  EXPECT_EQ(json::parse(get("/scans").body)["scans"].size(), 1u);
+  held.open();
+}
+
+TEST_F(ScanRoutes, EventsTellAJobToItsEnd) {
+  HeldAtStep held(world_, 3);
+  const json started = begin();
+  held.await();
+  HttpClient client(server_.port());
+  client.send("GET /api/v1" + job_path(started) + "/events HTTP/1.1\r\nHost: a\r\n" + viewer_ +
+              "\r\n");
+  EXPECT_EQ(client.receive().field("content-type"), "text/event-stream");
+  std::string state;
+  while (state != "done") {
+    std::string event;
+    while (!event.ends_with("\n\n"))
+      event += client.read_exactly(1);
+    if (event.starts_with(":")) continue;
+    ASSERT_TRUE(event.starts_with("event: job\ndata: ")) << event;
+    const json job = json::parse(event.substr(event.find('{')));
+    if (state.empty()) {
+      EXPECT_EQ(job["state"], "running");
+      held.open();
+    }
+    state = job["state"];
+    ASSERT_NE(state, "failed") << event;
+  }
+  EXPECT_TRUE(client.is_closed());
+}
+
+TEST_F(ScanRoutes, WhatIsNotThereIsNotFound) {
+  const std::string id = ModelId::generate().to_string();
+  for (const std::string& path :
+       {"/scans/" + id, "/scans/" + id + "/points", "/jobs/" + id, "/jobs/" + id + "/events"})
+    EXPECT_EQ(get(path).status, 404) << path;
+  EXPECT_EQ(post("/scans/" + id + "/pause").status, 404);
+  EXPECT_EQ(ask("DELETE", "/jobs/" + id, operator_).status, 404);
+  EXPECT_EQ(get("/jobs?limit=0").status, 400);
+}
+
+TEST_F(ScanRoutes, ListsHavePages) {
+  for (int i = 0; i < 3; ++i) {
+    begin();
+    settle();
+  }
+  const json first = json::parse(get("/jobs?limit=2").body);
+  ASSERT_EQ(first["jobs"].size(), 2u);
+  const json second =
+      json::parse(get("/jobs?limit=2&cursor=" + first["next"].get<std::string>()).body);
+  EXPECT_EQ(second["jobs"].size(), 1u);
+  EXPECT_EQ(second["next"], nullptr);
+  EXPECT_EQ(json::parse(get("/scans?limit=2").body)["scans"].size(), 2u);
+}
+
+}  // namespace
+}  // namespace vitrine

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/scan_service.h"
+
+#include <gtest/gtest.h>
+
+#include "server/store/installation.h"
+#include "support/fake_backend.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine {
+namespace {
+
+using test::FakeScanner;
+using test::HeldAtStep;
+
+class Scans : public testing::Test {
+ protected:
+  Scans() { start(); }
+
+  // A daemon's life: a new service over the same folder.
+  void start() {
+    std::vector<std::unique_ptr<ScannerBackend>> backends;
+    backends.push_back(std::make_unique<test::FakeBackend>(world_));
+    service_ = std::make_unique<ScanService>(
+        ScanMeans{*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
+                  folder_.path(), VITRINE_BIN_DIR "/vitrined"},
+        std::move(backends));
+    ASSERT_TRUE(service_->start());
+  }
+  void settle() {
+    service_->jobs().lane(world_.name).run([] {});
+  }
+  ScanInfo info(const ScanId& id) { return **service_->find(id); }
+  ScanStarted begin(const ScanOrder& order) {
+    const auto started = service_->scan(order, std::nullopt);
+    EXPECT_TRUE(started) << started.error().message;
+    return *started;
+  }
+  ScannerStation& station() { return *service_->scanner(world_.name); }
+
+  const ScanOrder order_{.scanner = "rig", .steps = 12, .metadata = {.title = "A ring"}};
+  FakeScanner world_;
+  test::TemporaryFolder folder_;
+  Installation installation_ = open_installation(folder_.path()).value();
+  const Log events_ = Log::open("").value();
+  std::unique_ptr<ScanService> service_;
+};
+
+TEST_F(Scans, a_scan_ends_in_a_draft_that_has_the_operators_words) {
+  const auto started = begin(order_);
+  settle();
+  const ScanInfo scan = info(started.scan);
+  EXPECT_EQ(scan.job.record.state, JobState::kDone) << scan.job.record.error;
+  EXPECT_EQ(scan.job.record.model, scan.entry.model);
+  EXPECT_EQ(scan.entry.step, 12);
+  EXPECT_EQ(scan.entry.points, 12 * test::kFakePoints);
+  EXPECT_EQ(scan.entry.calibration, 1);
+  ASSERT_TRUE(scan.entry.model);
+  const auto model = installation_.catalogue->find(*scan.entry.model).value();
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->state, ModelState::kDraft);
+  EXPECT_EQ(model->title, "A ring");
+  EXPECT_EQ(model->unit, "mm");
+  EXPECT_FALSE(world_.laser);
+}
+
+TEST_F(Scans, a_scan_is_published_where_that_was_ordered) {
+  ScanOrder order = order_;
+  order.publish = true;
+  order.bits = 11;
+  const auto started = begin(order);
+  settle();
+  const ScanInfo scan = info(started.scan);
+  ASSERT_TRUE(scan.entry.model) << scan.job.record.error;
+  EXPECT_EQ(installation_.catalogue->find(*scan.entry.model).value()->state,
+            ModelState::kPublished);
+  EXPECT_TRUE(scan.entry.is_public);
+}
+
+TEST_F(Scans, points_frame_and_profile_are_seen_while_it_scans_and_points_stay) {
+  HeldAtStep held(world_, 5);
+  const auto started = begin(order_);
+  held.await();
+  ScanInfo scan = info(started.scan);
+  EXPECT_EQ(scan.job.record.stage, "scanning");
+  EXPECT_EQ(scan.entry.step, 5);
+  EXPECT_EQ(scan.entry.points, 5 * test::kFakePoints);
+  const auto view = service_->view(scan.entry).value();
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->points_from(48).size(), 2u);
+  EXPECT_EQ(service_->picture(station()).value(), (Frame{2, 1, {7, 9}}));
+  held.open();
+  settle();
+  scan = info(started.scan);
+  EXPECT_EQ(service_->view(scan.entry).value()->points(), 12 * test::kFakePoints);
+}
+
+TEST_F(Scans, while_one_scans_another_scan_a_calibration_jog_and_laser_are_refused) {
+  HeldAtStep held(world_, 2);
+  begin(order_);
+  held.await();
+  EXPECT_EQ(service_->scan(order_, {}).error().code, ErrorCode::kState);
+  EXPECT_EQ(service_->calibrate(station(), {}).error().code, ErrorCode::kState);
+  EXPECT_EQ(station().jog(10).error().code, ErrorCode::kState);
+  EXPECT_EQ(station().laser(true).error().code, ErrorCode::kState);
+  EXPECT_EQ(station().status().state, ScannerState::kBusy);
+  EXPECT_TRUE(station().status().scan);
+  held.open();
+}
+
+TEST_F(Scans, commands_by_hand_reach_the_devices_and_a_lost_one_is_a_problem_until_it_is_back) {
+  ASSERT_TRUE(station().jog(10));
+  ASSERT_TRUE(station().laser(true));
+  EXPECT_EQ(world_.degrees, 10);
+  EXPECT_TRUE(world_.laser);
+  EXPECT_EQ(service_->picture(station()).value(), (Frame{1, 2, {3, 4}}));
+  EXPECT_EQ(station().status().identity->camera.serial, "42");
+  world_.reachable = false;
+  EXPECT_EQ(station().jog(10).error().code, ErrorCode::kIo);
+  EXPECT_EQ(station().status().state, ScannerState::kUnreachable);
+  EXPECT_NE(station().status().problem.find("cable"), std::string::npos);
+  world_.reachable = true;
+  ASSERT_TRUE(station().jog(10));
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
+  EXPECT_EQ(station().status().problem, "");
+}
+
+TEST_F(Scans, the_state_of_a_scanner_is_told_without_using_it) {
+  static_cast<void>(station().status());
+  const int calls = world_.calls;
+  static_cast<void>(station().status());
+  EXPECT_EQ(world_.calls, calls);
+}
+
+TEST_F(Scans, a_paused_scan_goes_on_where_it_was) {
+  HeldAtStep held(world_, 4);
+  const auto started = begin(order_);
+  held.await();
+  ASSERT_TRUE(service_->pause(info(started.scan).entry));
+  held.open();
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kPaused);
+  EXPECT_FALSE(world_.laser);
+  EXPECT_EQ(world_.steps, 4);
+  EXPECT_EQ(service_->scan(order_, {}).error().code, ErrorCode::kState);
+  ASSERT_TRUE(service_->resume(info(started.scan).entry));
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_EQ(world_.steps, 12);  // none twice
+}
+
+TEST_F(Scans, a_cancelled_scan_keeps_its_data_and_can_still_become_a_model) {
+  HeldAtStep held(world_, 3);
+  const auto started = begin(order_);
+  held.await();
+  ASSERT_TRUE(service_->jobs().cancel(started.job));
+  held.open();
+  settle();
+  ScanInfo scan = info(started.scan);
+  EXPECT_EQ(scan.job.record.state, JobState::kCancelled);
+  EXPECT_EQ(scan.entry.step, 3);
+  EXPECT_EQ(service_->view(scan.entry).value()->points(), 3 * test::kFakePoints);
+  EXPECT_FALSE(service_->resume(scan.entry));
+  ASSERT_TRUE(service_->reprocess(scan.entry, order_, {}));
+  service_->jobs().lane("").run([] {});
+  scan = info(started.scan);
+  EXPECT_EQ(scan.job.record.kind, JobKind::kReprocess);
+  EXPECT_EQ(scan.job.record.state, JobState::kDone) << scan.job.record.error;
+  EXPECT_TRUE(scan.entry.model);
+}
+
+TEST_F(Scans, a_scan_is_not_reprocessed_while_it_grows) {
+  HeldAtStep held(world_, 3);
+  const auto started = begin(order_);
+  held.await();
+  EXPECT_EQ(service_->reprocess(info(started.scan).entry, order_, {}).error().code,
+            ErrorCode::kState);
+  held.open();
+}
+
+TEST_F(Scans, an_emergency_stop_pauses_the_scan_and_nothing_moves_before_it_is_resumed) {
+  HeldAtStep held(world_, 6);
+  const auto started = begin(order_);
+  held.await();
+  station().stop();
+  EXPECT_TRUE(world_.stopped);
+  EXPECT_FALSE(world_.laser);
+  held.open();
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kPaused);
+  EXPECT_EQ(world_.steps, 6);
+  ASSERT_TRUE(service_->resume(info(started.scan).entry));
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, what_scans_when_the_daemon_stops_goes_on_at_the_next_start) {
+  HeldAtStep held(world_, 7);
+  const auto started = begin(order_);
+  held.await();
+  std::thread stopper([this] { service_->stop(); });
+  while (service_->scan(order_, {}).error().message.find("stopping") == std::string::npos)
+    std::this_thread::yield();
+  held.open();
+  stopper.join();
+  EXPECT_FALSE(world_.laser);
+  EXPECT_FALSE(world_.open);
+  EXPECT_EQ(world_.steps, 7);
+  service_.reset();
+  start();
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_EQ(info(started.scan).job.record.id, started.job);
+  EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, what_was_published_before_a_crash_is_not_published_twice) {
+  const auto started = begin(order_);
+  settle();
+  service_.reset();
+  JobRecord job = *installation_.jobs->find_job(started.job).value();
+  const auto model = job.model;
+  ASSERT_TRUE(model);
+  job.state = JobState::kRunning;  // as it is stored until the end
+  job.model.reset();
+  ASSERT_TRUE(installation_.jobs->update(job));
+  start();
+  settle();
+  EXPECT_EQ(info(started.scan).entry.model, model);
+  EXPECT_EQ(installation_.catalogue->search({.drafts = true}).value().models.size(), 1u);
+}
+
+TEST_F(Scans, a_scan_that_failed_can_be_gone_on_with_as_a_new_job) {
+  world_.before_step = [](int step) -> std::optional<Error> {
+    if (step < 3) return std::nullopt;
+    return Error{ErrorCode::kIo, "camera 42 is gone; check its cable"};
+  };
+  const auto started = begin(order_);
+  settle();
+  ScanInfo scan = info(started.scan);
+  EXPECT_EQ(scan.job.record.state, JobState::kFailed);
+  EXPECT_EQ(scan.job.record.error, "camera 42 is gone; check its cable");
+  EXPECT_EQ(scan.entry.step, 3);
+  world_.before_step = {};
+  ASSERT_TRUE(service_->resume(scan.entry));
+  settle();
+  scan = info(started.scan);
+  EXPECT_NE(scan.entry.job, started.job);
+  EXPECT_EQ(scan.job.record.state, JobState::kDone);
+  EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, a_calibration_is_a_job_and_its_number_is_seen) {
+  const auto job = service_->calibrate(station(), {});
+  ASSERT_TRUE(job);
+  settle();
+  EXPECT_EQ((*service_->jobs().find(job->id))->record.state, JobState::kDone);
+  EXPECT_EQ(station().status().identity->calibration, 2);
+}
+
+TEST_F(Scans, a_job_whose_scanner_is_not_configured_any_more_says_so) {
+  HeldAtStep held(world_, 1);
+  const auto started = begin(order_);
+  held.await();
+  held.open();
+  settle();
+  service_.reset();
+  JobRecord job = *installation_.jobs->find_job(started.job).value();
+  job.state = JobState::kQueued;
+  job.scanner = "gone";
+  ASSERT_TRUE(installation_.jobs->update(job));
+  start();
+  service_->jobs().lane("gone").run([] {});
+  EXPECT_EQ((*service_->jobs().find(started.job))->record.state, JobState::kFailed);
+  EXPECT_NE((*service_->jobs().find(started.job))->record.error.find("gone"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vitrine

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scanner without devices: its scans are profiles of a tube, one line a step in a file of their
+// folder, so that they survive as real ones do. A test holds it at a step, or has it fail there.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "server/jobs/scanner_backend.h"
+#include "support/meshes.h"
+
+namespace vitrine::test {
+
+// What the test sees and decides; outlives the backend.
+struct FakeScanner {
+  std::string name = "rig";
+  std::function<std::optional<Error>(int step)> before_step;  // may wait
+
+  std::atomic<bool> reachable{true}, stopped{false}, laser{false}, open{false};
+  std::atomic<int> calls{0}, steps{0}, calibrations{1};
+  std::atomic<double> degrees{0};
+};
+
+inline constexpr std::size_t kFakePoints = 10;  // of a step
+
+class FakeView final : public ScanView {
+ public:
+  void add_step(int step) {
+    const std::scoped_lock lock(mutex_);
+    for (std::size_t i = 0; i < kFakePoints; ++i) {
+      points_.push_back({static_cast<float>(step), static_cast<float>(i), 1});
+    }
+  }
+  std::shared_ptr<const Frame> frame() const override {
+    return std::make_shared<Frame>(Frame{2, 1, {7, 9}});
+  }
+  std::vector<std::array<double, 2>> profile() const override { return {{12.5, 3}, {12.25, 4}}; }
+  std::size_t points() const override {
+    const std::scoped_lock lock(mutex_);
+    return points_.size();
+  }
+  std::vector<std::array<float, 3>> points_from(std::size_t first) const override {
+    const std::scoped_lock lock(mutex_);
+    const auto begin = static_cast<std::ptrdiff_t>(std::min(first, points_.size()));
+    return {points_.begin() + begin, points_.end()};
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::array<float, 3>> points_;
+};
+
+class FakeBackend final : public ScannerBackend {
+ public:
+  explicit FakeBackend(FakeScanner& world) : world_(world) {}
+
+  Expected<ScannerIdentity> identify() override {
+    if (auto ready = use(); !ready) return Unexpected(ready.error());
+    ScannerIdentity identity{{"Acme", "C1", "42"}, {"horus", "fake 1.0", "7"}, std::nullopt};
+    if (world_.calibrations > 0) identity.calibration = world_.calibrations;
+    return identity;
+  }
+  Expected<void> jog(double degrees) override {
+    if (auto ready = use(); !ready) return ready;
+    world_.degrees = world_.degrees + degrees;
+    return {};
+  }
+  Expected<void> laser(bool on) override {
+    if (auto ready = use(); !ready) return ready;
+    world_.laser = on;
+    return {};
+  }
+  Expected<Frame> picture() override {
+    if (auto ready = use(); !ready) return Unexpected(ready.error());
+    return Frame{1, 2, {3, 4}};
+  }
+
+  Expected<std::optional<TriangleMesh>> scan(const ScanOrder& order,
+                                             const std::filesystem::path& folder,
+                                             ScanListener& listener) override {
+    std::filesystem::create_directories(folder);
+    const auto view = std::make_shared<FakeView>();
+    int step = 0;
+    for (const int stored = steps_in(folder); step < stored; ++step)
+      view->add_step(step);
+    listener.begins(view);
+    world_.laser = true;
+    const LightsOff off{world_};
+    for (; step < order.steps; ++step) {
+      listener.told({.step = step, .progress = 0.9 * step / order.steps, .calibration = 1});
+      if (world_.before_step) {
+        if (const auto error = world_.before_step(step)) return Unexpected(*error);
+      }
+      if (listener.is_interrupted()) return std::nullopt;
+      if (auto ready = use(); !ready) return Unexpected(ready.error());
+      std::ofstream(folder / "steps", std::ios::app) << step << std::endl;
+      view->add_step(step);
+      ++world_.steps;
+    }
+    listener.told({.stage = "meshing", .step = step, .progress = 0.9, .calibration = 1});
+    return torus(40, 20);
+  }
+
+  Expected<std::optional<int>> calibrate(ScanListener& listener) override {
+    if (world_.before_step) {
+      if (const auto error = world_.before_step(0)) return Unexpected(*error);
+    }
+    if (listener.is_interrupted()) return std::nullopt;
+    return ++world_.calibrations;
+  }
+
+  void close() override { world_.open = false; }
+  const std::string& name() const override { return world_.name; }
+  void emergency_stop() noexcept override {
+    world_.stopped = true;
+    world_.laser = false;
+  }
+  void allow() noexcept override { world_.stopped = false; }
+
+  Expected<TriangleMesh> mesh_anew(const ScanOrder& order, const std::filesystem::path&) override {
+    return torus(static_cast<std::uint32_t>(30 + order.length), 20);
+  }
+  Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override {
+    auto view = std::make_shared<FakeView>();
+    for (int step = 0; step < steps_in(folder); ++step)
+      view->add_step(step);
+    return view;
+  }
+  Expected<std::vector<CalibrationSummary>> calibrations() override {
+    std::vector<CalibrationSummary> all;
+    for (int i = world_.calibrations; i > 0; --i)
+      all.push_back({i, "2026-11-23T08:00:00Z", "42", {0, 0, 64, 48}, 0.02, 0.04, 0.06, 0.8});
+    return all;
+  }
+  Expected<std::optional<std::string>> calibration_report(int number) override {
+    if (number > world_.calibrations) return std::nullopt;
+    return R"({"number":)" + std::to_string(number) + "}";
+  }
+  Expected<std::optional<std::string>> residual_plot(int number) override {
+    if (number > world_.calibrations) return std::nullopt;
+    return "<svg/>";
+  }
+
+ private:
+  struct LightsOff {
+    FakeScanner& world;
+    ~LightsOff() { world.laser = false; }
+  };
+
+  Expected<void> use() {
+    ++world_.calls;
+    world_.open = world_.reachable && !world_.stopped;
+    if (world_.stopped) return fail(ErrorCode::kState, "stopped; release it");
+    if (world_.reachable) return {};
+    return fail(ErrorCode::kIo, "camera 42 is gone; check its cable");
+  }
+  static int steps_in(const std::filesystem::path& folder) {
+    std::ifstream in(folder / "steps");
+    int count = 0;
+    for (std::string line; std::getline(in, line);)
+      ++count;
+    return count;
+  }
+
+  FakeScanner& world_;
+};
+
+// Keeps a scan at a step until it is let go on.
+class HeldAtStep {
+ public:
+  explicit HeldAtStep(FakeScanner& world, int at) {
+    world.before_step = [this, at](int step) -> std::optional<Error> {
+      std::unique_lock lock(mutex_);
+      if (step != at || open_) return std::nullopt;
+      arrived_ = true;
+      changed_.notify_all();
+      changed_.wait(lock, [this] { return open_; });
+      return std::nullopt;
+    };
+  }
+  void await() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return arrived_; });
+  }
+  void open() {
+    const std::scoped_lock lock(mutex_);
+    open_ = true;
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool arrived_ = false, open_ = false;
+};
+
+}  // namespace vitrine::test
