@@ -11,7 +11,7 @@ import { FakeScan, kScan, measured } from "./fake_scan.mjs";
 import { readObj } from "./models.mjs";
 
 const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
-const kPoints = 120_000;
+const kPoints = 60_000;
 
 let daemon, browser, points, model;
 
@@ -53,7 +53,7 @@ test("points grow, then the base mesh stands in their place, then the whole mode
     fake.tell(midway(share), part(share));
     await visitor.says(grown(share));
     await visitor.says(`step ${Math.floor(720 * share)} of 720`);
-    await settled(visitor.page);
+    await frames(visitor.page);
     await visitor.shoot(`growing-${100 * share}`);
   }
   await visitor.says("about a minute left");
@@ -81,7 +81,94 @@ test("points grow, then the base mesh stands in their place, then the whole mode
   await visitor.close();
 });
 
-/** The camera has come to rest: two pictures in turn are alike. Needs a page that does not turn by itself. */
-async function settled(page) {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+for (const [name, options] of Object.entries({
+  phone: { viewport: { width: 360, height: 640 } },
+  kiosk: { viewport: { width: 1080, height: 1920 }, colorScheme: "dark" },
+})) {
+  test(`fits a ${name}`, async () => {
+    const fake = new FakeScan();
+    fake.tell(midway(0.5), part(0.5));
+    const visitor = await watched(fake, { ...options, reducedMotion: "reduce" });
+    await visitor.says(grown(0.5));
+    const { width, height } = options.viewport; // there is nothing to scroll
+    assert.deepEqual(await visitor.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.scrollHeight]), [width, height]);
+    await frames(visitor.page);
+    await visitor.shoot(name);
+    assert.deepEqual(visitor.complaints, []);
+    await visitor.close();
+  });
+}
+
+test("turns by itself, but not for who asks for less motion", async () => {
+  const fake = new FakeScan();
+  fake.tell(midway(1), points);
+  for (const reducedMotion of ["reduce", "no-preference"]) {
+    const visitor = await watched(fake, { reducedMotion, viewport: { width: 360, height: 480 } });
+    await visitor.says(grown(1));
+    await fake.asked(2); // the camera stands where it should, and no point is new
+    const before = await view(visitor.page);
+    const turned = () => view(visitor.page).then((after) => !after.equals(before));
+    if (reducedMotion === "reduce") assert.ok(!(await turned()));
+    else while (!(await turned()));
+    await visitor.close();
+  }
+});
+
+test("goes on where it was when the connection comes back", async () => {
+  const fake = new FakeScan();
+  fake.tell(midway(0.3), part(0.3));
+  const visitor = await watched(fake);
+  await visitor.says(grown(0.3));
+  fake.fault = "network";
+  await visitor.says("The connection is lost");
+  fake.fault = null;
+  fake.tell(midway(0.6), part(0.6));
+  await visitor.says(grown(0.6));
+  await visitor.says("Scanning");
+  await visitor.close();
+});
+
+test("says what an operator should know, and goes on when the operator does", async () => {
+  const fake = new FakeScan();
+  fake.tell({ ...midway(0.1), state: "paused" }, part(0.1));
+  const visitor = await watched(fake);
+  await visitor.says("Paused");
+  assert.equal(await visitor.page.locator("#left").textContent(), "");
+  fake.tell({ state: "failed", error: "the board is gone; plug it in and resume the scan" });
+  await visitor.says("The scan has failed: the board is gone; plug it in and resume the scan");
+  await visitor.shoot("failed");
+  fake.tell({ state: "cancelled", error: null });
+  await visitor.says("The scan was cancelled");
+  assert.deepEqual(visitor.complaints, []);
+  await visitor.close();
+});
+
+test("a scan that is over shows its model at once, without its points", async () => {
+  const fake = new FakeScan();
+  fake.tell({ state: "done", step: 720, progress: 1, model }, points);
+  const visitor = await watched(fake);
+  await visitor.page.locator("main.modelled").waitFor();
+  assert.equal(await visitor.page.locator("#points").textContent(), "");
+  assert.equal(fake.questions, 1);
+  assert.deepEqual(visitor.complaints, []);
+  await visitor.close();
+});
+
+test("a scan that is not for everybody is not on display", async () => {
+  const fake = new FakeScan();
+  fake.fault = 401;
+  const visitor = await watched(fake);
+  await visitor.page.getByRole("heading", { name: "This scan is not on display." }).waitFor();
+  assert.equal(fake.questions, 1);
+  await visitor.close();
+});
+
+/** Two frames: what was asked for before is drawn. */
+function frames(page) {
+  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+async function view(page) {
+  await frames(page);
+  return page.locator("#view").screenshot();
 }
