@@ -63,6 +63,7 @@ await Promise.all([
     outdir: dist,
     format: "esm",
   }),
+  build({ ...common, entryPoints: { scan: "src/gallery/scan.ts" }, outdir: dist, format: "esm", plugins: [threeBeside] }),
   build({ ...common, entryPoints: { site: "src/gallery/site.css" }, outdir: dist }),
 ]);
 
@@ -71,6 +72,5 @@ await Promise.all([
   copyFile(wasm, join(dist, "progressive-mesh.wasm")),
   copyFile(join(draco, "draco_decoder_nodejs.js"), join(dist, "draco_decoder.js")),
   copyFile(join(draco, "draco_decoder.wasm"), join(dist, "draco_decoder.wasm")),
-  copyFile(join(root, "src/gallery/index.html"), join(dist, "index.html")),
-  copyFile(join(root, "src/gallery/model.html"), join(dist, "model.html")),
+  ...["index.html", "model.html", "scan.html"].map((page) => copyFile(join(root, "src/gallery", page), join(dist, page))),
 ]);

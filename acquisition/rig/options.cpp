@@ -33,6 +33,7 @@ that only COMMAND sees. Runs COMMAND and exits as it does.
   --private-network    camera and COMMAND on a loopback of their own: several rigs on one machine
   --dialect NAME       the board's: horus or fabscan (default horus)
   --write-config FILE  what `vitrine` is to know of the scanner, as JSON
+  --name NAME          the scanner's in there (default rig)
   --write-truth FILE   the object in the table's frame at 0 degrees in mm, as PLY, with a flag
                        `seen` a vertex: visible to laser and camera; then no COMMAND is needed
   --help, --version)";
@@ -88,8 +89,9 @@ class Parser {
 
   static bool takes_value(std::string_view word) {
     constexpr std::string_view kNames[] = {
-        "--mesh",   "--up",      "--height-mm", "--seed",    "--steps",        "--fault",
-        "--stripe", "--speckle", "--address",   "--dialect", "--write-config", "--write-truth"};
+        "--mesh",         "--up",          "--height-mm", "--seed",    "--steps",
+        "--fault",        "--stripe",      "--speckle",   "--address", "--dialect",
+        "--write-config", "--write-truth", "--name"};
     return std::find(std::begin(kNames), std::end(kNames), word) != std::end(kNames);
   }
 
@@ -137,6 +139,7 @@ class Parser {
     if (option == "--mesh") placed_.file = value;
     if (option == "--address") options_.address = value;
     if (option == "--write-config") options_.write_config = value;
+    if (option == "--name") options_.name = value;
     if (option == "--write-truth") options_.write_truth = value;
     return {};
   }

@@ -23,7 +23,7 @@ struct RigOptions {
   Finish finish;
   int steps = 720;
   std::vector<Fault> faults;
-  std::string address = "127.0.0.1", dialect = "horus";
+  std::string address = "127.0.0.1", dialect = "horus", name = "rig";
   std::string write_config, write_truth;  // files; empty: not asked for
   std::vector<std::string> command;
 };

@@ -12,7 +12,7 @@ std::string to_json(const RigFile& rig) {
   using Json = nlohmann::ordered_json;
   const TargetSpec target;
   const Json json{
-      {"name", "rig"},
+      {"name", rig.name},
       {"camera", {{"address", rig.camera_address}}},
       {"board",
        {{"dialect", rig.board.dialect},

@@ -12,7 +12,7 @@ struct BoardAddress {
 };
 
 struct RigFile {
-  std::string camera_address;
+  std::string name = "rig", camera_address;
   BoardAddress board;
   int steps = 720;
   std::filesystem::path calibrations;  // folder

@@ -59,7 +59,8 @@ BoardAddress address_of(const RigOptions& options) {
 Expected<void> write_config(const RigOptions& options, const fs::path& socket) {
   if (options.write_config.empty()) return {};
   const fs::path folder = fs::absolute(folder_of(options.write_config)).lexically_normal();
-  return write_text(options.write_config, to_json({.camera_address = options.address,
+  return write_text(options.write_config, to_json({.name = options.name,
+                                                   .camera_address = options.address,
                                                    .board = address_of(options),
                                                    .steps = options.steps,
                                                    .calibrations = folder / "calibrations",

@@ -58,6 +58,7 @@ Response show_job_events(const Request& request, Services& services);
 // pages.cpp
 Response show_gallery(const Request& request, Services& services);
 Response show_viewer(const Request& request, Services& services);
+Response show_scan_page(const Request& request, Services& services);
 Response show_asset(const Request& request, Services& services);
 
 // health.cpp

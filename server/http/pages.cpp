@@ -29,6 +29,11 @@ Response show_viewer(const Request& request, Services& services) {
   return page("/model.html", request, services);
 }
 
+// For every id: which scans there are is for the API to tell, and whom.
+Response show_scan_page(const Request& request, Services& services) {
+  return page("/scan.html", request, services);
+}
+
 Response show_asset(const Request& request, Services& services) {
   return page(request.path, request, services);
 }

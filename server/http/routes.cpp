@@ -46,6 +46,7 @@ constexpr Route kPublic[] = {
     {kGet, "/api/v1/jobs/{id}/events", show_job_events, kWorker},
     {kGet, "/", show_gallery, kInline},
     {kGet, "/models/{id}", show_viewer, kWorker},
+    {kGet, "/scans/{id}", show_scan_page, kInline},
     {kGet, "/{rest}", show_asset, kInline},
 };
 

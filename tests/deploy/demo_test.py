@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The demo as a newcomer meets it: it serves the page that it names, and leaves when told."""
+import json
 import os
 import re
 import shutil
@@ -8,6 +9,7 @@ import signal
 import socket
 import subprocess
 import tempfile
+import time
 import unittest
 import urllib.request
 from pathlib import Path
@@ -23,7 +25,7 @@ class Demo(unittest.TestCase):
 
     def start(self, listen, *arguments):
         """The running demo, all it said up to the URL, and the URL."""
-        environment = os.environ | {"VITRINE_LISTEN": listen, "VITRINE_DATA": self.folder + "/data"}
+        environment = os.environ | {"VITRINE_LISTEN": listen, "VITRINE_DATA": self.folder + "/data", "VITRINE_STEPS": "24"}
         demo = subprocess.Popen([DEMO, *arguments], env=environment, text=True, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.addCleanup(demo.stdout.close)
@@ -31,14 +33,33 @@ class Demo(unittest.TestCase):
         said = ""
         for line in demo.stdout:
             said += line
-            if url := re.search(r"http://\S+/models/\S+", line):
+            if url := re.search(r"http://\S+/(models|scans)/\S+", line):
                 return demo, said, url.group()
         self.fail("the demo ended without a URL:\n" + said)
 
-    def stop(self, demo):
-        demo.send_signal(signal.SIGINT)
+    def stop(self, demo, how=signal.SIGINT):
+        demo.send_signal(how)
         demo.stdout.read()
         self.assertEqual(demo.wait(timeout=60), 0)
+        self.assertEqual(self.processes(), [])
+
+    def processes(self):
+        """The command lines of all that works on the test's folder."""
+        lines = []
+        for file in Path("/proc").glob("[0-9]*/cmdline"):
+            try:
+                lines.append(file.read_bytes().replace(b"\0", b" ").decode(errors="replace"))
+            except OSError:
+                pass  # it has ended
+        return [line for line in lines if self.folder in line]
+
+    def mesh(self):
+        file = Path(self.folder) / "own mesh.obj"
+        file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+        return str(file)
+
+    def scan(self, url):
+        return json.loads(self.page(url.replace("/scans/", "/api/v1/scans/")))
 
     def page(self, url):
         with urllib.request.urlopen(url, timeout=60) as answer:
@@ -49,7 +70,7 @@ class Demo(unittest.TestCase):
         """All that a demo said that did not come up; it leaves nothing in the clone."""
         before = self.states()
         environment = os.environ | {"VITRINE_LISTEN": listen, "VITRINE_DATA": data}
-        done = subprocess.run([DEMO], env=environment, text=True, stdin=subprocess.DEVNULL,
+        done = subprocess.run([DEMO, self.mesh()], env=environment, text=True, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertEqual(self.states(), before)
@@ -65,17 +86,31 @@ class Demo(unittest.TestCase):
         return done.stderr
 
     def test_serves_the_page_it_names_and_stops_cleanly_twice(self):
-        demo, _, url = self.start("127.0.0.1:0")
+        demo, _, url = self.start("127.0.0.1:0", self.mesh())
         self.assertIn("<progressive-mesh", self.page(url))
         self.stop(demo)
-        again, _, second = self.start("127.0.0.1:0")
+        again, _, second = self.start("127.0.0.1:0", self.mesh())
         self.assertEqual(second.rpartition("/")[2], url.rpartition("/")[2], "the model was published anew")
-        self.stop(again)
+        self.stop(again, signal.SIGTERM)
+
+    def test_scans_the_mesh_that_ships_once(self):
+        demo, _, url = self.start("127.0.0.1:0")
+        self.assertIn("<canvas", self.page(url))
+        while (scan := self.scan(url))["state"] not in ("done", "failed", "cancelled"):
+            self.assertFalse([line for line in self.processes() if "vtr_" in line], "a token is in the list of processes")
+            time.sleep(0.2)  # between two questions
+        self.assertEqual((scan["state"], scan["steps"], scan["error"]), ("done", 24, None))
+        self.assertIn("<progressive-mesh", self.page(url.partition("/scans/")[0] + f"/models/{scan['model']}"))
+        self.stop(demo)
+        again, said, second = self.start("127.0.0.1:0", "--scan")
+        self.assertIn("to scan it anew: rm '", said)
+        self.assertEqual(self.scan(second), scan)
+        self.stop(again, signal.SIGTERM)
 
     def test_takes_another_port_and_says_so_where_one_is_in_use(self):
         with socket.create_server(("127.0.0.1", 0)) as holder:
             port = holder.getsockname()[1]
-            demo, said, url = self.start(f"127.0.0.1:{port}")
+            demo, said, url = self.start(f"127.0.0.1:{port}", self.mesh())
             self.assertIn(f"Port {port} is in use", said)
             self.assertNotIn(f":{port}/", url)
             self.page(url)
@@ -94,16 +129,10 @@ class Demo(unittest.TestCase):
                                                 "set VITRINE_DATA to a folder you may write to")
         self.assertNotIn("mkdir", said)
 
-    def test_a_mesh_of_ones_own_is_shown(self):
-        mesh = Path(self.folder) / "own mesh.obj"
-        mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
-        demo, _, url = self.start("127.0.0.1:0", str(mesh))
-        self.page(url)
-        self.stop(demo)
-
     def test_a_missing_file_and_an_unknown_option_are_refused_in_one_line(self):
         self.assertIn("cannot read", self.refused("missing.ply"))
         self.assertIn("unknown option", self.refused("--fast"))
+        self.assertIn("one file at a time", self.refused("--scan", "a.ply", "b.ply"))
 
 
 if __name__ == "__main__":

@@ -12,6 +12,16 @@ export function size(bytes: number): string {
   return bytes < 1e6 ? `${short.format(bytes / 1000)} KB` : `${short.format(bytes / 1e6)} MB`;
 }
 
+/** A time to wait, as precise as a guess may be. */
+export function timeLeft(seconds: number): string {
+  const minutes = Math.round(seconds / 60), hours = Math.round(seconds / 3600);
+  if (seconds < 10) return "a few seconds left";
+  if (seconds < 45) return "less than a minute left";
+  if (minutes <= 1) return "about a minute left";
+  if (minutes < 60) return `about ${minutes} minutes left`;
+  return hours <= 1 ? "about an hour left" : `about ${hours} hours left`;
+}
+
 export const texts = {
   detail: "Level of detail",
   triangles: (shown: number, total: number) => `${count(shown)} of ${count(total)} triangles`,
@@ -31,4 +41,19 @@ export const texts = {
   back: "Collection",
   untitled: "Untitled",
   modelFailed: "This object is not on display.",
+  scanStates: {
+    waiting: "Waiting for the scanner",
+    scanning: "Scanning",
+    paused: "Paused",
+    meshing: "Joining the points to a surface",
+    building: "Building the model",
+    done: "Scanned",
+    failed: "The scan has failed",
+    cancelled: "The scan was cancelled",
+  },
+  step: (step: number, steps: number) => `step ${count(step)} of ${count(steps)}`,
+  points: (points: number) => `${count(points)} points`,
+  cloudOf: (title: string) => `The points measured so far: ${title}`,
+  scanLost: "The connection is lost. Trying again\u2026",
+  scanMissing: "This scan is not on display.",
 };

@@ -119,9 +119,10 @@ TEST(RigCommandLine, TheConfigSaysWhereThingsAreAndNothingOfTheOptics) {
   const auto path = folder.path() / "rig.json";
   const ProgramResult result =
       rig_with("test -S \"$(sed -n 's/.*\"socket\": \"\\(.*\\)\".*/\\1/p' " + path.string() + ")\"",
-               {"--write-config", path, "--steps", "90"});
+               {"--write-config", path, "--steps", "90", "--name", "left"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   const auto json = nlohmann::json::parse(std::ifstream(path));
+  EXPECT_EQ(json["name"], "left");
   EXPECT_EQ(json["camera"]["address"], "127.0.0.1");
   EXPECT_EQ(json["steps"], 90);
   EXPECT_EQ(json["region"]["width"], 1300);

@@ -21,6 +21,7 @@ std::string_view reached(const std::string& path) {
 TEST(Router, FindsEachRoute) {
   EXPECT_EQ(reached("/"), "/");
   EXPECT_EQ(reached("/models/" + kId), "/models/{id}");
+  EXPECT_EQ(reached("/scans/" + kId), "/scans/{id}");
   EXPECT_EQ(reached("/assets/app.js"), "/{rest}");
   EXPECT_EQ(reached("/api/v1/models"), "/api/v1/models");
   EXPECT_EQ(reached("/api/v1/models/" + kId), "/api/v1/models/{id}");

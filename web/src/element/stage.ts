@@ -2,16 +2,13 @@
 // The scene around one progressive mesh: camera, light, orbit controls. Draws only when something
 // has changed.
 import {
-  Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+  Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ProgressiveMesh } from "../three/progressive-mesh.ts";
 import type { Assets } from "../core/messages.ts";
 import type { Transport } from "../core/source.ts";
-
-const kFieldOfView = 35;
-/** Where the camera stands at first, seen from the model's centre. */
-const kViewpoint = new Vector3(0.35, 0.15, 1).normalize();
+import { distanceFor, kFieldOfView, kViewpoint } from "./viewpoint.ts";
 
 export class Stage {
   readonly mesh: ProgressiveMesh;
@@ -71,8 +68,7 @@ export class Stage {
   /** The camera looks at the whole model. */
   frame(): void {
     const radius = this.mesh.geometry.boundingSphere?.radius ?? 1;
-    const half = Math.atan(Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, this.#camera.aspect));
-    const distance = (radius * 0.9) / Math.sin(half);
+    const distance = distanceFor(radius, this.#camera.aspect);
     this.#camera.near = radius / 100;
     this.#camera.far = distance + 20 * radius;
     this.#camera.position.copy(kViewpoint).multiplyScalar(distance);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of three.js that the element uses, as a file of its own: it changes rarely, so browsers
-// keep it (dist/three.js).
+// The part of three.js that the pages use, as a file of its own: it changes rarely, so browsers keep
+// it (dist/three.js).
 export {
-  Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, HemisphereLight, Matrix4, Mesh,
-  MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer,
+  Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, GLSL3, HemisphereLight, LinearSRGBColorSpace,
+  Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Points, Scene, ShaderMaterial, Sphere, Vector3,
+  WebGLRenderer,
 } from "three";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";

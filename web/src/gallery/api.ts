@@ -10,6 +10,30 @@ export interface ModelRecord {
   links: { self: string; page: string };
 }
 
+export type ScanState = "waiting" | "scanning" | "paused" | "meshing" | "building" | "done" | "failed" | "cancelled";
+
+export interface ScanRecord {
+  id: string;
+  state: ScanState;
+  step: number;
+  steps: number;
+  progress: number; // 0 to 1
+  eta: number | null; // seconds
+  error: string | null;
+  model: string | null; // its id
+  title: string;
+}
+
+/** The daemon has answered, but not with what was asked for. */
+export class ApiError extends Error {
+  constructor(url: string, readonly status: number) {
+    super(`${url}: ${status}`);
+  }
+}
+
+/** Milliseconds after which nobody answers any more. */
+const kPatience = 20_000;
+
 interface ModelPage {
   models: ModelRecord[];
   next: string | null;
@@ -30,8 +54,23 @@ export function model(id: string): Promise<ModelRecord> {
   return get<ModelRecord>(`/api/v1/models/${encodeURIComponent(id)}`);
 }
 
+export function scan(id: string): Promise<ScanRecord> {
+  return get<ScanRecord>(`/api/v1/scans/${encodeURIComponent(id)}`);
+}
+
+/** x, y and z in mm, z upwards, of the points from number `from` on: no more than one answer holds. */
+export async function scanPoints(id: string, from: number): Promise<Float32Array> {
+  const answer = await ask(`/api/v1/scans/${encodeURIComponent(id)}/points?from=${from}`, "application/octet-stream");
+  const bytes = await answer.arrayBuffer();
+  return new Float32Array(bytes, 0, 3 * Math.floor(bytes.byteLength / 12));
+}
+
 async function get<T>(url: string): Promise<T> {
-  const response = await fetch(url, { headers: { Accept: "application/json" } });
-  if (!response.ok) throw new Error(`${url}: ${response.status}`);
-  return (await response.json()) as T;
+  return (await (await ask(url, "application/json")).json()) as T;
+}
+
+async function ask(url: string, type: string): Promise<Response> {
+  const response = await fetch(url, { headers: { Accept: type }, signal: AbortSignal.timeout(kPatience) });
+  if (!response.ok) throw new ApiError(url, response.status);
+  return response;
 }

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+import { timeLeft } from "../../web/src/texts.ts";
+
+test.each([
+  [0, "a few seconds left"],
+  [9.9, "a few seconds left"],
+  [44, "less than a minute left"],
+  [45, "about a minute left"],
+  [89, "about a minute left"],
+  [90, "about 2 minutes left"],
+  [3500, "about 58 minutes left"],
+  [3590, "about an hour left"],
+  [5400, "about 2 hours left"],
+])("%s seconds are %s", (seconds, words) => expect(timeLeft(seconds)).toBe(words));

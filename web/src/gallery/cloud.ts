@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points on their way to the screen: one buffer that doubles when it is full.
+import { BufferAttribute, BufferGeometry, Color, GLSL3, LinearSRGBColorSpace, Points, ShaderMaterial } from "three";
+
+const kFirstRoom = 1 << 16; // points
+/** Of the screen, that an object covers. */
+const kShare = 0.25;
+const kFaintest = 0.15;
+
+const kVertex = `
+  uniform float size, cover, near, far;
+  uniform int settled;
+  uniform vec3 ink, accent;
+  out vec4 tint;
+  void main() {
+    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    gl_Position = projectionMatrix * seen;
+    gl_PointSize = size;
+    float depth = clamp((-seen.z - near) / (far - near), 0.0, 1.0);
+    tint = gl_VertexID < settled ? vec4(ink, cover * mix(1.0, 0.1, depth)) : vec4(accent, cover);
+  }`;
+const kFragment = `
+  in vec4 tint;
+  out vec4 colour;
+  void main() {
+    if (length(gl_PointCoord - 0.5) > 0.5) discard;
+    colour = tint;
+  }`;
+
+/**
+ * Far points are faint, those that came last stand out. The more points there are on the
+ * screen, the more each lets through: folds and rims, where many lie behind each other, stay visible.
+ */
+export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
+  #count = 0;
+  #positions = new BufferAttribute(new Float32Array(3 * kFirstRoom), 3);
+
+  constructor() {
+    const uniform = <T>(value: T) => ({ value });
+    super(new BufferGeometry(), new ShaderMaterial({
+      glslVersion: GLSL3, vertexShader: kVertex, fragmentShader: kFragment,
+      transparent: true, depthTest: false,
+      uniforms: {
+        size: uniform(1), cover: uniform(1), near: uniform(0), far: uniform(1), settled: uniform(0),
+        ink: uniform(new Color()), accent: uniform(new Color()),
+      },
+    }));
+    this.frustumCulled = false; // its bounds grow
+    this.rotation.x = -Math.PI / 2; // z upwards, as measured; the viewer's models have y upwards
+    this.geometry.setAttribute("position", this.#positions);
+  }
+
+  append(points: Float32Array): void {
+    const room = this.#positions.array.length, need = 3 * this.#count + points.length;
+    if (need > room) this.#grow(Math.max(2 * room, need));
+    this.#positions.array.set(points, 3 * this.#count);
+    this.#positions.addUpdateRange(3 * this.#count, points.length);
+    this.#positions.needsUpdate = true;
+    this.#set("settled", this.#count);
+    this.#count += points.length / 3;
+    this.geometry.setDrawRange(0, this.#count);
+  }
+
+  /** No point is new any more. */
+  settle(): void {
+    this.#set("settled", this.#count);
+  }
+
+  get isEmpty(): boolean {
+    return this.#count === 0;
+  }
+
+  /** Points of `size` device pixels on a screen of `pixels`. */
+  spread(size: number, pixels: number): void {
+    this.#set("size", size);
+    this.#set("cover", Math.min(1, Math.max(kFaintest, (kShare * pixels) / (this.#count * size * size))));
+  }
+
+  /** Distances from the camera between which points grow faint. */
+  fade(near: number, far: number): void {
+    this.#set("near", near);
+    this.#set("far", far);
+  }
+
+  /** CSS colours. */
+  paint(colours: Record<"ink" | "accent", string>): void {
+    // They go to the screen as they are.
+    for (const [name, css] of Object.entries(colours)) this.#set(name, new Color().setStyle(css, LinearSRGBColorSpace));
+  }
+
+  dispose(): void {
+    this.geometry.dispose();
+    this.material.dispose();
+  }
+
+  #grow(room: number): void {
+    const array = new Float32Array(room);
+    array.set(this.#positions.array);
+    this.geometry.dispose(); // frees the old buffer on the GPU
+    this.#positions = new BufferAttribute(array, 3);
+    this.geometry.setAttribute("position", this.#positions);
+  }
+
+  #set(name: string, value: unknown): void {
+    const uniform = this.material.uniforms[name];
+    if (uniform) uniform.value = value;
+  }
+}
