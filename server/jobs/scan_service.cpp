@@ -109,6 +109,14 @@ ScanService::ScanService(const ScanMeans& means,
 }
 
 Expected<void> ScanService::start() {
+  std::error_code error;
+  const std::filesystem::path scans = means_.data / "scans";
+  std::filesystem::create_directories(scans, error);
+  if (error) {
+    return fail(ErrorCode::kIo,
+                fmt::format("cannot make the folder {}: {}; check its owner and mode",
+                            scans.string(), error.message()));
+  }
   for (const auto& station : stations_)
     station->look_for_it();
   return queue_.start();
