@@ -126,7 +126,8 @@ TEST_F(ScanRoutes, AWrongCommandNamesItsField) {
   EXPECT_EQ(fault_of(post("/scanners/rig/calibrations", {{"poses", 1}})), "poses");
   EXPECT_EQ(fault_of(post("/scans", {{"scanner", "rig"}, {"steps", 1}})), "steps");
   EXPECT_EQ(fault_of(post("/scans", {{"scanner", "other"}})), "scanner");
-  EXPECT_EQ(fault_of(post("/scans", {{"scanner", "rig"}}, "Idempotency-Key: " + std::string(300, 'a') + "\r\n")),
+  EXPECT_EQ(fault_of(post("/scans", {{"scanner", "rig"}},
+                          "Idempotency-Key: " + std::string(300, 'a') + "\r\n")),
             "Idempotency-Key");
 }
 
