@@ -80,9 +80,11 @@ void SafeBoard::switch_off() {
 
 template <class T>
 Expected<T> SafeBoard::judged(Expected<T> result) {
-  if (stopped_)
+  if (stopped_) {
+    controller_->halt();  // the call may have switched something on since emergency_stop() halted
     return fail(ErrorCode::kState,
                 port_->name() + " was stopped in an emergency; open the scanner anew to go on");
+  }
   if (!result && !failure_) {
     failure_ = result.error();
     switch_off();

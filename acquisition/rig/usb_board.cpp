@@ -68,7 +68,8 @@ struct Client {
   bool gone = false;                // the device that it opened has been unplugged
   std::set<unsigned> claimed;
   std::deque<Transfer> reading, finished;
-  Ref<UMockdevIoctlClient> waiting;  // asks for a finished transfer; held back
+  Ref<UMockdevIoctlClient> waiting;  // asks for a finished transfer, to be told in:
+  Ref<UMockdevIoctlData> slot;
   double waiting_until = 0;
 };
 
@@ -131,19 +132,28 @@ struct Completion {
   Ref<UMockdevIoctlClient> client;
   long result = 0;
   int error = 0;
+  Ref<UMockdevIoctlData> slot, reaped;  // of a client that has asked for a finished transfer
 };
 
 // By umockdev's own thread, whose context that is: from another one it now and then loses the
-// client's next call.
-void complete(GMainContext* context, UMockdevIoctlClient* client, long result, int error) {
+// client's next call. (g_main_context_invoke() calls from any thread while the context's rests.)
+void complete(GMainContext* context, Completion completion) {
   const GSourceFunc run = [](gpointer data) {
-    const auto& [handle, value, number] = *static_cast<Completion*>(data);
-    umockdev_ioctl_client_complete(handle.get(), value, number);
+    const auto& [client, result, error, slot, reaped] = *static_cast<Completion*>(data);
+    if (slot && reaped) umockdev_ioctl_data_set_ptr(slot.get(), 0, reaped.get());
+    umockdev_ioctl_client_complete(client.get(), result, error);
     return static_cast<gboolean>(G_SOURCE_REMOVE);
   };
   const GDestroyNotify drop = [](gpointer data) { delete static_cast<Completion*>(data); };
-  auto completion = std::make_unique<Completion>(Completion{share(client), result, error});
-  g_main_context_invoke_full(context, G_PRIORITY_DEFAULT, run, completion.release(), drop);
+  GSource* source = g_idle_source_new();
+  g_source_set_priority(source, G_PRIORITY_DEFAULT);
+  g_source_set_callback(source, run, new Completion(std::move(completion)), drop);
+  g_source_attach(source, context);
+  g_source_unref(source);
+}
+
+void complete(GMainContext* context, UMockdevIoctlClient* client, long result, int error) {
+  complete(context, {.client = share(client), .result = result, .error = error});
 }
 
 Ref<UMockdevIoctlData> resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
@@ -381,6 +391,7 @@ void UsbBoard::Impl::discard(UMockdevIoctlClient* handle, Client& client) {
 
 void UsbBoard::Impl::reap(UMockdevIoctlClient* handle, Client& client) {
   client.waiting = share(handle);
+  client.slot = resolve(umockdev_ioctl_client_get_arg(handle), 0, sizeof(void*));
   client.waiting_until = now() + kHold;
   deliver(client);
 }
@@ -389,12 +400,10 @@ void UsbBoard::Impl::reap(UMockdevIoctlClient* handle, Client& client) {
 void UsbBoard::Impl::deliver(Client& client) {
   if (!client.waiting) return;
   if (!client.finished.empty()) {
-    const auto slot =
-        resolve(umockdev_ioctl_client_get_arg(client.waiting.get()), 0, sizeof(void*));
-    if (slot) umockdev_ioctl_data_set_ptr(slot.get(), 0, client.finished.front().block.get());
-    complete(context_, client.waiting.get(), 0, 0);
+    complete(context_, {.client = std::move(client.waiting),
+                        .slot = std::move(client.slot),
+                        .reaped = std::move(client.finished.front().block)});
     client.finished.pop_front();
-    client.waiting.reset();
   } else if (client.gone || now() >= client.waiting_until) {
     complete(context_, client.waiting.get(), -1, client.gone ? ENODEV : EAGAIN);
     client.waiting.reset();

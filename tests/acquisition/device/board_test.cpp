@@ -143,7 +143,7 @@ TEST_P(EveryBoard, IsHaltedInTheMiddleOfAMotionByAnEmergencyStop) {
   const double before = rig_.table();
   Expected<void> turned;
   std::thread turning([&] { turned = (*board)->turn_to(3600); });
-  while (rig_.table() == 0)
+  while (rig_.table() == before)
     std::this_thread::sleep_for(milliseconds(1));
   const auto begin = std::chrono::steady_clock::now();
   (*board)->emergency_stop();
@@ -163,6 +163,21 @@ TEST_P(EveryBoard, IsHaltedInTheMiddleOfAMotionByAnEmergencyStop) {
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(*(*again)->position(), std::nullopt) << "it was halted between two steps";
   EXPECT_TRUE((*again)->turn_to((*again)->position().value().value_or(0)));
+}
+
+TEST_P(EveryBoard, StaysOffWhenACallBeginsAsItIsStopped) {
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
+    auto board = open();
+    ASSERT_TRUE(board) << board.error().message;
+    std::thread turning([&] { (void)(*board)->turn_to(3600); });
+    (*board)->emergency_stop();
+    turning.join();
+    EXPECT_EQ((*board)->laser(true).error().code, ErrorCode::kState);
+    while (rig_.ask("motor") == "on")
+      std::this_thread::sleep_for(milliseconds(1));
+    EXPECT_EQ(rig_.ask("laser"), "off");
+  }
 }
 
 TEST_P(EveryBoard, FailsAndGoesDarkWhenTheMotorStalls) {
