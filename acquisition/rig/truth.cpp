@@ -14,7 +14,7 @@
 namespace vitrine::rig {
 namespace {
 
-constexpr double kMargin = 0.02;  // mm, that rays keep from the vertex whose faces they would meet
+constexpr double kClearance = 0.02;  // mm, that rays keep from the vertex whose faces they would meet
 
 // Weighted by their areas; zero for a vertex without a face.
 std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
@@ -64,7 +64,7 @@ class Witness {
     if (to_camera * to_laser <= 0 || !within_picture(view.camera, p)) return false;
     const double least = std::cos(kGrazing * std::numbers::pi / 180);
     if (std::abs(to_camera) < least || std::abs(to_laser) < least) return false;
-    const Vec3 before = p + normal * (to_camera < 0 ? -kMargin : kMargin);
+    const Vec3 before = p + normal * (to_camera < 0 ? -kClearance : kClearance);
     return !solid_.blocked(before, view.laser.source, 0) &&
            !solid_.blocked(before, view.camera.at, 0);
   }

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "acquisition/session/scan_request.h"
 #include "codec/progressive/manifest.h"
 #include "server/store/text.h"
 
@@ -16,8 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kLeastSteps = 8, kMostSteps = 36'000;
-constexpr double kLeastExposure = 1, kMostExposure = 10e6;  // microseconds
+constexpr double kLeastExposure = 1;  // microseconds
 constexpr int kLongestWindow = 1'000;
 constexpr std::size_t kMaxTextBytes = 4096;
 constexpr std::string_view kSamplings[] = {"equidistant", "paper", "adaptive"};
