@@ -14,6 +14,7 @@
 #include "acquisition/calibration/light_plane.h"
 #include "acquisition/calibration/scene.h"
 #include "acquisition/calibration/sheet_map.h"
+#include "acquisition/calibration/straight_stripe.h"
 #include "acquisition/calibration/stripe_noise.h"
 
 namespace vitrine {
@@ -165,7 +166,9 @@ Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationO
   const std::vector<SeenTarget> seen = seen_targets(input);
   const auto scene = solve_scene(seen, region.width, region.height);
   if (!scene) return tl::make_unexpected(scene.error());
-  std::vector<StripePoint> stripe = on_target(input, *scene, seen);
+  auto straight = straight_stripe(on_target(input, *scene, seen), scene->camera);
+  if (!straight) return tl::make_unexpected(straight.error());
+  std::vector<StripePoint>& stripe = straight->points;
   const auto light = fit_light_plane(stripe, scene->camera, region.width, region.height);
   if (!light) return tl::make_unexpected(light.error());
   const int poses = number_poses(stripe);
@@ -199,6 +202,8 @@ Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationO
   result->calibration.noise = stripe_noise(stripe, result->calibration.map);
   report_scene(*scene, seen, result->report);
   result->report.points = stripe.size();
+  result->report.strays = straight->strays;
+  result->report.unclear = straight->unclear;
   return result;
 }
 

@@ -31,12 +31,16 @@ struct Coverage {
 struct CalibrationReport {
   int pictures = 0;
   std::size_t points = 0;     // of the stripe on the target
+  std::size_t strays = 0;     // points on the target, too, but off the stripe: left out
+  int unclear = 0;            // pictures left out: too many of their points were strays
   double reprojection = 0;    // pixels that the target's corners are off; 0 without pictures
   double table_error = 0;     // degrees, rms of the table's angles against the pictures
   ResidualSummary residuals;  // as the calibration has them
   Coverage coverage;
   std::vector<DegreeResult> degrees;
   std::vector<HeldOutPoint> held_out;
+
+  double stray_share() const;
 };
 
 struct Calibrated {

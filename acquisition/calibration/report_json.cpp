@@ -14,6 +14,11 @@ Json json_of(const ResidualSummary& r) {
 
 }  // namespace
 
+double CalibrationReport::stray_share() const {
+  const std::size_t all = points + strays;
+  return all == 0 ? 0 : static_cast<double>(strays) / static_cast<double>(all);
+}
+
 std::string report_json(const Calibration& calibration, const CalibrationReport& report) {
   Json degrees = Json::array();
   for (const DegreeResult& d : report.degrees) {
@@ -31,6 +36,9 @@ std::string report_json(const Calibration& calibration, const CalibrationReport&
       {"degree", calibration.map.degree()},
       {"pictures", report.pictures},
       {"points", report.points},
+      {"strays", report.strays},
+      {"stray_share", report.stray_share()},
+      {"unclear_pictures", report.unclear},
       {"residuals_mm", json_of(report.residuals)},
       {"noise_mm", calibration.noise},
       {"reprojection_pixels", report.reprojection},

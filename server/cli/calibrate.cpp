@@ -95,9 +95,11 @@ std::string as_text(const Calibration& calibration, const CalibrationReport& rep
   return fmt::format(
       "calibration {} of camera {}: over held-out poses rms {:.4f} mm, p95 {:.4f} mm, max {:.4f} "
       "mm\n{} pictures, {} points on the laser's line, polynomial of degree {}; covers {:.0f} % of "
-      "the picture\nresiduals: {}",
+      "the picture\nleft out: {} points off the line ({:.2f} %), {} pictures without a clear line\n"
+      "residuals: {}",
       calibration.number, calibration.camera, rms, p95, max, report.pictures, report.points,
-      calibration.map.degree(), 100 * report.coverage.image_share, plot);
+      calibration.map.degree(), 100 * report.coverage.image_share, report.strays,
+      100 * report.stray_share(), report.unclear, plot);
 }
 
 tl::expected<CalibrationOptions, Fault> options_of(const Arguments& arguments) {

@@ -113,6 +113,63 @@ TEST(Calibrate, BearsCornersAndStripePointsThatAreFarOff) {
   EXPECT_LT(result->calibration.noise, 0.03);  // 0.012 but for the strays, a fifth of all
 }
 
+// Every tenth point of every third picture, anywhere on the target.
+CalibrationInput with_strays(CalibrationInput input) {
+  for (std::size_t i = 0; i < input.pictures.size(); i += 3) {
+    std::vector<Pixel>& stripe = input.pictures[i].stripe;
+    for (std::size_t k = 0; k < stripe.size(); k += 10)
+      stripe[k].u += (k / 10 % 2 == 0 ? 1 : -1) * (6 + static_cast<double>(k % 90));
+  }
+  return input;
+}
+
+TEST(Calibrate, JudgesThePosesByTheLaserLineNotByStrays) {
+  const CalibrationInput clean = SyntheticScanner().pictures(3, 7, {});
+  const auto expected = calibrate(clean, {}), result = calibrate(with_strays(clean), {});
+  ASSERT_TRUE(expected && result);
+  EXPECT_EQ(expected->report.strays, 0u);
+  EXPECT_LT(result->report.residuals.rms, 1.1 * expected->report.residuals.rms);
+  EXPECT_LT(result->report.residuals.p95, 1.1 * expected->report.residuals.p95);
+  EXPECT_LT(result->report.residuals.max, 1.5 * expected->report.residuals.max);
+  EXPECT_EQ(result->report.unclear, 0);
+  EXPECT_NEAR(result->report.stray_share(), 0.1 / 3, 0.015);
+  const auto json = nlohmann::json::parse(report_json(result->calibration, result->report));
+  EXPECT_EQ(json["strays"], result->report.strays);
+  EXPECT_EQ(json["stray_share"], result->report.stray_share());
+}
+
+TEST(Calibrate, LeavesOutASecondLineOnTheTarget) {
+  CalibrationInput input = SyntheticScanner().pictures(3, 7, {});
+  const auto expected = calibrate(input, {});
+  for (std::size_t i = 0; i < input.pictures.size(); i += 3) {
+    std::vector<Pixel>& stripe = input.pictures[i].stripe;
+    for (std::size_t k = 0; k < stripe.size(); k += 4)  // a reflection, brighter than the line
+      stripe[k].u += 30 + 0.1 * static_cast<double>(k);
+  }
+  const auto result = calibrate(input, {});
+  ASSERT_TRUE(expected && result);
+  EXPECT_NEAR(result->report.stray_share(), 0.25 / 3, 0.04);
+  EXPECT_EQ(result->report.unclear, 0);
+  EXPECT_LT(result->report.residuals.max, 1.5 * expected->report.residuals.max);
+}
+
+TEST(Calibrate, LeavesOutPicturesWithoutAClearLineAndRefusesMany) {
+  CalibrationInput input = SyntheticScanner().pictures(3, 7, {});
+  const auto scatter = [](std::vector<Pixel>& stripe) {
+    for (std::size_t k = 0; k < stripe.size(); ++k)
+      if (k % 5 < 2) stripe[k].u += 10 + static_cast<double>(k * 7 % 50);
+  };
+  scatter(input.pictures[4].stripe);
+  const auto result = calibrate(input, {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->report.unclear, 1);
+  EXPECT_GE(result->report.strays, 10u);
+  EXPECT_LT(result->report.residuals.max, 0.2);
+  for (std::size_t i = 8; i < input.pictures.size(); ++i)
+    scatter(input.pictures[i].stripe);
+  EXPECT_THAT(refusal(input), HasSubstr("not one straight line in 13 of 20 pictures; keep the"));
+}
+
 TEST(Calibrate, ReportsWhatHeldOutPosesSay) {
   ASSERT_TRUE(calibrated());
   const auto& [c, report] = *calibrated();
