@@ -67,7 +67,7 @@ TEST(ScannerConfig, a_fault_names_file_and_key_and_what_is_expected) {
   EXPECT_THAT(fault("/steps", 3), HasSubstr("\"steps\""));
   EXPECT_THAT(fault("/target/squares_x", "9"), HasSubstr("\"squares_x\" must be a whole number"));
   EXPECT_THAT(fault("/rig", json::object()), HasSubstr("\"socket\" must name"));
-  EXPECT_THAT(fault("/laser", 1), HasSubstr("\"laser\" is not known here; known are name"));
+  EXPECT_THAT(fault("/laser", 1), HasSubstr("\"laser\" is not known here (known are name"));
   EXPECT_EQ(fault("/steps", 100), "accepted");
 }
 
