@@ -8,7 +8,10 @@
 
 namespace vitrine::rig {
 
-inline constexpr std::chrono::milliseconds kUnplugged{1200};
+// Longer than a client repeats what is not acknowledged (Aravis: for 3 s). A camera that starts
+// within that time would take the repeated trigger for a new one: the simulated camera obeys it
+// though nobody controls it yet, keeps it until it streams, and every frame then is the one before.
+inline constexpr std::chrono::milliseconds kUnplugged{5000};
 
 class Cable {
  public:

@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <future>
 #include <memory>
 #include <vector>
 
+#include "acquisition/rig/cable.h"
 #include "acquisition/rig/private_network.h"
 
 namespace vitrine {
@@ -142,6 +144,20 @@ TEST_F(CameraTest, ThatIsGoneIsAnErrorAndIsOpenedAnewWhenItIsBack) {
   camera = open_camera({.address = kAddress});
   ASSERT_TRUE(camera) << camera.error().message;
   EXPECT_TRUE((*camera)->capture());
+}
+
+// A trigger that is not acknowledged is repeated, and a camera that is back meanwhile obeys it.
+TEST_F(CameraTest, ThatIsGoneIsTriggeredNoMoreOnceTheRigPutsItsCableBack) {
+  auto simulated = std::make_unique<SimulatedCamera>(kAddress);
+  auto camera = open_camera({.address = kAddress});
+  ASSERT_TRUE(camera) << camera.error().message;
+  std::promise<void> gone;
+  std::atomic<bool> back{false};
+  rig::Cable cable([&] { simulated.reset(), gone.set_value(); }, [&] { back = true; });
+  cable.pull();
+  gone.get_future().wait();
+  EXPECT_FALSE((*camera)->capture());
+  EXPECT_FALSE(back) << "it would take the last trigger for one that comes after its start";
 }
 
 TEST_F(CameraTest, IsNamedByAddressOrSerialNumber) {
