@@ -9,7 +9,7 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kLeastPoints = 20;
+constexpr std::size_t kLeastDifferences = 20;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ double stripe_noise(std::span<const StripePoint> stripe, const PlaneMap& map) {
   }
   std::vector<double> deviations;
   for (const auto& [pose, points] : poses) {
-    if (points.size() < kLeastPoints) continue;
+    if (points.size() < kLeastDifferences) continue;
     cv::Vec4f line;  // direction, point
     cv::fitLine(points, line, cv::DIST_L1, 0, 0.001, 0.001);
     if (std::abs(line[1]) < 0.1f) continue;  // a line that lies down: x tells nothing
