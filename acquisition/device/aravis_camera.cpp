@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -15,6 +16,9 @@ namespace {
 
 constexpr int kTries = 3;
 constexpr std::uint64_t kPatience = 500'000;  // microseconds beyond the exposure
+constexpr std::uint64_t kStart = 100'000;     // the same, for what a camera sends unasked
+// Aravis asks anew after half a second without an answer, and the camera may obey both.
+constexpr std::chrono::milliseconds kAskedAgain{450};
 constexpr int kBuffers = 4;
 constexpr int kLoopbackPacket = 8192;  // bytes; the path's MTU cannot be probed there
 
@@ -69,6 +73,7 @@ class AravisCamera final : public Camera {
   Expected<void> set_exposure(double microseconds);
   Expected<void> set_gain(double decibels);
   void drain();
+  Expected<void> start_afresh();
   // One trigger; nothing where no whole frame came of it, `missing_` tells why.
   Expected<std::optional<Frame>> shoot();
   std::optional<Frame> frame_in(ArvBuffer& buffer);
@@ -133,7 +138,7 @@ Expected<void> AravisCamera::configure(const CameraSettings& settings) {
   if (auto set = set_region(settings.region); !set) return set;
   if (auto set = set_exposure(settings.exposure_us); !set) return set;
   if (auto set = set_gain(settings.gain_db); !set) return set;
-  return run();
+  return start_afresh();
 }
 
 Expected<void> AravisCamera::prepare() {
@@ -247,13 +252,30 @@ std::optional<Frame> AravisCamera::frame_in(ArvBuffer& buffer) {
   return Frame{.width = region_.width, .height = region_.height, .pixels = {bytes, bytes + pixels}};
 }
 
+// Frames of earlier triggers may still come, and would be taken for that of a later one. A camera
+// may carry out a trigger of before when it starts, too.
+Expected<void> AravisCamera::start_afresh() {
+  if (auto stopped = stop(); !stopped) return stopped;
+  if (auto started = run(); !started) return started;
+  const auto patience = static_cast<std::uint64_t>(exposure_us_) + kStart;
+  if (ArvBuffer* stray = arv_stream_timeout_pop_buffer(stream_.get(), patience))
+    arv_stream_push_buffer(stream_.get(), stray);
+  return {};
+}
+
 Expected<std::optional<Frame>> AravisCamera::shoot() {
   Fault fault;
   drain();
+  const auto asked = std::chrono::steady_clock::now();
   arv_camera_software_trigger(camera_.get(), fault.out());
   if (fault) {
     lost_ = true;  // it has been asked several times
     return failed("trigger", fault);
+  }
+  if (std::chrono::steady_clock::now() - asked >= kAskedAgain) {
+    missing_ = "answers so late that it was asked twice";
+    if (auto fresh = start_afresh(); !fresh) return Unexpected(fresh.error());
+    return std::nullopt;
   }
   const auto patience = static_cast<std::uint64_t>(exposure_us_) + kPatience;
   ArvBuffer* buffer = arv_stream_timeout_pop_buffer(stream_.get(), patience);
@@ -262,11 +284,9 @@ Expected<std::optional<Frame>> AravisCamera::shoot() {
     arv_stream_push_buffer(stream_.get(), buffer);
     return frame;
   }
-  // Its frame may still come, and would be taken for that of a later trigger.
   missing_ = "no frames";
   if (lost_) return std::nullopt;
-  if (auto stopped = stop(); !stopped) return Unexpected(stopped.error());
-  if (auto started = run(); !started) return Unexpected(started.error());
+  if (auto fresh = start_afresh(); !fresh) return Unexpected(fresh.error());
   return std::nullopt;
 }
 

@@ -14,7 +14,8 @@
 namespace vitrine::rig {
 namespace {
 
-constexpr double kClearance = 0.02;  // mm, that rays keep from the vertex whose faces they would meet
+constexpr double kClearance =
+    0.02;  // mm, that rays keep from the vertex whose faces they would meet
 
 // Weighted by their areas; zero for a vertex without a face.
 std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
