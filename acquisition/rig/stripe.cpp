@@ -67,12 +67,14 @@ class Stripe {
 std::array<double, 2 * kTaps + 1> blur_weights() {
   std::array<double, 2 * kTaps + 1> weights{};
   double sum = 0;
-  for (int k = -kTaps; k <= kTaps; ++k) {
+  double k = -kTaps;
+  for (double& weight : weights) {
     for (const double shift : {-1.0, 0.0, 1.0}) {
       const double pixels = (k + shift) / kSub;
-      weights[static_cast<std::size_t>(k + kTaps)] += std::exp(-pixels * pixels / (2 * 0.5 * 0.5));
+      weight += std::exp(-pixels * pixels / (2 * 0.5 * 0.5));
     }
-    sum += weights[static_cast<std::size_t>(k + kTaps)];
+    sum += weight;
+    ++k;
   }
   for (double& weight : weights)
     weight /= sum;

@@ -104,6 +104,7 @@ void Target::near_plane(const Vec3&, double, double,
 
 std::vector<TargetPose> target_poses(std::uint64_t seed) {
   std::vector<TargetPose> poses;
+  poses.reserve(kHeldPoses + 1);
   for (int number = 0; number < kHeldPoses; ++number)
     poses.push_back(held(seed, number));
   poses.push_back(on_table());

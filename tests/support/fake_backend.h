@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -175,29 +176,33 @@ class FakeBackend final : public ScannerBackend {
 class HeldAtStep {
  public:
   explicit HeldAtStep(FakeScanner& world, int at) {
-    world.before_step = [this, at](int step) -> std::optional<Error> {
-      std::unique_lock lock(mutex_);
-      if (step != at || open_) return std::nullopt;
-      arrived_ = true;
-      changed_.notify_all();
-      changed_.wait(lock, [this] { return open_; });
+    // The scan may go on when this is gone.
+    world.before_step = [door = door_, at](int step) -> std::optional<Error> {
+      std::unique_lock lock(door->mutex);
+      if (step != at || door->open) return std::nullopt;
+      door->arrived = true;
+      door->changed.notify_all();
+      door->changed.wait(lock, [&] { return door->open; });
       return std::nullopt;
     };
   }
   void await() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return arrived_; });
+    std::unique_lock lock(door_->mutex);
+    door_->changed.wait(lock, [this] { return door_->arrived; });
   }
   void open() {
-    const std::scoped_lock lock(mutex_);
-    open_ = true;
-    changed_.notify_all();
+    const std::scoped_lock lock(door_->mutex);
+    door_->open = true;
+    door_->changed.notify_all();
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool arrived_ = false, open_ = false;
+  struct Door {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool arrived = false, open = false;
+  };
+  std::shared_ptr<Door> door_ = std::make_shared<Door>();
 };
 
 }  // namespace vitrine::test
