@@ -80,23 +80,6 @@ TEST_F(ScanAtRig, unplugged_devices_and_missing_packets_change_nothing) {
   }
 }
 
-TEST_F(ScanAtRig, killed_or_interrupted_and_resumed_it_is_the_same_mesh) {
-  calibrate();
-  const std::string expected = undisturbed();
-  for (const std::string signal : {"KILL", "INT"}) {
-    const std::string out = signal + ".ply";
-    const std::string script = scan_to(out) + " & scan=$!; " + "until [ \"$(stat -c %s " + out +
-                               ".scan/profiles 2>/dev/null || echo 0)\" -gt 100000 ]; "
-                               "do sleep 0.02; done; kill -" +
-                               signal + " $scan; wait $scan; test ! -e " + out + " && { " +
-                               scan_to("other.ply", "--resume") + "; test $? = 1; } && " +
-                               scan_to(out, "--resume");
-    const ProgramResult result = at_rig(script);
-    EXPECT_EQ(result.exit_code, 0) << result.errors;
-    EXPECT_TRUE(read(out) == expected) << signal;
-  }
-}
-
 TEST_F(ScanAtRig, an_uncalibrated_scanner_does_not_scan) {
   const ProgramResult result = at_rig(scan_to("out.ply"));
   EXPECT_EQ(result.exit_code, 1);
