@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "server/http/handlers.h"
@@ -57,9 +56,7 @@ std::optional<std::size_t> read_from(const Query& query) {
 
 std::string little_endian(std::span<const std::array<float, 3>> points) {
   static_assert(std::endian::native == std::endian::little);
-  std::string bytes(points.size_bytes(), '\0');
-  std::memcpy(bytes.data(), points.data(), points.size_bytes());
-  return bytes;
+  return {reinterpret_cast<const char*>(points.data()), points.size_bytes()};
 }
 
 }  // namespace
