@@ -32,7 +32,7 @@ class ScanAtRig : public VitrineCommand {
                                       "--write-truth",
                                       path("truth.ply")};
     words.insert(words.end(), options.begin(), options.end());
-    words.insert(words.end(), {"--", "sh", "-c", "cd \"$0\" && vitrine=\"$1\" && " + script,
+    words.insert(words.end(), {"--", "sh", "-c", "cd \"$0\" || exit; vitrine=\"$1\"; " + script,
                                folder_.path().string(), kVitrine});
     return run_program(words);
   }
@@ -77,6 +77,23 @@ TEST_F(ScanAtRig, unplugged_devices_and_missing_packets_change_nothing) {
     const ProgramResult result = at_rig(scan_to("out.ply"), {"--fault", fault});
     EXPECT_EQ(result.exit_code, 0) << fault << ": " << result.errors;
     EXPECT_TRUE(read("out.ply") == expected) << fault;
+  }
+}
+
+TEST_F(ScanAtRig, killed_or_interrupted_and_resumed_it_is_the_same_mesh) {
+  calibrate();
+  const std::string expected = undisturbed();
+  for (const std::string signal : {"KILL", "INT"}) {
+    const std::string out = signal + ".ply";
+    const std::string script =
+        scan_to(out) + " & scan=$!; " + "until [ -e " + out + " ] || [ \"$(stat -c %s " + out +
+        ".scan/profiles 2>/dev/null || echo 0)\" -gt 20000 ]; "
+        "do sleep 0.02; done; kill -" +
+        signal + " $scan; wait $scan; test ! -e " + out + " && { " +
+        scan_to("other.ply", "--resume") + "; test $? = 1; } && " + scan_to(out, "--resume");
+    const ProgramResult result = at_rig(script);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_TRUE(read(out) == expected) << signal;
   }
 }
 
