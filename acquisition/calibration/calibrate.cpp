@@ -65,10 +65,10 @@ std::vector<SeenTarget> seen_targets(const CalibrationInput& input) {
 }
 
 // Where the laser's line is on the target: rays cut with its plane, within its outline.
-std::vector<StripePoint> on_target(const CalibrationInput& input, const Scene& scene,
-                                   std::span<const SeenTarget> seen) {
+std::vector<LaserPoint> on_target(const CalibrationInput& input, const Scene& scene,
+                                  std::span<const SeenTarget> seen) {
   const Target& t = input.target;
-  std::vector<StripePoint> points;
+  std::vector<LaserPoint> points;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const std::vector<Pixel>& stripe = input.pictures[i].stripe;
     const cv::Affine3d pose = scene.pose(seen[i], i), back = pose.inv();
@@ -85,9 +85,9 @@ std::vector<StripePoint> on_target(const CalibrationInput& input, const Scene& s
 }
 
 // Numbers the pictures that show the stripe 0, 1, 2, …; how many there are.
-int number_poses(std::vector<StripePoint>& points) {
+int number_poses(std::vector<LaserPoint>& points) {
   std::map<int, int> numbers;
-  for (StripePoint& p : points) {
+  for (LaserPoint& p : points) {
     const int next = static_cast<int>(numbers.size());
     p.pose = numbers.try_emplace(p.pose, next).first->second;
   }
@@ -168,7 +168,7 @@ Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationO
   if (!scene) return tl::make_unexpected(scene.error());
   auto straight = straight_stripe(on_target(input, *scene, seen), scene->camera);
   if (!straight) return tl::make_unexpected(straight.error());
-  std::vector<StripePoint>& stripe = straight->points;
+  std::vector<LaserPoint>& stripe = straight->points;
   const auto light = fit_light_plane(stripe, scene->camera, region.width, region.height);
   if (!light) return tl::make_unexpected(light.error());
   const int poses = number_poses(stripe);
@@ -177,14 +177,14 @@ Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationO
   const auto validation = cross_validate(
       poses, options.degree,
       [&](const std::vector<bool>& left_out, int degree) -> Expected<std::vector<HeldOutPoint>> {
-        const std::vector<StripePoint> rest = kept(std::span<const StripePoint>(stripe), left_out);
+        const std::vector<LaserPoint> rest = kept(std::span<const LaserPoint>(stripe), left_out);
         const auto plane = fit_light_plane(rest, scene->camera, region.width, region.height);
         if (!plane) return tl::make_unexpected(plane.error());
         const auto map = PlaneMap::fit(sheet_points(rest, scene->camera, *plane, area), degree,
                                        region.width, region.height);
         if (!map) return tl::make_unexpected(map.error());
         std::vector<HeldOutPoint> judged;
-        for (const StripePoint& p : stripe) {
+        for (const LaserPoint& p : stripe) {
           const auto predicted = map->at(p.in_image.u, p.in_image.v);
           if (!left_out[p.pose] || !predicted) continue;
           const cv::Vec3d d =

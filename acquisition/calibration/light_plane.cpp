@@ -21,10 +21,10 @@ struct Plane {
   double distance(const cv::Vec3d& at) const { return std::abs(normal.dot(at - centre)); }
 };
 
-double median_distance(std::span<const StripePoint> points, const Plane& plane) {
+double median_distance(std::span<const LaserPoint> points, const Plane& plane) {
   std::vector<double> distances;
   distances.reserve(points.size());
-  for (const StripePoint& p : points)
+  for (const LaserPoint& p : points)
     distances.push_back(plane.distance(p.at));
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::ranges::nth_element(distances, middle);
@@ -32,11 +32,11 @@ double median_distance(std::span<const StripePoint> points, const Plane& plane) 
 }
 
 // Least median of squares over planes through three points; a fixed seed makes it repeatable.
-Plane first_plane(std::span<const StripePoint> points) {
+Plane first_plane(std::span<const LaserPoint> points) {
   constexpr int kTrials = 200;
   constexpr std::size_t kJudges = 2000;
   std::mt19937 random(1);
-  std::vector<StripePoint> judges;
+  std::vector<LaserPoint> judges;
   for (std::size_t i = 0; i < std::min(kJudges, points.size()); ++i)
     judges.push_back(points[i * points.size() / std::min(kJudges, points.size())]);
   Plane best;
@@ -56,18 +56,18 @@ Plane first_plane(std::span<const StripePoint> points) {
 }
 
 // Least squares over the points near `around`.
-Plane refined(std::span<const StripePoint> points, const Plane& around) {
+Plane refined(std::span<const LaserPoint> points, const Plane& around) {
   const double reach = std::max(3 * 1.4826 * median_distance(points, around), kLeastInlier);
   cv::Vec3d sum;
   double count = 0;
-  for (const StripePoint& p : points) {
+  for (const LaserPoint& p : points) {
     if (around.distance(p.at) > reach) continue;
     sum += p.at;
     ++count;
   }
   Plane plane{sum / count, {}};
   cv::Matx33d covariance = cv::Matx33d::zeros();
-  for (const StripePoint& p : points) {
+  for (const LaserPoint& p : points) {
     if (around.distance(p.at) > reach) continue;
     const cv::Vec3d d = p.at - plane.centre;
     covariance += d * d.t();
@@ -122,7 +122,7 @@ cv::Vec3d meet(const cv::Vec3d& ray, const cv::Vec3d& origin, const cv::Vec3d& n
   return ray * (normal.dot(origin) / sine);
 }
 
-Expected<LightPlane> fit_light_plane(std::span<const StripePoint> points, const CameraModel& camera,
+Expected<LightPlane> fit_light_plane(std::span<const LaserPoint> points, const CameraModel& camera,
                                      int width, int height) {
   if (points.size() < kLeastPoints) {
     return fail(ErrorCode::kBadInput,

@@ -12,7 +12,7 @@
 
 namespace vitrine {
 
-struct StripePoint {  // where the laser meets the target
+struct LaserPoint {  // where the laser meets the target
   Pixel in_image;
   cv::Vec3d at;  // mm, camera's frame
   int pose = 0;  // of which picture
@@ -33,7 +33,7 @@ cv::Vec3d meet(const cv::Vec3d& ray, const cv::Vec3d& origin, const cv::Vec3d& n
 
 // Bears up to two fifths of the points lying elsewhere. Fails (kBadInput) where they determine no
 // plane.
-Expected<LightPlane> fit_light_plane(std::span<const StripePoint> points, const CameraModel& camera,
+Expected<LightPlane> fit_light_plane(std::span<const LaserPoint> points, const CameraModel& camera,
                                      int width, int height);
 
 }  // namespace vitrine

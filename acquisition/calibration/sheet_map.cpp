@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kGrid = 40;  // points each way
 
-std::vector<cv::Point2f> hull_of(std::span<const StripePoint> stripe, const SheetArea& area) {
+std::vector<cv::Point2f> hull_of(std::span<const LaserPoint> stripe, const SheetArea& area) {
   std::vector<cv::Point2f> points, seen, hull;
-  for (const StripePoint& p : stripe)
+  for (const LaserPoint& p : stripe)
     points.emplace_back(static_cast<float>(p.in_image.u), static_cast<float>(p.in_image.v));
   cv::convexHull(points, seen);
   points.clear();
@@ -30,7 +30,7 @@ std::vector<cv::Point2f> hull_of(std::span<const StripePoint> stripe, const Shee
 
 }  // namespace
 
-std::vector<Correspondence> sheet_points(std::span<const StripePoint> stripe,
+std::vector<Correspondence> sheet_points(std::span<const LaserPoint> stripe,
                                          const CameraModel& camera, const LightPlane& plane,
                                          const SheetArea& area) {
   const std::vector<cv::Point2f> hull = hull_of(stripe, area);

@@ -16,7 +16,7 @@ struct SheetArea {
   int width = 0, height = 0;
 };
 
-std::vector<Correspondence> sheet_points(std::span<const StripePoint> stripe,
+std::vector<Correspondence> sheet_points(std::span<const LaserPoint> stripe,
                                          const CameraModel& camera, const LightPlane& plane,
                                          const SheetArea& area);
 

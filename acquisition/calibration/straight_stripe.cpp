@@ -24,11 +24,11 @@ struct Line {
 };
 
 // Where a camera without distortion would see the points; pixels from its principal point.
-std::vector<cv::Point2f> undistorted(std::span<const StripePoint> points,
+std::vector<cv::Point2f> undistorted(std::span<const LaserPoint> points,
                                      const CameraModel& camera) {
   std::vector<cv::Point2f> straight;
   straight.reserve(points.size());
-  for (const StripePoint& p : points) {
+  for (const LaserPoint& p : points) {
     straight.emplace_back(static_cast<float>(camera.matrix(0, 0) * p.at[0] / p.at[2]),
                           static_cast<float>(camera.matrix(1, 1) * p.at[1] / p.at[2]));
   }
@@ -79,12 +79,12 @@ Line refined(std::span<const cv::Point2f> points, const Line& around) {
 }
 
 // The points of one picture that are on its line; none where no line is clear.
-std::vector<StripePoint> on_line(std::span<const StripePoint> picture, const CameraModel& camera) {
+std::vector<LaserPoint> on_line(std::span<const LaserPoint> picture, const CameraModel& camera) {
   if (picture.size() < kLeastPoints) return {};
   const std::vector<cv::Point2f> points = undistorted(picture, camera);
   const Line line = refined(points, first_line(points));
   const double near = reach(points, line);
-  std::vector<StripePoint> kept;
+  std::vector<LaserPoint> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (line.distance(points[i]) <= near) kept.push_back(picture[i]);
   }
@@ -94,14 +94,14 @@ std::vector<StripePoint> on_line(std::span<const StripePoint> picture, const Cam
 
 }  // namespace
 
-Expected<StraightStripe> straight_stripe(std::span<const StripePoint> points,
+Expected<StraightStripe> straight_stripe(std::span<const LaserPoint> points,
                                          const CameraModel& camera) {
   StraightStripe result;
   int pictures = 0;
   for (auto from = points.begin(); from != points.end(); ++pictures) {
     const auto to =
         std::find_if(from, points.end(), [&](const auto& p) { return p.pose != from->pose; });
-    const std::vector<StripePoint> kept = on_line({from, to}, camera);
+    const std::vector<LaserPoint> kept = on_line({from, to}, camera);
     if (kept.empty()) ++result.unclear;
     result.points.insert(result.points.end(), kept.begin(), kept.end());
     from = to;

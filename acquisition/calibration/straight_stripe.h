@@ -12,9 +12,9 @@
 namespace vitrine {
 
 struct StraightStripe {
-  std::vector<StripePoint> points;  // as given but for the strays
-  std::size_t strays = 0;           // points left out
-  int unclear = 0;                  // pictures left out, whose points all count as strays
+  std::vector<LaserPoint> points;  // as given but for the strays
+  std::size_t strays = 0;          // points left out
+  int unclear = 0;                 // pictures left out, whose points all count as strays
 };
 
 // Leaves out what is farther from its picture's line than six standard deviations of that picture's
@@ -22,7 +22,7 @@ struct StraightStripe {
 // ink, and is to be judged. Leaves out a picture wholly where fewer than 10 points or less than two
 // thirds of them are on the line. Fails (kBadInput) where that befalls more than half of the
 // pictures. `points` are in the order of their pictures.
-Expected<StraightStripe> straight_stripe(std::span<const StripePoint> points,
+Expected<StraightStripe> straight_stripe(std::span<const LaserPoint> points,
                                          const CameraModel& camera);
 
 }  // namespace vitrine

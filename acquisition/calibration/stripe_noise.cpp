@@ -13,9 +13,9 @@ constexpr std::size_t kLeastDifferences = 20;
 
 }  // namespace
 
-double stripe_noise(std::span<const StripePoint> stripe, const PlaneMap& map) {
+double stripe_noise(std::span<const LaserPoint> stripe, const PlaneMap& map) {
   std::map<int, std::vector<cv::Point2f>> poses;
-  for (const StripePoint& p : stripe) {
+  for (const LaserPoint& p : stripe) {
     const auto at = map.at(p.in_image.u, p.in_image.v);
     if (at) poses[p.pose].emplace_back(static_cast<float>(at->x), static_cast<float>(at->y));
   }

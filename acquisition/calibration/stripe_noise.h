@@ -10,6 +10,6 @@
 namespace vitrine {
 
 // mm: the standard deviation across the stripe, from the median of the deviations in x.
-double stripe_noise(std::span<const StripePoint> stripe, const PlaneMap& map);
+double stripe_noise(std::span<const LaserPoint> stripe, const PlaneMap& map);
 
 }  // namespace vitrine

@@ -65,7 +65,7 @@ double area(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 class Canvas {
  public:
-  explicit Canvas(const Frame& frame)
+  explicit Canvas(const Framing& frame)
       : width_(frame.width * kSamples),
         height_(frame.height * kSamples),
         depth_(std::size_t{width_} * height_, kFar),
@@ -146,7 +146,7 @@ class Canvas {
 
 }  // namespace
 
-Frame frame_around(const TriangleMesh& mesh, std::uint32_t longest) {
+Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vec3 low{kInfinity, kInfinity, kInfinity}, high = low * -1;
   for (const Vec3& position : mesh.positions) {
@@ -166,7 +166,7 @@ Frame frame_around(const TriangleMesh& mesh, std::uint32_t longest) {
           .height = pixels(size.y)};
 }
 
-Picture render(const TriangleMesh& mesh, const Frame& frame) {
+Picture render(const TriangleMesh& mesh, const Framing& frame) {
   static const Vec3 stone = linear({0xd8, 0xd3, 0xcb});
   const std::vector<Vec3> normals = vertex_normals(mesh);
   const double samples = kSamples / frame.pixel;  // per model unit

@@ -11,7 +11,7 @@
 namespace vitrine {
 
 // The part of the model that a picture shows.
-struct Frame {
+struct Framing {
   Vec3 centre;                          // in the middle of the picture, model units
   double pixel = 1;                     // side of a pixel, model units, > 0
   std::uint32_t width = 1, height = 1;  // pixels, >= 1
@@ -19,10 +19,10 @@ struct Frame {
 
 // The frame around the whole of `mesh`, with a narrow margin: the longer side has `longest` pixels,
 // the other one at least half of that.
-Frame frame_around(const TriangleMesh& mesh, std::uint32_t longest);
+Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest);
 
 // Smoothly shaded, seen from both sides, transparent around the model. Vertex colours are the
 // stone's colours where there are any. Positions are finite, face indices in range.
-Picture render(const TriangleMesh& mesh, const Frame& frame);
+Picture render(const TriangleMesh& mesh, const Framing& frame);
 
 }  // namespace vitrine

@@ -27,14 +27,14 @@ std::optional<std::string> percent_decode(std::string_view text) {
 
 }  // namespace
 
-std::optional<Target> split_target(std::string_view target) {
+std::optional<RequestTarget> split_target(std::string_view target) {
   if (const std::size_t scheme = target.find("://");
       scheme != std::string_view::npos && scheme < target.find('/')) {
     target.remove_prefix(std::min(target.size(), target.find('/', scheme + 3)));
   }
   if (!target.starts_with('/')) return std::nullopt;
   const std::size_t mark = std::min(target.size(), target.find('?'));
-  return Target{target.substr(0, mark), target.substr(std::min(target.size(), mark + 1))};
+  return RequestTarget{target.substr(0, mark), target.substr(std::min(target.size(), mark + 1))};
 }
 
 std::optional<Query> Query::parse(std::string_view text) {

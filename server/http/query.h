@@ -13,10 +13,10 @@ namespace vitrine {
 
 // The part of a request's target before and after '?', percent-encoding still in place. An absolute
 // target ("http://host/path") loses its origin. Nothing where there is no path.
-struct Target {
+struct RequestTarget {
   std::string_view path, query;
 };
-std::optional<Target> split_target(std::string_view target);
+std::optional<RequestTarget> split_target(std::string_view target);
 
 // The parameters of a query, percent-decoded, '+' read as a space.
 class Query {

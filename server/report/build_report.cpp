@@ -44,7 +44,8 @@ std::vector<std::uint32_t> pictured_levels(const std::vector<LevelInfo>& levels)
   return out;
 }
 
-Expected<LevelPicture> picture_of(const Refiner& refiner, std::uint32_t level, const Frame& frame) {
+Expected<LevelPicture> picture_of(const Refiner& refiner, std::uint32_t level,
+                                  const Framing& frame) {
   const Picture picture = render(refiner.display_mesh(), frame);
   auto png = write_png(picture);
   if (!png) return tl::unexpected(png.error());
@@ -52,7 +53,7 @@ Expected<LevelPicture> picture_of(const Refiner& refiner, std::uint32_t level, c
 }
 
 Expected<std::vector<LevelPicture>> draw_levels(std::span<const std::uint8_t> pmesh,
-                                                const Frame& frame) {
+                                                const Framing& frame) {
   auto refiner = open_model(pmesh);
   if (!refiner) return tl::unexpected(refiner.error());
   const Manifest& manifest = refiner->manifest();

@@ -166,7 +166,24 @@ def includes(root, table, reached):
                 yield path, number, f"{room} includes {owner} without a link edge"
 
 
-RULES = {rule.__name__: rule for rule in (spdx, length, unfinished, headers, top, rooms)}
+def types(root):
+    """A second type of the same full name: the linker takes the members of one for those of the other."""
+    seen = {}
+    for path in files(root):
+        if path.suffix != ".h" or path.parts[0] not in {"codec", "acquisition", "server"}:
+            continue
+        space = ""
+        for number, line in enumerate(text(root, path).splitlines(), 1):
+            if opened := re.match(r"namespace ([\w:]+) \{", line):
+                space = opened[1]
+            defined = re.match(r"(?:struct|class|enum class) (\w+)(?: final)?(?: : .*)? \{", line)
+            if defined and (name := f"{space}::{defined[1]}") in seen:
+                yield path, number, f"{name} is a type of {seen[name]} already"
+            elif defined:
+                seen[name] = path
+
+
+RULES = {rule.__name__: rule for rule in (spdx, length, unfinished, headers, top, rooms, types)}
 
 
 def main():

@@ -38,7 +38,7 @@ class Lint(unittest.TestCase):
         self.assertIn(words, result.stdout)
 
     def test_a_clean_tree_passes_every_rule(self):
-        for rule in ("spdx", "length", "unfinished", "headers", "top", "rooms"):
+        for rule in ("spdx", "length", "unfinished", "headers", "top", "rooms", "types"):
             result = self.run_rule(rule)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
@@ -53,6 +53,11 @@ class Lint(unittest.TestCase):
     def test_a_long_function_is_named_with_its_line(self):
         self.write("codec/core/b.cpp", SPDX + "void b() {\n" + "  b();\n" * 120 + "}\n")
         self.assert_fault("length", "codec/core/b.cpp:2: a function of 121 lines")
+
+    def test_two_types_of_one_name_are_named(self):
+        for room in ("core", "mesh"):
+            self.write(f"codec/{room}/b.h", SPDX + "#pragma once\nnamespace vitrine {\nstruct B {\n};\n}\n")
+        self.assert_fault("types", "codec/mesh/b.h:4: vitrine::B is a type of codec/core/b.h already")
 
     def test_unfinished_work_is_named(self):
         self.write("codec/core/b.cpp", SPDX + "// TO" + "DO later\n")

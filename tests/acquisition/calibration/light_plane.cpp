@@ -18,12 +18,12 @@ CameraModel camera() {
 }
 
 // Scattered over the plane through (0, 0, 350), every fifth one `stray` mm off it.
-std::vector<StripePoint> points_on(const cv::Vec3d& normal, double stray) {
+std::vector<LaserPoint> points_on(const cv::Vec3d& normal, double stray) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> anywhere(-40, 40);
   const cv::Vec3d first = cv::normalize(normal.cross(cv::Vec3d(1, 2, 3)));
   const cv::Vec3d second = normal.cross(first);
-  std::vector<StripePoint> points;
+  std::vector<LaserPoint> points;
   for (int i = 0; i < 500; ++i) {
     const cv::Vec3d at =
         cv::Vec3d(0, 0, 350) + anywhere(random) * first + anywhere(random) * second;
@@ -65,12 +65,12 @@ TEST(LightPlane, ResolvesTheAxisIntoItsFrame) {
 }
 
 TEST(LightPlane, SaysWhyThereIsNone) {
-  const auto message = [](const std::vector<StripePoint>& points) {
+  const auto message = [](const std::vector<LaserPoint>& points) {
     const auto plane = fit_light_plane(points, camera(), kWidth, kHeight);
     return plane ? "fitted" : plane.error().message;
   };
   const cv::Vec3d upright = cv::normalize(cv::Vec3d(0.87, 0.05, -0.5));
-  std::vector<StripePoint> points = points_on(upright, 0);
+  std::vector<LaserPoint> points = points_on(upright, 0);
   points.resize(99);
   EXPECT_THAT(message(points), HasSubstr("hardly seen"));
   points = points_on(upright, 0);

@@ -61,7 +61,7 @@ TEST(Render, WhatIsNearerHidesWhatIsBehindInEitherOrder) {
 
 TEST(Render, AFaceLooksTheSameFromBothSides) {
   TriangleMesh mesh = square();
-  const Frame frame = frame_around(mesh, 64);
+  const Framing frame = frame_around(mesh, 64);
   const Picture front = render(mesh, frame);
   for (Triangle& f : mesh.faces)
     std::swap(f[1], f[2]);
@@ -73,7 +73,7 @@ TEST(Render, TheFrameKeepsTheShapeButForVeryThinOnes) {
   add_square(mesh, 1, 0, kRed);
   for (Vec3& p : mesh.positions)
     p.y *= 0.7;
-  const Frame frame = frame_around(mesh, 100);
+  const Framing frame = frame_around(mesh, 100);
   EXPECT_EQ(frame.width, 100u);
   EXPECT_GT(frame.height, 60u);
   EXPECT_LT(frame.height, 90u);
