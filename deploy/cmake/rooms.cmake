@@ -17,6 +17,9 @@ add_library(vitrine_flags INTERFACE)
 target_compile_options(vitrine_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                                -Wno-sign-conversion -Wno-missing-field-initializers -Werror -ffp-contract=off
                                                -fno-math-errno -fno-tree-slp-vectorize)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+  target_compile_definitions(vitrine_flags INTERFACE VITRINE_SANITISED)
+endif()
 target_link_options(vitrine_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Werror=odr>)
 
 # vitrine_room(codec/core SOURCES a.cpp b.cpp USES codec/other Lib::target)

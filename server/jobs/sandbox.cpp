@@ -129,7 +129,7 @@ int set_limit(int which, rlim_t soft, rlim_t hard) {
 }
 
 // A sanitizer reserves terabytes of address space for its shadow.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef VITRINE_SANITISED
 constexpr bool kLimitMemory = false;
 #else
 constexpr bool kLimitMemory = true;

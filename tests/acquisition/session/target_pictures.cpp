@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Target kTarget{9, 14, 8, 6, "DICT_4X4_100"};
+const Target kTarget{9, 14, 8, 6, "DICT_4X4_100"};
 
 PlaceTarget places(int count) {
   return [count](int number) -> Expected<bool> { return number < count; };

@@ -179,7 +179,7 @@ TEST(Sandbox, descriptors_of_the_parent_are_out_of_reach) {
 }
 
 // The address space of a sanitizer's shadow is beyond any limit.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef VITRINE_SANITISED
 TEST(Sandbox, memory_beyond_the_limit_is_a_limit_error_that_says_how_much) {
   const SandboxLimits limits{.memory_bytes = 1ull << 30};
   const SandboxedTask hog = [](const auto&) -> Expected<Bytes> {
