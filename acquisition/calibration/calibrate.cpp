@@ -104,12 +104,6 @@ std::vector<Point> kept(std::span<const Point> points, const std::vector<bool>& 
 
 Coverage coverage_of(const PlaneMap& map, std::span<const Correspondence> points,
                      const SensorRegion& region) {
-  const std::span<const double> hull = map.hull();
-  double area = 0;
-  for (std::size_t i = 0; i < hull.size(); i += 2) {
-    const std::size_t next = (i + 2) % hull.size();
-    area += (hull[i] * hull[next + 1] - hull[next] * hull[i + 1]) / 2;
-  }
   const auto range = [&](double PlanePoint::*coordinate) {
     const auto value = [&](const Correspondence& p) { return p.at.*coordinate; };
     const auto [low, high] = std::ranges::minmax(points, {}, value);
@@ -117,8 +111,7 @@ Coverage coverage_of(const PlaneMap& map, std::span<const Correspondence> points
   };
   const auto [x_low, x_high] = range(&PlanePoint::x);
   const auto [y_low, y_high] = range(&PlanePoint::y);
-  return {std::abs(area) / (static_cast<double>(region.width) * region.height), x_low, x_high,
-          y_low, y_high};
+  return {map.image_share(region.width, region.height), x_low, x_high, y_low, y_high};
 }
 
 // Conditions of the fits to all points, beside what cross-validation says of each degree.

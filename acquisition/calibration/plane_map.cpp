@@ -107,6 +107,15 @@ Expected<PlaneMap> PlaneMap::fit(std::span<const Correspondence> points, int deg
   return map;
 }
 
+double PlaneMap::image_share(int width, int height) const {
+  double area = 0;
+  for (std::size_t i = 0; i < hull_.size(); i += 2) {
+    const std::size_t next = (i + 2) % hull_.size();
+    area += (hull_[i] * hull_[next + 1] - hull_[next] * hull_[i + 1]) / 2;
+  }
+  return std::abs(area) / (static_cast<double>(width) * height);
+}
+
 bool PlaneMap::is_inside(double u, double v) const {
   const std::size_t n = hull_.size();
   if (n == 0) return false;

@@ -40,6 +40,8 @@ class PlaneMap {
   double condition() const { return condition_; }
   // u, v of its corners, counter-clockwise in (u, v).
   std::span<const double> hull() const { return hull_; }
+  // Of an image of that size, the part within the hull.
+  double image_share(int width, int height) const;
 
  private:
   friend struct PlaneMapJson;  // keeps it in a file

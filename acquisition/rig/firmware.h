@@ -36,6 +36,7 @@ class Firmware {
   double table(double now) const;  // where the table is, degrees; not what the board believes
   bool laser() const { return laser_; }
   bool motor() const { return motor_; }
+  bool moving() const { return motion_.has_value(); }
 
  protected:
   explicit Firmware(const FirmwareSettings& settings) : settings_(settings) {}
@@ -47,7 +48,6 @@ class Firmware {
 
   void say(std::string_view text) { output_ += text; }
   double degrees_per_step() const { return 360.0 / settings_.steps_per_turn; }
-  bool moving() const { return motion_.has_value(); }
   void move_by(long steps, double now);
   // Where it is; returns the steps made.
   long stop_moving(double now);

@@ -30,6 +30,11 @@ std::string place_target(std::string_view number, Stage& stage) {
   return "ok";
 }
 
+std::string look_at(const Setting& now) {
+  const auto word = [](bool on) { return on ? "on" : "off"; };
+  return fmt::format("ok {} {} {:.3f}", word(now.laser), word(now.motor), now.degrees);
+}
+
 class Door final : public OperatorDoor {
  public:
   Door(FileDescriptor listener, FileDescriptor closing, std::filesystem::path path, Stage& stage)
@@ -90,7 +95,9 @@ std::string obey(std::string_view command, Stage& stage) {
   constexpr std::string_view kTarget = "target ";
   if (command == "poses") return fmt::format("ok {} {}", kHeldPoses, kTablePoses);
   if (command.starts_with(kTarget)) return place_target(command.substr(kTarget.size()), stage);
-  if (command != "object") return "error: unknown command; say `target N`, `object` or `poses`";
+  if (command == "look") return look_at(stage.now());
+  if (command != "object")
+    return "error: unknown command; say `target N`, `object`, `poses` or `look`";
   stage.place_object();
   return "ok";
 }

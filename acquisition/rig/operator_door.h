@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the operator's hands would be: commands that put things on the table, over a Unix socket.
+// Where the operator's hands and eyes would be: commands that put things on the table and tell what
+// it does, over a Unix socket.
 // One line a command, one line an answer:
 //   target N   the calibration target at pose N        ok
 //   object     the object                              ok
 //   poses      how many poses there are                ok HELD STANDING
+//   look       laser and motor, the table's angle      ok on off 12.500
 // Poses 0 to HELD - 1 are held in the air; the STANDING ones after them stand on the table and turn
 // with it. Whatever else is said: "error: " and what to say instead.
 #pragma once

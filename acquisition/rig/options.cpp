@@ -21,6 +21,8 @@ that only COMMAND sees. Runs COMMAND and exits as it does.
   --empty              nothing stands on the table
   --seed N             which rig: geometry, serial numbers and noise (default 1)
   --steps N            the scanner's steps a turn, for --write-config (default 720)
+  --degrees-per-second N
+                       how fast the table turns (default: it is there at once)
   --fault NAME[@STEP]  what goes wrong, at that motion of the table; may be repeated: lost-packets,
                        camera-unplug, usb-unplug, motor-stall, missed-trigger, drift
   --stripe SHAPE       gaussian, top-hat or skewed (default gaussian)
@@ -88,10 +90,11 @@ class Parser {
   }
 
   static bool takes_value(std::string_view word) {
-    constexpr std::string_view kNames[] = {
-        "--mesh",         "--up",          "--height-mm", "--seed",    "--steps",
-        "--fault",        "--stripe",      "--speckle",   "--address", "--dialect",
-        "--write-config", "--write-truth", "--name"};
+    constexpr std::string_view kNames[] = {"--mesh",        "--up",      "--height-mm",
+                                           "--seed",        "--steps",   "--degrees-per-second",
+                                           "--fault",       "--stripe",  "--speckle",
+                                           "--address",     "--dialect", "--write-config",
+                                           "--write-truth", "--name"};
     return std::find(std::begin(kNames), std::end(kNames), word) != std::end(kNames);
   }
 
@@ -110,6 +113,8 @@ class Parser {
                    number(option, value, std::uint64_t{0}, ~std::uint64_t{0}, "a whole number"));
     if (option == "--steps")
       return store(options_.steps, number(option, value, 1, 28800, "1 to 28800"));
+    if (option == "--degrees-per-second")
+      return store(options_.degrees_per_second, number(option, value, 1.0, 1e4, "1 to 10000"));
     if (option == "--speckle")
       return store(options_.realism.look.speckle, number(option, value, 0.33, 1.0, "0.33 to 1"));
     if (option == "--fault") return add_fault(value);

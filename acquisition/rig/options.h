@@ -22,6 +22,7 @@ struct RigOptions {
   Realism realism;
   Finish finish;
   int steps = 720;
+  double degrees_per_second = 0;  // of the table; 0: it is there at once
   std::vector<Fault> faults;
   std::string address = "127.0.0.1", dialect = "horus", name = "rig";
   std::string write_config, write_truth;  // files; empty: not asked for

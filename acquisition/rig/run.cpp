@@ -73,7 +73,8 @@ Expected<int> serve(const RigOptions& options, const Subject* object) {
                                  .realism = options.realism,
                                  .faults = options.faults,
                                  .camera_address = options.address,
-                                 .fabscan = options.dialect == "fabscan"});
+                                 .fabscan = options.dialect == "fabscan",
+                                 .degrees_per_second = options.degrees_per_second});
   if (!scanner) return Unexpected(scanner.error());
   auto door = open_door(folder.socket(), (*scanner)->stage());
   if (!door) return Unexpected(door.error());

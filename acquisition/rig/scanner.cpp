@@ -30,12 +30,12 @@ Scanner::Scanner(const ScannerOptions& options)
     : options_(options),
       renderer_(optics_of(options.realism.seed), options.object, options.realism),
       stage_([this](int turns) { turned(turns); }),
-      board_({.on_turn = [this](double degrees) { stage_.turned_to(degrees); },
-              .on_laser = [this](bool on) { stage_.laser(on); }}),
+      board_({.on_move = [this](double degrees) { stage_.passes(degrees); },
+              .on_turn = [this](double degrees) { stage_.turned_to(degrees); },
+              .on_laser = [this](bool on) { stage_.laser(on); },
+              .on_motor = [this](bool on) { stage_.motor(on); }}),
       camera_cable_([this] { camera_->unplug(); }, [this] { tell(camera_->plug_in()); }),
-      board_cable_(
-          [this] { board_.unplug(); },
-          [this] { tell(board_.plug(board_settings(options_.realism.seed, options_.fabscan))); }) {}
+      board_cable_([this] { board_.unplug(); }, [this] { tell(plug_board()); }) {}
 
 Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options) {
   std::unique_ptr<Scanner> scanner(new Scanner(options));
@@ -46,9 +46,14 @@ Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options)
       });
   if (!camera) return Unexpected(camera.error());
   scanner->camera_ = std::move(*camera);
-  const auto plugged = scanner->board_.plug(board_settings(options.realism.seed, options.fabscan));
-  if (!plugged) return Unexpected(plugged.error());
+  if (const auto plugged = scanner->plug_board(); !plugged) return Unexpected(plugged.error());
   return scanner;
+}
+
+Expected<void> Scanner::plug_board() {
+  UsbBoardSettings settings = board_settings(options_.realism.seed, options_.fabscan);
+  settings.firmware.degrees_per_second = options_.degrees_per_second;
+  return board_.plug(settings);
 }
 
 void Scanner::turned(int turns) {

@@ -23,7 +23,8 @@ struct ScannerOptions {
   Realism realism;
   std::vector<Fault> faults;
   std::string camera_address = "127.0.0.1";
-  bool fabscan = false;  // the board, instead of Horus
+  bool fabscan = false;           // the board, instead of Horus
+  double degrees_per_second = 0;  // of the table; 0: it is there at once
 };
 
 // The same for the same seed: a rig that is started anew is the rig it was.
@@ -39,6 +40,7 @@ class Scanner {
 
  private:
   explicit Scanner(const ScannerOptions& options);
+  Expected<void> plug_board();
   void turned(int turns);
   Exposed expose(const Exposure& exposure, const SensorRegion& region);
   Delivery delivery(int turns);

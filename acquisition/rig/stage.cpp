@@ -3,6 +3,11 @@
 
 namespace vitrine::rig {
 
+void Stage::passes(double degrees) {
+  const std::lock_guard lock(mutex_);
+  setting_.degrees = degrees;
+}
+
 void Stage::turned_to(double degrees) {
   int turns = 0;
   {
@@ -16,6 +21,11 @@ void Stage::turned_to(double degrees) {
 void Stage::laser(bool on) {
   const std::lock_guard lock(mutex_);
   setting_.laser = on;
+}
+
+void Stage::motor(bool on) {
+  const std::lock_guard lock(mutex_);
+  setting_.motor = on;
 }
 
 void Stage::place_object() {

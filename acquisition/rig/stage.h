@@ -11,7 +11,8 @@ namespace vitrine::rig {
 struct Setting {
   double degrees = 0;  // of the table, as the motor was told
   bool laser = false;
-  int turns = 0;  // motions that were completed
+  bool motor = false;  // holds or turns the table
+  int turns = 0;       // motions that were completed
   std::optional<int>
       target;  // the pose of the calibration target; nothing: the object stands there
   bool operator==(const Setting&) const = default;
@@ -24,9 +25,12 @@ class Stage {
   using OnTurn = std::function<void(int turns)>;
   explicit Stage(OnTurn on_turn = {}) : on_turn_(std::move(on_turn)) {}
 
+  // The table is at `degrees` amid a motion.
+  void passes(double degrees);
   // The table has come to stand at `degrees`, counted from where it first stood.
   void turned_to(double degrees);
   void laser(bool on);
+  void motor(bool on);
 
   void place_object();
   void place_target(int pose);

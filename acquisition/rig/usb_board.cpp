@@ -121,7 +121,8 @@ class UsbBoard::Impl {
   std::string unread_;
   double last_in_ = 0;
   double base_ = 0, table_ = 0;  // where the table was when the power came, and is
-  bool laser_ = false;
+  double stood_ = 0;             // and was at rest last
+  bool laser_ = false, motor_ = false;
   std::map<UMockdevIoctlClient*, Client> clients_;
   std::thread timer_;
 };
@@ -255,6 +256,7 @@ void UsbBoard::Impl::unplug() {
       deliver(client);
     }
     if (std::exchange(laser_, false)) events_.on_laser(false);
+    if (std::exchange(motor_, false)) events_.on_motor(false);
   }
   umockdev_testbed_uevent(testbed_.get(), kPath, "remove");
   umockdev_testbed_remove_device(testbed_.get(), kPath);
@@ -431,9 +433,11 @@ void UsbBoard::Impl::settle() {
     unread_ += firmware_->take_output();
     if (unread_.size() > kMostUnread) unread_.erase(0, unread_.size() - kMostUnread);
     const double table = base_ + firmware_->table(at);
-    if (table != std::exchange(table_, table)) events_.on_turn(table);
-    const bool laser = firmware_->laser();
+    if (table != std::exchange(table_, table)) events_.on_move(table);
+    if (!firmware_->moving() && table != std::exchange(stood_, table)) events_.on_turn(table);
+    const bool laser = firmware_->laser(), motor = firmware_->motor();
     if (laser != std::exchange(laser_, laser)) events_.on_laser(laser);
+    if (motor != std::exchange(motor_, motor)) events_.on_motor(motor);
   }
   for (auto& [handle, client] : clients_) {
     hand_out(client, at);

@@ -23,8 +23,9 @@ struct UsbBoardSettings {
 
 // Called from threads of the board's own, one at a time; may not call the board.
 struct UsbBoardEvents {
-  std::function<void(double degrees)> on_turn = [](double) {};  // where the table is now
-  std::function<void(bool on)> on_laser = [](bool) {};
+  std::function<void(double degrees)> on_move = [](double) {};  // where the table is now
+  std::function<void(double degrees)> on_turn = [](double) {};  // where it has come to stand
+  std::function<void(bool on)> on_laser = [](bool) {}, on_motor = [](bool) {};
 };
 
 // Starts this program anew under umockdev's library if it is not yet: without it other programs are

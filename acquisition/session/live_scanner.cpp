@@ -1,9 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/live_scanner.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace vitrine {
+namespace {
+
+constexpr int kPairTries = 3;
+
+// A picture all of one grey level, behind a lens cap or dazzled, says nothing of that.
+bool is_one_frame(const FramePair& pair) {
+  const auto& pixels = pair.dark.pixels;
+  return pair.dark == pair.lit &&
+         std::ranges::adjacent_find(pixels, std::not_equal_to<>()) != pixels.end();
+}
+
+}  // namespace
 
 Expected<LiveScanner> LiveScanner::open(const ScannerDevices& devices,
                                         const CameraSettings& settings, EmergencyStop& stop) {
@@ -36,6 +52,17 @@ Expected<void> LiveScanner::find_position(double otherwise) {
 }
 
 Expected<FramePair> LiveScanner::capture_pair() {
+  for (int i = 0; i < kPairTries; ++i) {
+    auto pair = capture_once();
+    if (!pair || !is_one_frame(*pair)) return pair;
+  }
+  return fail(ErrorCode::kIo,
+              fmt::format("camera {} delivers the same picture with the laser off and on; check "
+                          "that the laser lights, and plug the camera in anew",
+                          camera().serial));
+}
+
+Expected<FramePair> LiveScanner::capture_once() {
   FramePair pair;
   auto dark = capture();
   if (!dark) return tl::unexpected(dark.error());

@@ -43,9 +43,12 @@ class LiveScanner {
   // Laser and motor off until the next turn; the watchdog rests, too.
   Expected<void> rest() { return board_->rest(); }
   Expected<Frame> capture() { return camera_->capture(); }  // as the laser is, off at first
+  // Taken anew, three times in all, where both frames are the same one: noise alone makes two
+  // exposures differ.
   Expected<FramePair> capture_pair();
 
  private:
+  Expected<FramePair> capture_once();
   LiveScanner(std::unique_ptr<Camera> camera, std::unique_ptr<Board> board, EmergencyStop& stop);
 
   std::unique_ptr<Camera> camera_;

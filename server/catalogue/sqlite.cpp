@@ -98,6 +98,13 @@ bool Statement::step() {
   database_->raise();
 }
 
+bool Statement::any() {
+  bool found = false;
+  while (step())
+    found = true;
+  return found;
+}
+
 std::string Statement::text(int column) const {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), column));
   return std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column)));

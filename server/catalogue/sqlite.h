@@ -46,6 +46,7 @@ class Statement {
   Statement& bind(std::string_view text);
   Statement& bind(std::span<const std::uint8_t> blob);
   bool step();  // true: there is a row
+  bool any();   // steps to the end; true: there was a row
 
   std::int64_t integer(int column) const { return sqlite3_column_int64(handle_.get(), column); }
   double real(int column) const { return sqlite3_column_double(handle_.get(), column); }

@@ -4,10 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <mutex>
 
-#include "server/catalogue/migrations.h"
-#include "server/catalogue/sqlite.h"
+#include "server/catalogue/guarded_connection.h"
 
 namespace vitrine {
 namespace {
@@ -73,10 +71,10 @@ std::vector<std::string> patterns(std::string_view text) {
   return words;
 }
 
-class SqliteCatalogue final : public Catalogue {
+class SqliteCatalogue final : public Catalogue, private sqlite::GuardedConnection {
  public:
   explicit SqliteCatalogue(Database database)
-      : database_(std::move(database)),
+      : GuardedConnection(std::move(database)),
         insert_model_(database_, fmt::format("INSERT INTO model({}) VALUES "
                                              "(?,?,?,?,?,?,?,?,?,?,?,?,?)",
                                              kColumns)),
@@ -124,7 +122,7 @@ class SqliteCatalogue final : public Catalogue {
   Expected<void> set_state(const ModelId& id, ModelState state) override {
     return guarded<void>([&]() -> Expected<void> {
       update_state_.reset().bind(id.bytes()).bind(static_cast<std::int64_t>(state));
-      if (!changes(update_state_)) {
+      if (!update_state_.any()) {
         return fail(ErrorCode::kState,
                     fmt::format("there is no model {}; list the models", id.to_string()));
       }
@@ -171,7 +169,7 @@ class SqliteCatalogue final : public Catalogue {
     return guarded<void>([&]() -> Expected<void> {
       insert_token_.reset().bind(token.id.bytes()).bind(static_cast<std::int64_t>(token.role));
       insert_token_.bind(token.hash).bind(token.label).bind(token.created);
-      if (!changes(insert_token_)) {
+      if (!insert_token_.any()) {
         return fail(ErrorCode::kState,
                     fmt::format("token {} exists; create another", token.id.to_string()));
       }
@@ -191,7 +189,7 @@ class SqliteCatalogue final : public Catalogue {
 
   Expected<void> revoke_token(const ModelId& id) override {
     return guarded<void>([&]() -> Expected<void> {
-      if (!changes(revoke_token_.reset().bind(id.bytes()))) {
+      if (!revoke_token_.reset().bind(id.bytes()).any()) {
         return fail(ErrorCode::kState,
                     fmt::format("there is no token {} in force; check the id", id.to_string()));
       }
@@ -209,25 +207,6 @@ class SqliteCatalogue final : public Catalogue {
   }
 
  private:
-  // Runs `action` alone on the connection.
-  template <class T, class Action>
-  Expected<T> guarded(Action action) {
-    const std::scoped_lock lock(mutex_);
-    try {
-      return action();
-    } catch (const sqlite::Failure& failure) {
-      return sqlite::refused("the catalogue refuses", failure);
-    }
-  }
-
-  // Runs a statement that returns a row for each that it changed: whether there was one.
-  static bool changes(Statement& statement) {
-    bool changed = false;
-    while (statement.step())
-      changed = true;
-    return changed;
-  }
-
   ModelPage search_locked(const ModelQuery& query) {
     const auto words = patterns(query.text);
     std::string sql = fmt::format("SELECT {} FROM model WHERE state >= ?", kColumns);
@@ -254,8 +233,6 @@ class SqliteCatalogue final : public Catalogue {
     return page;
   }
 
-  std::mutex mutex_;
-  Database database_;
   Statement insert_model_, insert_chunk_, update_state_, find_model_, find_same_, find_chunk_,
       insert_token_, tokens_like_, revoke_token_, data_version_;
   std::uint64_t own_changes_ = 0;  // `PRAGMA data_version` counts the changes of others only

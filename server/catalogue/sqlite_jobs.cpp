@@ -4,11 +4,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <mutex>
 
 #include "server/catalogue/catalogue.h"
-#include "server/catalogue/migrations.h"
-#include "server/catalogue/sqlite.h"
+#include "server/catalogue/guarded_connection.h"
 
 namespace vitrine {
 namespace {
@@ -96,9 +94,9 @@ std::string assignments(std::string_view columns) {
   return text;
 }
 
-class SqliteJobs final : public JobCatalogue {
+class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection {
  public:
-  explicit SqliteJobs(Database database) : database_(std::move(database)) {}
+  explicit SqliteJobs(Database database) : GuardedConnection(std::move(database)) {}
 
   Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                      const std::optional<OnceKey>& once) override {
@@ -152,27 +150,16 @@ class SqliteJobs final : public JobCatalogue {
   }
 
  private:
-  // Runs `action` alone on the connection.
-  template <class T, class Action>
-  Expected<T> guarded(Action action) {
-    const std::scoped_lock lock(mutex_);
-    try {
-      return action();
-    } catch (const sqlite::Failure& failure) {
-      return sqlite::refused("the catalogue refuses", failure);
-    }
-  }
-
   // Whether the row was written.
   bool insert(std::string_view how, std::string_view columns, const auto& record) {
     Statement row(database_,
                   fmt::format("{}({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?) RETURNING 1", how, columns));
-    return any(bind_record(row, record));
+    return bind_record(row, record).any();
   }
 
   bool insert_once(const OnceKey& once, const JobId& job) {
     Statement row(database_, "INSERT OR IGNORE INTO idempotency VALUES (?,?,?) RETURNING 1");
-    return any(row.bind(once.key).bind(once.request).bind(job.bytes()));
+    return row.bind(once.key).bind(once.request).bind(job.bytes()).any();
   }
 
   template <class Record>
@@ -180,7 +167,7 @@ class SqliteJobs final : public JobCatalogue {
     return guarded<void>([&]() -> Expected<void> {
       Statement row(database_, fmt::format("UPDATE {} SET {} WHERE id = ?1 RETURNING 1", table,
                                            assignments(columns)));
-      if (any(bind_record(row, record))) return {};
+      if (bind_record(row, record).any()) return {};
       return fail(ErrorCode::kState,
                   fmt::format("there is no {} {}; list them", table, record.id.to_string()));
     });
@@ -216,17 +203,6 @@ class SqliteJobs final : public JobCatalogue {
       read(rows, records.emplace_back());
     return records;
   }
-
-  // Runs a statement to its end; whether it had a row.
-  static bool any(Statement& rows) {
-    bool found = false;
-    while (rows.step())
-      found = true;
-    return found;
-  }
-
-  std::mutex mutex_;
-  Database database_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "codec/files/atomic_file.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
+#include "server/cli/measured_points.h"
 #include "server/cli/stop_signals.h"
 
 namespace vitrine::cli {
@@ -111,16 +112,33 @@ tl::expected<CalibrationOptions, Fault> options_of(const Arguments& arguments) {
   return options;
 }
 
-Outcome run_calibrate(const Arguments& arguments) {
+Expected<Calibrated> measure(const Arguments& arguments, const ScannerConfig& config,
+                             const CalibrationOptions& options) {
+  if (arguments.has("--correspondences")) {
+    return calibrate_by(
+        {.points = arguments.text("--correspondences"), .axis = arguments.text("--axis")}, config,
+        options);
+  }
+  const auto input = take_pictures(config);
+  if (!input) return tl::unexpected(input.error());
+  return calibrate(*input, options);
+}
+
+Outcome check_usage(const Arguments& arguments) {
   if (!arguments.has("--config")) return misused("--config is missing; name the scanner's file");
+  if (arguments.has("--correspondences") != arguments.has("--axis"))
+    return misused("--correspondences and --axis go together; give both or none");
+  return {};
+}
+
+Outcome run_calibrate(const Arguments& arguments) {
+  if (auto right = check_usage(arguments); !right) return right;
   const auto options = options_of(arguments);
   if (!options) return tl::unexpected(options.error());
   const auto config = read_scanner_config(arguments.text("--config"));
   if (!config) return failed(config.error());
 
-  const auto input = take_pictures(*config);
-  if (!input) return failed(input.error());
-  const auto calibrated = calibrate(*input, *options);
+  const auto calibrated = measure(arguments, *config, *options);
   if (!calibrated) return failed(calibrated.error());
   const auto stored = CalibrationStore(config->calibrations).add(calibrated->calibration);
   if (!stored) return failed(stored.error());
@@ -141,15 +159,19 @@ Outcome run_calibrate(const Arguments& arguments) {
 
 constexpr Flag kCalibrateFlags[] = {
     {"--config", "rig.json", "the scanner"},
+    {"--correspondences", "FILE.csv",
+     "instead of the target: lines u,v,x,y,pose of points known in the laser plane"},
+    {"--axis", "FILE.json", "with them: the table's axis, {a, b, offset, tilt, clockwise}"},
     {"--degree", "auto|2..5", "of the polynomial (default auto: by the held-out poses)"},
     {"--json", "", "print one JSON object"}};
 
 }  // namespace
 
-const Command kCalibrate = {"calibrate",
-                            "Calibrates a scanner by its target; prints the error in mm.",
-                            {},
-                            kCalibrateFlags,
-                            run_calibrate};
+const Command kCalibrate = {
+    "calibrate",
+    "Calibrates a scanner by its target or by points; prints the error in mm.",
+    {},
+    kCalibrateFlags,
+    run_calibrate};
 
 }  // namespace vitrine::cli

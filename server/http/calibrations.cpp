@@ -10,20 +10,18 @@ namespace vitrine {
 namespace {
 
 nlohmann::ordered_json summary_json(const CalibrationSummary& one) {
-  nlohmann::ordered_json json = {{"number", one.number},
-                                 {"created", one.created},
-                                 {"camera", one.camera},
-                                 {"region",
-                                  {{"x", one.region.x},
-                                   {"y", one.region.y},
-                                   {"width", one.region.width},
-                                   {"height", one.region.height}}},
-                                 {"rms", one.rms},
-                                 {"p95", one.p95},
-                                 {"max", one.max},
-                                 {"coverage", nullptr}};
-  if (one.coverage) json["coverage"] = *one.coverage;
-  return json;
+  return {{"number", one.number},
+          {"created", one.created},
+          {"camera", one.camera},
+          {"region",
+           {{"x", one.region.x},
+            {"y", one.region.y},
+            {"width", one.region.width},
+            {"height", one.region.height}}},
+          {"rms", one.rms},
+          {"p95", one.p95},
+          {"max", one.max},
+          {"coverage", one.coverage}};
 }
 
 // A file of a calibration that is never changed.

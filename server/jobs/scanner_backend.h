@@ -59,7 +59,7 @@ struct CalibrationSummary {
   std::string created, camera;
   SensorRegion region;
   double rms = 0, p95 = 0, max = 0;  // mm, over held-out poses
-  std::optional<double> coverage;    // share of the picture; nothing where it is not known
+  double coverage = 0;               // share of the picture
 };
 
 // Everything up to `close` is called by one thread, the rest by any.

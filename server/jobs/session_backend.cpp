@@ -91,14 +91,15 @@ ScanStatus follow(Scan& scan, ScanListener& listener) {
 }
 
 CalibrationSummary summary_of(const Calibration& calibration) {
+  const SensorRegion& region = calibration.region;
   return {.number = calibration.number,
           .created = calibration.created,
           .camera = calibration.camera,
-          .region = calibration.region,
+          .region = region,
           .rms = calibration.residuals.rms,
           .p95 = calibration.residuals.p95,
           .max = calibration.residuals.max,
-          .coverage = std::nullopt};
+          .coverage = calibration.map.image_share(region.width, region.height)};
 }
 
 Expected<std::optional<std::string>> text_of(const std::filesystem::path& file) {

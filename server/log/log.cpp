@@ -54,6 +54,22 @@ void append_time(Line& line) {
                  (now - seconds).count());
 }
 
+// Of an access or an audit: what both begin with, and what was asked.
+Line line_of(std::string_view event, const auto& record) {
+  Line line;
+  append_time(line);
+  append(line, "event", event);
+  append(line, "id", record.request_id);
+  append(line, "remote", record.remote);
+  return line;
+}
+
+void append_request(Line& line, const auto& record) {
+  append(line, "method", record.method);
+  append(line, "route", record.route);
+  append(line, "target", record.target);
+}
+
 std::string_view name(Severity severity) {
   switch (severity) {
     case Severity::kInfo:
@@ -106,14 +122,8 @@ Log::~Log() {
 
 void Log::access(const AccessRecord& record) const {
   if (descriptor_ < 0) return;
-  Line line;
-  append_time(line);
-  append(line, "event", "access");
-  append(line, "id", record.request_id);
-  append(line, "remote", record.remote);
-  append(line, "method", record.method);
-  append(line, "route", record.route);
-  append(line, "target", record.target);
+  Line line = line_of("access", record);
+  append_request(line, record);
   fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={:.6f}", record.status,
                  record.bytes, record.seconds);
   write_line(descriptor_, line);
@@ -121,15 +131,9 @@ void Log::access(const AccessRecord& record) const {
 
 void Log::audit(const AuditRecord& record) const {
   if (descriptor_ < 0) return;
-  Line line;
-  append_time(line);
-  append(line, "event", "audit");
-  append(line, "id", record.request_id);
-  append(line, "remote", record.remote);
+  Line line = line_of("audit", record);
   append(line, "token", record.token);
-  append(line, "method", record.method);
-  append(line, "route", record.route);
-  append(line, "target", record.target);
+  append_request(line, record);
   fmt::format_to(std::back_inserter(line), " status={}", record.status);
   write_line(descriptor_, line);
 }

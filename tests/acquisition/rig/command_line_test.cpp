@@ -2,18 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "acquisition/rig/fault.h"
 #include "acquisition/rig/operator_door.h"
+#include "support/rig_door.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
 
@@ -56,6 +54,7 @@ TEST(RigCommandLine, WrongUsageIsOneLineThatSaysWhatToGive) {
       {{"--empty", "--fault", "fire@3", "--", "true"}, "motor-stall"},
       {{"--empty", "--fault", "drift@x", "--", "true"}, "NAME@STEP"},
       {{"--empty", "--speckle", "0.1", "--", "true"}, "0.33"},
+      {{"--empty", "--degrees-per-second", "0", "--", "true"}, "1 to 10000"},
       {{"--empty", "--up", "w", "--", "true"}, "-z"},
       {{"--empty", "--dialect", "morse", "--", "true"}, "fabscan"},
       {{"--empty", "--write-truth", "t.ply", "--", "true"}, "--mesh"},
@@ -164,21 +163,6 @@ TEST(RigCommandLine, TheTruthStandsOnTheTableAtItsHeight) {
   EXPECT_LT(seen, count);
 }
 
-std::string said(const std::filesystem::path& socket, const std::string& command) {
-  sockaddr_un name{};
-  name.sun_family = AF_UNIX;
-  std::strncpy(name.sun_path, socket.c_str(), sizeof name.sun_path - 1);
-  const int fd = ::socket(AF_UNIX, SOCK_STREAM, 0);
-  std::string answer;
-  if (::connect(fd, reinterpret_cast<sockaddr*>(&name), sizeof name) == 0 &&
-      ::send(fd, command.data(), command.size(), MSG_NOSIGNAL) > 0) {
-    for (char c = 0; !answer.ends_with('\n') && ::recv(fd, &c, 1, 0) == 1;)
-      answer += c;
-  }
-  ::close(fd);
-  return answer;
-}
-
 TEST(OperatorDoor, CommandsChangeWhatIsOnTheTable) {
   const TemporaryFolder folder;
   const auto socket = folder.path() / "rig.sock";
@@ -198,6 +182,23 @@ TEST(OperatorDoor, CommandsChangeWhatIsOnTheTable) {
     EXPECT_EQ(said(socket, std::string(5000, 'x')), "");  // no line: hung up on
   }
   EXPECT_FALSE(std::filesystem::exists(socket));
+}
+
+TEST(OperatorDoor, WhoLooksSeesLaserMotorAndTable) {
+  const TemporaryFolder folder;
+  const auto socket = folder.path() / "rig.sock";
+  rig::Stage stage;
+  const auto door = rig::open_door(socket, stage);
+  ASSERT_TRUE(door) << door.error().message;
+  EXPECT_EQ(said(socket, "look\n"), "ok off off 0.000\n");
+  stage.laser(true);
+  stage.passes(12.5);
+  EXPECT_EQ(said(socket, "look\n"), "ok on off 12.500\n");
+  stage.laser(false);
+  stage.motor(true);
+  stage.turned_to(-20);
+  EXPECT_EQ(said(socket, "look\n"), "ok off on -20.000\n");
+  EXPECT_EQ(stage.now().turns, 1) << "what the table passes is no turn";
 }
 
 TEST(OperatorDoor, ASocketThatCannotBeMadeIsAnError) {

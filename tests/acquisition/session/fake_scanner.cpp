@@ -52,13 +52,14 @@ class FakeCamera : public Camera {
   Expected<Frame> capture() override {
     if (auto there = call(world_, "capture"); !there) return tl::unexpected(there.error());
     const std::lock_guard lock(world_.mutex);
+    if (world_.repeats && world_.repeats(world_.calls["capture"])) return last_;
     Frame frame{kFakeWidth, kFakeHeight, std::vector<std::uint8_t>(kFakeWidth * kFakeHeight)};
     for (int i = 0; i < kFakeWidth * kFakeHeight; ++i) {
       const int u = i % kFakeWidth, v = i / kFakeWidth;
       const double grey = 10 + noise(world_.degrees, world_.laser, i) + light(u, v);
       frame.pixels[i] = static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0));
     }
-    return frame;
+    return last_ = frame;
   }
 
  private:
@@ -73,6 +74,7 @@ class FakeCamera : public Camera {
 
   FakeWorld& world_;
   const CameraIdentity identity_;
+  Frame last_;
 };
 
 class FakeBoard : public Board {

@@ -25,6 +25,8 @@ enum class FakeObject { kColumn, kNothing, kEmptyTable, kSaturated, kTwoStripes 
 struct FakeWorld {
   std::function<bool(const std::string& call, int count)> fault;
   std::function<void(const std::string& call, int count)> meanwhile;  // another thread's doing
+  // Whether that capture delivers the frame before once more.
+  std::function<bool(int count)> repeats;
   std::string serial = kFakeSerial;
   FakeObject object = FakeObject::kColumn;
   bool forgets_position = false;  // a board that has been restarted when it is opened anew

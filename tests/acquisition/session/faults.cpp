@@ -121,6 +121,33 @@ TEST_F(ScanTest, a_camera_that_a_killed_process_still_holds_is_waited_for) {
   EXPECT_EQ(world_.calls["open camera"], 4);
 }
 
+TEST_F(ScanTest, a_frame_that_comes_twice_is_no_picture_with_the_laser_on_and_both_are_taken_anew) {
+  const std::string expected = undisturbed();
+  for (const int count : {2, 4, 10}) {  // of all captures
+    const std::string name = fmt::format("repeated-{}", count);
+    world_.calls.clear();
+    world_.degrees = 0;
+    world_.repeats = [&](int n) { return n == count || n == count + 2; };
+    auto scan = this->scan(name);
+    EXPECT_EQ(run(*scan), ScanState::kDone) << name;
+    EXPECT_EQ(mesh_text(*scan), expected) << name;
+    EXPECT_EQ(world_.calls["open camera"], 1);
+  }
+}
+
+TEST_F(ScanTest, a_camera_that_repeats_one_frame_is_an_error_that_says_so) {
+  auto scan = this->scan();
+  world_.repeats = [](int count) { return count % 2 == 0 && count > 10; };
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  EXPECT_THAT(
+      scan->status().error->message,
+      HasSubstr("camera fake-1 delivers the same picture with the laser off and on; check"));
+  EXPECT_EQ(world_.calls["capture"], 10 + 4 * 3 * 2) << "three pairs, then opened anew three times";
+  world_.repeats = {};
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), undisturbed());
+}
+
 TEST_F(ScanTest, while_it_waits_for_a_device_it_says_so_and_can_be_paused) {
   auto made =
       Scan::create(scanner(), request(), path(),

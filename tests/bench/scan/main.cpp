@@ -25,7 +25,7 @@ struct CommandLine {
   bool json = false, help = false;
   Options options;
   std::set<std::string> only;  // empty: all
-  fs::path bare_camera;
+  fs::path bare_camera, emergency_stops;
   int steps = 0;
 
   bool wants(const char* section) const { return only.empty() || only.contains(section); }
@@ -45,6 +45,8 @@ bool parse(int argc, char** argv, CommandLine& line) {
       line.options.pictures = argv[++i];
     } else if (word == "--only" && left >= 1) {
       line.only.insert(argv[++i]);
+    } else if (word == "--emergency-stops" && left >= 1) {
+      line.emergency_stops = argv[++i];
     } else if (word == "--bare-camera" && left >= 2) {
       line.bare_camera = argv[++i];
       line.steps = std::atoi(argv[++i]);
@@ -78,6 +80,7 @@ int run(int argc, char** argv) {
     return line.help ? 0 : 2;
   }
   if (!line.bare_camera.empty()) return run_bare_camera(line.bare_camera, line.steps);
+  if (!line.emergency_stops.empty()) return run_emergency_stops(line.emergency_stops);
   return run_sections(line) ? 0 : 1;
 }
 

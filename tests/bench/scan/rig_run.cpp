@@ -29,13 +29,14 @@ void shell(const std::string& line) {
   if (::system(line.c_str()) != 0) throw std::runtime_error("this failed: " + line);
 }
 
-void at_rig(const RigFolder& folder, const Object& object, int steps, const std::string& script) {
+void at_rig(const RigFolder& folder, const Object& object, int steps, const std::string& script,
+            const std::string& options) {
   const std::string file = (folder / "at-rig.sh").string();
   std::ofstream(file) << "set -e\ncd \"$(dirname \"$0\")\"\n" << script;
   shell(program("vitrine-rig") + " --private-network --height-mm 80 --steps " +
         std::to_string(steps) + " --mesh \"" + object.file.string() + "\" --write-config \"" +
         (folder / "rig.json").string() + "\" --write-truth \"" + (folder / "truth.ply").string() +
-        "\" -- sh \"" + file + "\"");
+        "\" " + options + " -- sh \"" + file + "\"");
 }
 
 }  // namespace vitrine::bench

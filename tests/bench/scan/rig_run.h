@@ -31,7 +31,8 @@ std::string program(const char* name);
 void shell(const std::string& line);
 
 // Runs `script`, a file of sh, at a rig of 80 mm of `object`; it finds "rig.json" in `folder`, and
-// afterwards "truth.ply" is there.
-void at_rig(const RigFolder& folder, const Object& object, int steps, const std::string& script);
+// afterwards "truth.ply" is there. `options` are more words for vitrine-rig.
+void at_rig(const RigFolder& folder, const Object& object, int steps, const std::string& script,
+            const std::string& options = "");
 
 }  // namespace vitrine::bench

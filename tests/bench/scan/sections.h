@@ -46,8 +46,14 @@ void sampling(Report& report, const Options& options, const Object& object);
 void simplification(Report& report, const Options& options, const Object& skull,
                     const Object& head);
 
-// Frames, points and whole scans a second.
+// Frames, points and whole scans a second, and how soon an emergency stop is obeyed.
 void speed(Report& report, const Options& options, const Object& object);
+
+// How long a daemon takes to switch laser and motor off after the REST call, at worst.
+void emergency_stop(Report& report, const Object& object);
+
+// The calls of emergency_stop(), to the daemon of `folder`; prints the milliseconds of each.
+int run_emergency_stops(const std::filesystem::path& folder);
 
 // The bare camera of speed(): turns and takes as many pictures as a scan of `steps`, and does
 // nothing with them; prints the seconds.

@@ -94,6 +94,7 @@ void speed(Report& report, const Options& options, const Object& object) {
   extraction(report, object);
   surface(report, object);
   whole_scan(report, options, object);
+  emergency_stop(report, object);
 }
 
 }  // namespace vitrine::bench

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "codec/export/write_mesh.h"
 #include "support/http_client.h"
 #include "support/meshes.h"
+#include "support/rig_door.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
 
@@ -39,7 +41,8 @@ class DaemonAtRig : public testing::Test {
   // The camera's port is fixed, and tests run side by side.
   static void SetUpTestSuite() { ASSERT_TRUE(rig::enter_private_network()); }
 
-  DaemonAtRig() {
+  // `options` of the rig.
+  explicit DaemonAtRig(std::vector<std::string> options = {}) : options_(std::move(options)) {
     const auto mesh = write_mesh(torus(60, 30), MeshFormat::kPly, "mm").value();
     std::ofstream(path("object.ply"), std::ios::binary)
         .write(reinterpret_cast<const char*>(mesh.data()),
@@ -65,23 +68,24 @@ class DaemonAtRig : public testing::Test {
 
   // The daemon is started anew whenever it ends.
   std::vector<std::string> words() const {
-    return {VITRINE_BIN_DIR "/vitrine-rig",
-            "--mesh",
-            path("object.ply"),
-            "--height-mm",
-            "40",
-            "--steps",
-            std::to_string(kSteps),
-            "--write-config",
-            path("rig.json"),
-            "--",
-            "sh",
-            "-c",
-            "cd \"$0\" && while ! test -e end; do rm -f port; \"$1\" --listen 127.0.0.1:0 "
-            "--port-file port --data data --scanners rig.json --access-log '' & echo $! > pid.new; "
-            "mv pid.new pid; wait; done",
-            folder_.path().string(),
-            VITRINE_BIN_DIR "/vitrined"};
+    std::vector<std::string> all = {VITRINE_BIN_DIR "/vitrine-rig",
+                                    "--mesh",
+                                    path("object.ply"),
+                                    "--height-mm",
+                                    "40",
+                                    "--steps",
+                                    std::to_string(kSteps),
+                                    "--write-config",
+                                    path("rig.json")};
+    all.insert(all.end(), options_.begin(), options_.end());
+    all.insert(
+        all.end(),
+        {"--", "sh", "-c",
+         "cd \"$0\" && while ! test -e end; do rm -f port; \"$1\" --listen 127.0.0.1:0 "
+         "--port-file port --data data --scanners rig.json --access-log '' & echo $! > pid.new; "
+         "mv pid.new pid; wait; done",
+         folder_.path().string(), VITRINE_BIN_DIR "/vitrined"});
+    return all;
   }
 
   void signal_daemon(int number) const { ::kill(std::stoi(text(path("pid"))), number); }
@@ -112,10 +116,10 @@ class DaemonAtRig : public testing::Test {
     const json job = end_of("/jobs/" + json::parse(answer.body)["job"].get<std::string>());
     ASSERT_EQ(job["state"], "done") << job;
   }
-  std::string begin_scan() {
+  std::string begin_scan(int steps = kSteps) {
     const HttpAnswer answer = ask(
         "POST", "/scans",
-        {{"scanner", "rig"}, {"steps", kSteps}, {"publish", true}, {"metadata", {{"title", "t"}}}});
+        {{"scanner", "rig"}, {"steps", steps}, {"publish", true}, {"metadata", {{"title", "t"}}}});
     EXPECT_EQ(answer.status, 202) << answer.body;
     return "/scans/" + json::parse(answer.body)["id"].get<std::string>();
   }
@@ -133,6 +137,13 @@ class DaemonAtRig : public testing::Test {
     return ask("GET", "/models/" + scan["model"].get<std::string>() + "/export.ply").body;
   }
 
+  // By somebody who stands beside the rig, not by what the daemon believes.
+  RigLook look() const {
+    const json config = json::parse(text(path("rig.json")));
+    return look_at_rig(config["rig"]["socket"].get<std::string>());
+  }
+
+  const std::vector<std::string> options_;
   TemporaryFolder folder_;
   std::string token_;
   ProgramResult result_;
@@ -178,6 +189,42 @@ TEST_F(DaemonAtRig, stopped_in_the_middle_it_goes_on_at_the_next_start) {
   wait_until([&] { return text(path("pid")) != before; });
   wait_for_port();
   EXPECT_GE(get(scan)["step"], kSteps / 3);
+  EXPECT_EQ(end_of(scan)["state"], "done");
+}
+
+// Each of eight motions takes a second.
+class DaemonAtSlowRig : public DaemonAtRig {
+ protected:
+  static constexpr int kFewSteps = 8;
+  static constexpr double kOneStep = 360.0 / kFewSteps;  // degrees
+
+  DaemonAtSlowRig() : DaemonAtRig({"--degrees-per-second", fmt::format("{}", kOneStep)}) {}
+
+  void wait_until_it_turns() const {
+    const double before = look().degrees;
+    wait_until([&] { return look().degrees != before; });
+  }
+  bool is_off() const {
+    const RigLook now = look();
+    return !now.laser && !now.motor;
+  }
+};
+
+TEST_F(DaemonAtSlowRig, an_emergency_stop_while_the_table_turns_switches_laser_and_motor_off) {
+  calibrate();
+  const std::string scan = begin_scan(kFewSteps);
+  wait_until([&] { return get(scan)["step"] >= 1; });
+  wait_until_it_turns();
+  EXPECT_TRUE(look().motor);
+  EXPECT_EQ(ask("POST", "/scanners/rig/stop").status, 200);
+  wait_until([&] { return is_off(); });
+  const double halted_at = look().degrees;
+  EXPECT_GT(std::abs(std::remainder(halted_at, kOneStep)), 0.1) << "it turned on";
+  wait_until([&] { return get(scan)["state"] == "paused"; });
+  EXPECT_TRUE(is_off());
+  EXPECT_EQ(look().degrees, halted_at);
+
+  EXPECT_EQ(ask("POST", scan + "/resume").status, 202);
   EXPECT_EQ(end_of(scan)["state"], "done");
 }
 

@@ -28,6 +28,8 @@ TEST_F(ScannerCommands, wrong_usage_is_exit_code_2) {
       {"calibrate"},
       {"calibrate", "--config", rig, "--degree", "6"},
       {"calibrate", "--config", rig, "extra"},
+      {"calibrate", "--config", rig, "--correspondences", rig},
+      {"calibrate", "--config", rig, "--axis", rig},
       {"scan", "-o", out},
       {"scan", "--config", rig},
       {"scan", "--config", rig, "-o", path("out.xyz")},
@@ -55,6 +57,24 @@ TEST_F(ScannerCommands, a_fault_of_the_configuration_names_file_and_key) {
   EXPECT_THAT(result.errors, HasSubstr("rig.json: camera: \"adress\" is not known here"));
   expect_fault(vitrine({"calibrate", "--config", rig}), 1);
   expect_fault(vitrine({"calibrate", "--config", path("absent.json")}), 1);
+}
+
+TEST_F(ScannerCommands, a_fault_of_measured_points_names_file_and_line) {
+  const std::string rig = config();
+  const auto fault_with = [&](const std::string& csv, const std::string& axis) {
+    const ProgramResult result =
+        vitrine({"calibrate", "--config", rig, "--correspondences", write("points.csv", csv),
+                 "--axis", write("axis.json", axis)});
+    expect_fault(result, 1);
+    return result.errors;
+  };
+  const std::string csv = "u,v,x,y,pose\n1,2,3,4,0\n";
+  const std::string axis = R"({"a": 0, "b": 0, "offset": 0, "tilt": 0, "clockwise": false})";
+  EXPECT_THAT(fault_with(csv + "1,2,3\n", axis), HasSubstr("points.csv, line 3: expected four"));
+  EXPECT_THAT(fault_with("", axis), HasSubstr("points.csv"));
+  EXPECT_THAT(fault_with(csv, R"({"a": 0})"), HasSubstr("axis.json: \"b\" is missing"));
+  EXPECT_THAT(fault_with(csv, axis), HasSubstr("camera"));  // which is not there
+  EXPECT_THAT(files(), ElementsAre("axis.json", "points.csv", "rig.json"));
 }
 
 TEST_F(ScannerCommands, a_scanner_that_is_not_there_leaves_nothing_behind) {

@@ -151,6 +151,7 @@ TEST_F(ScanRoutes, CalibrationsAreListedShownAndMadeByAJob) {
   EXPECT_EQ(all[0]["number"], 2);
   EXPECT_EQ(all[0]["region"]["width"], 64);
   EXPECT_EQ(all[0]["rms"], 0.02);
+  EXPECT_EQ(all[0]["coverage"], 0.8);
   EXPECT_EQ(json::parse(get("/scanners/rig/calibrations/2").body)["number"], 2);
   EXPECT_EQ(get("/scanners/rig/calibrations/3").status, 404);
   EXPECT_EQ(get("/scanners/rig/calibrations/2/residuals.svg").field("content-type"),
