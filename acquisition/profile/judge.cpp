@@ -16,8 +16,10 @@ constexpr double kLeastHeight = 1;  // mm
 }  // namespace
 
 StripeCount count(std::span<const StripePoint> stripe) {
-  StripeCount sum{.frames = 1, .rows = stripe.size()};
+  StripeCount sum{.frames = 1};
   for (const StripePoint& point : stripe) {
+    if (point.flags & kSecond) continue;
+    ++sum.rows;
     if (point.flags & kSaturated) ++sum.saturated;
     if (point.flags & kDouble) ++sum.doubled;
   }

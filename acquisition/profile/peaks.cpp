@@ -85,10 +85,9 @@ Peak top_of(const std::uint8_t* row, int from, int to) {
   return {(begin + end) / 2, value};
 }
 
-// What falls off from the first peak without a valley is its flank, not another peak.
-bool stands_alone(const std::uint8_t* row, const Peak& first, const Peak& second) {
-  const auto [from, to] = std::minmax(first.u, second.u);
-  return 4 * *std::min_element(row + from, row + to) < 3 * second.strength;
+int least_between(const std::uint8_t* row, const Peak& a, const Peak& b) {
+  const auto [from, to] = std::minmax(a.u, b.u);
+  return *std::min_element(row + from, row + to);
 }
 
 RowPeaks peaks_of(const std::uint8_t* row, int width, int apart, const Background& ground) {
@@ -104,7 +103,12 @@ RowPeaks peaks_of(const std::uint8_t* row, int width, int apart, const Backgroun
   const Peak left = top_of(row, 0, first.u - apart),
              right = top_of(row, first.u + apart + 1, width);
   const Peak& second = left.strength > right.strength ? left : right;
-  if (shows(second) && stands_alone(row, first, second)) add(second);
+  if (!shows(second)) return found;
+  // What falls off from the first peak without a valley is its flank, not another peak.
+  const int valley = least_between(row, first, second);
+  if (4 * valley >= 3 * second.strength) return found;
+  add(second);
+  found.valley = valley - ground.level;
   return found;
 }
 

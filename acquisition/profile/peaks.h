@@ -18,6 +18,7 @@ struct Peak {
 struct RowPeaks {
   int count = 0;  // 0 to 2, the stronger first
   std::array<Peak, 2> peaks;
+  int valley = 0;  // of two: the least strength between them
 };
 
 // One entry a row. The background and the noise are measured in the difference itself, so that no

@@ -15,11 +15,12 @@ enum PointFlag : std::uint8_t {
   kDouble = 2,     // another peak in the row is about as strong
   kFilled = 4,     // no measurement: between two ends of a gap
   kApart = 8,      // the surface does not continue from the point before it in the profile
+  kSecond = 16,    // another surface that the row shows besides that of the point before it
 };
 
 struct ProfilePoint {
   TablePoint at;
-  int row = 0;  // of the image, ascending within a profile
+  int row = 0;  // of the image, ascending within a profile; up to two points have the same
   std::uint8_t flags = 0;
 };
 

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "acquisition/profile/peaks.h"
+#include "acquisition/profile/second_peaks.h"
 #include "acquisition/profile/steady_rows.h"
 #include "acquisition/profile/stripe_path.h"
 #include "acquisition/profile/sub_pixel.h"
@@ -32,6 +34,35 @@ std::uint8_t flags_of(const RowPeaks& row, int chosen, std::span<const std::uint
   return flags;
 }
 
+class Finder {
+ public:
+  Finder(const Frame& lit, const Frame& dark, const StripeOptions& options)
+      : lit_(lit), dark_(dark), sub_pixel_(options), steady_rows_(options.steady_rows) {}
+
+  // Of one peak in each row that is not negative in `taken`, with these flags besides its own.
+  std::vector<StripePoint> line(std::span<const RowPeaks> rows, std::span<const int> taken,
+                                std::uint8_t flags) const {
+    std::vector<StripePoint> points;
+    points.reserve(rows.size());
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+      if (taken[v] < 0) continue;
+      const int row = static_cast<int>(v);
+      const Peak& peak = rows[v].peaks[static_cast<std::size_t>(taken[v])];
+      if (const auto u = sub_pixel_.centre(lit_.row(row), dark_.row(row), peak.u))
+        points.push_back(
+            {row, *u, static_cast<double>(peak.strength),
+             static_cast<std::uint8_t>(flags | flags_of(rows[v], taken[v], lit_.row(row)))});
+    }
+    steady(points, steady_rows_);
+    return points;
+  }
+
+ private:
+  const Frame &lit_, &dark_;
+  const SubPixel sub_pixel_;
+  const int steady_rows_;
+};
+
 }  // namespace
 
 Expected<std::vector<StripePoint>> find_stripe(const Frame& lit, const Frame& dark,
@@ -42,19 +73,14 @@ Expected<std::vector<StripePoint>> find_stripe(const Frame& lit, const Frame& da
                             "one region of interest for both",
                             lit.width, lit.height, dark.width, dark.height));
   const std::vector<RowPeaks> rows = find_peaks(lit, dark, options);
-  const std::vector<int> chosen = choose_peaks(rows);
-  const SubPixel sub_pixel(options);
+  const std::vector<int> chosen = choose_peaks(rows), second = second_peaks(rows, chosen);
+  const Finder finder(lit, dark, options);
+  const std::vector<StripePoint> first = finder.line(rows, chosen, 0),
+                                 behind = finder.line(rows, second, kSecond);
   std::vector<StripePoint> stripe;
-  stripe.reserve(rows.size());
-  for (std::size_t v = 0; v < rows.size(); ++v) {
-    if (rows[v].count == 0) continue;
-    const int row = static_cast<int>(v);
-    const Peak& peak = rows[v].peaks[static_cast<std::size_t>(chosen[v])];
-    if (const auto u = sub_pixel.centre(lit.row(row), dark.row(row), peak.u))
-      stripe.push_back({row, *u, static_cast<double>(peak.strength),
-                        flags_of(rows[v], chosen[v], lit.row(row))});
-  }
-  steady(stripe, options.steady_rows);
+  stripe.reserve(first.size() + behind.size());
+  std::ranges::merge(first, behind, std::back_inserter(stripe), {}, &StripePoint::row,
+                     &StripePoint::row);
   return stripe;
 }
 

@@ -29,15 +29,17 @@ struct StripeOptions {
 };
 
 struct StripePoint {
-  int row = 0;             // pixels; ascending
+  int row = 0;             // pixels; ascending, up to two points have the same
   double u = 0;            // pixels
   double strength = 0;     // grey levels above the background, smoothed
   std::uint8_t flags = 0;  // PointFlag
 };
 
 // The stripe in `lit` (laser on) that is not in `dark` (laser off). Rows without one are left out.
-// Of two peaks in a row the one that continues the rows around is taken, and flagged kDouble. Fails
-// (kBadInput) where the frames differ in size.
+// Of two peaks in a row the one that continues the rows around comes first, flagged kDouble if the
+// other is about as strong. The other follows, flagged kSecond, if it is part of a line over
+// several rows: two surfaces, one behind the other. Fails (kBadInput) where the frames differ in
+// size.
 Expected<std::vector<StripePoint>> find_stripe(const Frame& lit, const Frame& dark,
                                                const StripeOptions& options = {});
 

@@ -31,7 +31,7 @@ struct Link {
 }  // namespace
 
 std::vector<int> choose_peaks(std::span<const RowPeaks> rows) {
-  std::vector<int> chosen(rows.size(), 0);
+  std::vector<int> chosen(rows.size(), -1);
   std::vector<Link> links(rows.size());
   std::ptrdiff_t last = -1;
   for (std::size_t v = 0; v < rows.size(); ++v) {

@@ -9,7 +9,7 @@
 
 namespace vitrine {
 
-// One index a row into its peaks, 0 where there are none. A reflection that is stronger than the
+// One index a row into its peaks, -1 where there are none. A reflection that is stronger than the
 // stripe for some rows does not move the chain to it: a jump costs what the difference in strength
 // of several rows gains.
 std::vector<int> choose_peaks(std::span<const RowPeaks> rows);

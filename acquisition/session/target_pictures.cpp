@@ -68,8 +68,10 @@ class Photographer {
     const auto stripe = find_stripe(frames->lit, frames->dark);
     if (!stripe) return tl::unexpected(stripe.error());
     TargetPicture picture{placement, angle, std::move(*view), {}};
-    for (const StripePoint& point : *stripe)
-      picture.stripe.push_back({point.u, static_cast<double>(point.row)});
+    for (const StripePoint& point : *stripe) {
+      if (!(point.flags & kSecond))
+        picture.stripe.push_back({point.u, static_cast<double>(point.row)});
+    }
     pictures_.push_back(std::move(picture));
     return true;
   }

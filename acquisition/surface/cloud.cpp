@@ -22,47 +22,57 @@ T percentile(std::vector<T>& values, double part) {
   return *at;
 }
 
-double median_step(const std::vector<Profile>& profiles) {
+double median_step(const Cloud& cloud) {
   std::vector<double> steps;
-  for (std::size_t k = 1; k < profiles.size(); ++k)
-    steps.push_back(profiles[k].theta - profiles[k - 1].theta);
+  for (std::size_t s = 1; s < cloud.step_count(); ++s)
+    steps.push_back(cloud.strands[cloud.steps[s]].theta - cloud.strands[cloud.steps[s - 1]].theta);
   return percentile(steps, .5) * std::numbers::pi / 180;
 }
 
 }  // namespace
 
-Cloud::Cloud(std::vector<Profile> given) : profiles(std::move(given)) {
-  std::ranges::stable_sort(profiles, {}, &Profile::theta);
+Cloud::Cloud(std::vector<Profile> given) : strands(std::move(given)) {
+  std::ranges::stable_sort(strands, {}, &Profile::theta);
+  steps = steps_of(strands);
   first.push_back(0);
-  for (const Profile& profile : profiles) {
-    for (const ProfilePoint& point : profile.points)
-      positions.push_back(position(profile, point));
+  for (const Profile& strand : strands) {
+    for (const ProfilePoint& point : strand.points)
+      positions.push_back(position(strand, point));
     first.push_back(positions.size());
   }
 }
 
+std::vector<std::size_t> steps_of(std::span<const Profile> strands) {
+  std::vector<std::size_t> steps;
+  for (std::size_t k = 0; k < strands.size(); ++k) {
+    if (k == 0 || strands[k].theta != strands[k - 1].theta) steps.push_back(k);
+  }
+  steps.push_back(strands.size());
+  return steps;
+}
+
 std::vector<Profile> keep(const Cloud& cloud, const std::vector<bool>& kept) {
-  std::vector<Profile> profiles;
-  for (std::size_t k = 0; k < cloud.profiles.size(); ++k) {
-    const Profile& from = cloud.profiles[k];
+  std::vector<Profile> strands;
+  for (std::size_t k = 0; k < cloud.strands.size(); ++k) {
+    const Profile& from = cloud.strands[k];
     Profile to{from.theta, {}};
     for (std::size_t i = 0; i < from.points.size(); ++i) {
       if (kept[cloud.first[k] + i]) to.points.push_back(from.points[i]);
     }
-    profiles.push_back(std::move(to));
+    strands.push_back(std::move(to));
   }
-  return profiles;
+  return strands;
 }
 
 Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options) {
   std::vector<double> along, radii;
   std::vector<int> rows;
-  for (const Profile& profile : cloud.profiles) {
-    for (std::size_t i = 0; i < profile.points.size(); ++i) {
-      const ProfilePoint& p = profile.points[i];
+  for (const Profile& strand : cloud.strands) {
+    for (std::size_t i = 0; i < strand.points.size(); ++i) {
+      const ProfilePoint& p = strand.points[i];
       radii.push_back(std::hypot(p.at.rho, p.at.lateral));
       if (i == 0) continue;
-      const ProfilePoint& q = profile.points[i - 1];
+      const ProfilePoint& q = strand.points[i - 1];
       rows.push_back(p.row - q.row);
       along.push_back(std::hypot(p.at.rho - q.at.rho, p.at.z - q.at.z));
     }
@@ -70,10 +80,10 @@ Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options) {
   Spacing spacing;
   spacing.rows = std::max(1, percentile(rows, .5));
   spacing.gap = spacing.rows == 1 ? 1 : kSampledGap * spacing.rows;
-  spacing.largest = options.largest_spacing > 0
-                        ? options.largest_spacing
-                        : std::max(percentile(along, .5),
-                                   median_step(cloud.profiles) * percentile(radii, kOutermost));
+  spacing.largest =
+      options.largest_spacing > 0
+          ? options.largest_spacing
+          : std::max(percentile(along, .5), median_step(cloud) * percentile(radii, kOutermost));
   spacing.bridge = std::max(kDepths * spacing.largest, options.largest_hole);
   spacing.cos_largest = std::cos(options.largest_angle * std::numbers::pi / 180);
   return spacing;

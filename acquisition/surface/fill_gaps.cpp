@@ -64,16 +64,16 @@ std::uint64_t fill(const ProfilePoint& a, const ProfilePoint& b, int step,
 
 }  // namespace
 
-std::uint64_t fill_gaps(Profile& profile, double largest_hole, const Spacing& spacing) {
-  const Course course(profile.points, spacing);
+std::uint64_t fill_gaps(Profile& strand, double largest_hole, const Spacing& spacing) {
+  const Course course(strand.points, spacing);
   std::vector<ProfilePoint> points;
-  points.reserve(profile.points.size());
+  points.reserve(strand.points.size());
   std::uint64_t filled = 0;
-  for (std::size_t i = 0; i < profile.points.size(); ++i) {
-    ProfilePoint point = profile.points[i];
+  for (std::size_t i = 0; i < strand.points.size(); ++i) {
+    ProfilePoint point = strand.points[i];
     point.flags &= static_cast<std::uint8_t>(~kApart);
     if (i > 0) {
-      const ProfilePoint& last = profile.points[i - 1];
+      const ProfilePoint& last = strand.points[i - 1];
       const bool gap = point.row - last.row > spacing.gap;
       if (!course.goes_on(i) || (gap && distance(last.at, point.at) > largest_hole))
         point.flags |= kApart;
@@ -82,7 +82,7 @@ std::uint64_t fill_gaps(Profile& profile, double largest_hole, const Spacing& sp
     }
     points.push_back(point);
   }
-  profile.points = std::move(points);
+  strand.points = std::move(points);
   return filled;
 }
 

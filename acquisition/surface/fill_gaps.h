@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gaps along a profile: the small ones are filled, at the others its surface ends.
+// Gaps along a strand: the small ones are filled, at the others its surface ends.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,6 @@ namespace vitrine {
 // `largest_hole` mm get points in between, linear in rho (and in lateral and z), flagged kFilled. A
 // point that is not joined to the one before it, or has a larger gap before it, is flagged kApart.
 // Returns how many points were filled in.
-std::uint64_t fill_gaps(Profile& profile, double largest_hole, const Spacing& spacing);
+std::uint64_t fill_gaps(Profile& strand, double largest_hole, const Spacing& spacing);
 
 }  // namespace vitrine

@@ -63,8 +63,8 @@ class Near {
 std::vector<bool> first_views(const Cloud& cloud, double reach) {
   std::vector<std::size_t> before, beyond;
   std::size_t i = 0;
-  for (const Profile& profile : cloud.profiles) {
-    for (const ProfilePoint& point : profile.points)
+  for (const Profile& strand : cloud.strands) {
+    for (const ProfilePoint& point : strand.points)
       (point.at.rho < 0 ? beyond : before).push_back(i++);
   }
   std::vector<bool> kept(cloud.size(), true);

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace vitrine {
 namespace {
 
-// In points on either side: profiles, rows.
+// In points on either side: steps, rows.
 struct Reach {
-  int profiles, rows;
+  int steps, rows;
 };
 constexpr std::array<Reach, 4> kWindows = {{{4, 6}, {3, 4}, {2, 2}, {1, 1}}};
 constexpr int kTerms = 6;  // 1, x, y, x², xy, y²
@@ -24,7 +25,7 @@ constexpr double kOwn = 3;        // times `noise`: how far a point may move
 class Basis {
  public:
   explicit Basis(Reach reach) : reach_(reach) {
-    for (int x = -reach.profiles; x <= reach.profiles; ++x) {
+    for (int x = -reach.steps; x <= reach.steps; ++x) {
       for (int y = -reach.rows; y <= reach.rows; ++y) {
         const double p = x, q = y;
         terms_.push_back({1, p, q, p * p, p * q, q * q});
@@ -74,40 +75,35 @@ class Basis {
   std::vector<std::array<double, kTerms>> terms_;  // at each place of the window
 };
 
-// rho over profile and row, NaN where there is no point.
+// rho over step and row in a layer for each strand of a step, NaN where there is no point.
 class Grid {
  public:
-  Grid(const std::vector<Profile>& profiles, int step) : step_(step) {
+  Grid(const std::vector<Profile>& strands, const std::vector<std::size_t>& steps, int step)
+      : step_(step), count_(static_cast<int>(steps.size()) - 1) {
     low_ = std::numeric_limits<int>::max();
     int high = std::numeric_limits<int>::min();
-    for (const Profile& profile : profiles) {
-      if (profile.points.empty()) continue;
-      low_ = std::min(low_, profile.points.front().row);
-      high = std::max(high, profile.points.back().row);
+    for (const Profile& strand : strands) {
+      if (strand.points.empty()) continue;
+      low_ = std::min(low_, strand.points.front().row);
+      high = std::max(high, strand.points.back().row);
     }
     rows_ = high < low_ ? 0 : (high - low_) / step_ + 1;
-    profiles_ = static_cast<int>(profiles.size());
-    rho_.assign(static_cast<std::size_t>(rows_) * profiles.size(),
-                std::numeric_limits<double>::quiet_NaN());
-    for (int k = 0; k < profiles_; ++k) {
-      for (const ProfilePoint& point : profiles[static_cast<std::size_t>(k)].points)
-        rho_[index(k, row(point))] = point.at.rho;
-    }
+    for (int s = 0; s < count_; ++s)
+      put(s, std::span(strands).subspan(steps[s], steps[s + 1] - steps[s]));
   }
 
   int row(const ProfilePoint& point) const { return (point.row - low_) / step_; }
 
   // Less the middle's. False where the window is not complete.
-  bool window(int profile, int row, Reach reach, std::vector<double>& values) const {
-    if (row < reach.rows || row + reach.rows >= rows_ || 2 * reach.profiles >= profiles_)
-      return false;
-    const double middle = rho_[index(profile, row)];
+  bool window(std::size_t layer, int step, int row, Reach reach,
+              std::vector<double>& values) const {
+    if (row < reach.rows || row + reach.rows >= rows_ || 2 * reach.steps >= count_) return false;
+    const double middle = layers_[layer][index(step, row)];
     values.clear();
-    for (int x = -reach.profiles; x <= reach.profiles; ++x) {
-      const int k = (profile + x + profiles_) % profiles_;
-      const double* from = &rho_[index(k, row - reach.rows)];
-      for (int y = 0; y <= 2 * reach.rows; ++y) {
-        const double value = from[y] - middle;
+    for (int x = -reach.steps; x <= reach.steps; ++x) {
+      const std::size_t from = index((step + x + count_) % count_, row - reach.rows);
+      for (std::size_t at = from; at <= from + 2 * static_cast<std::size_t>(reach.rows); ++at) {
+        const double value = nearest(at, middle);
         if (std::isnan(value)) return false;
         values.push_back(value);
       }
@@ -116,33 +112,58 @@ class Grid {
   }
 
  private:
-  std::size_t index(int profile, int row) const {
-    return static_cast<std::size_t>(profile) * static_cast<std::size_t>(rows_) +
+  void put(int step, std::span<const Profile> strands) {
+    for (std::size_t layer = 0; layer < strands.size(); ++layer) {
+      if (layer == layers_.size())
+        layers_.emplace_back(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(count_),
+                             std::numeric_limits<double>::quiet_NaN());
+      for (const ProfilePoint& point : strands[layer].points)
+        layers_[layer][index(step, row(point))] = point.at.rho;
+    }
+  }
+
+  double nearest(std::size_t at, double middle) const {
+    double best = layers_[0][at] - middle;
+    for (std::size_t layer = 1; layer < layers_.size(); ++layer) {
+      const double value = layers_[layer][at] - middle;
+      if (std::isnan(best) || std::abs(value) < std::abs(best)) best = value;
+    }
+    return best;
+  }
+
+  std::size_t index(int step, int row) const {
+    return static_cast<std::size_t>(step) * static_cast<std::size_t>(rows_) +
            static_cast<std::size_t>(row);
   }
 
-  int step_, low_ = 0, rows_ = 0, profiles_ = 0;
-  std::vector<double> rho_;
+  int step_, low_ = 0, rows_ = 0, count_;
+  std::vector<std::vector<double>> layers_;
 };
 
 }  // namespace
 
-std::uint64_t smooth(std::vector<Profile>& profiles, double noise, const Spacing& spacing) {
+std::uint64_t smooth(std::vector<Profile>& strands, double noise, const Spacing& spacing) {
   if (!(noise > 0)) return 0;
-  const Grid grid(profiles, spacing.rows);
-  std::vector<Basis> bases(kWindows.begin(), kWindows.end());
+  const std::vector<std::size_t> steps = steps_of(strands);
+  const Grid grid(strands, steps, spacing.rows);
+  const std::vector<Basis> bases(kWindows.begin(), kWindows.end());
   std::vector<double> values;
   std::uint64_t moved = 0;
-  for (std::size_t k = 0; k < profiles.size(); ++k) {
-    for (ProfilePoint& point : profiles[k].points) {
+  const auto smooth_strand = [&](std::size_t step, std::size_t layer) {
+    for (ProfilePoint& point : strands[steps[step] + layer].points) {
       for (const Basis& basis : bases) {
-        if (!grid.window(static_cast<int>(k), grid.row(point), basis.reach(), values)) continue;
+        if (!grid.window(layer, static_cast<int>(step), grid.row(point), basis.reach(), values))
+          continue;
         const auto shift = basis.middle(values, kAllowed * noise);
         if (!shift || std::abs(*shift) > kOwn * noise) continue;
         point.at.rho += *shift, ++moved;
         break;
       }
     }
+  };
+  for (std::size_t step = 0; step + 1 < steps.size(); ++step) {
+    for (std::size_t layer = 0; steps[step] + layer < steps[step + 1]; ++layer)
+      smooth_strand(step, layer);
   }
   return moved;
 }

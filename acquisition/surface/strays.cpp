@@ -7,9 +7,9 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kProfiles = 2;  // further on, so that one picture may be missing
-constexpr std::size_t kReach = 2;     // further on within a profile; on either side in the others
-constexpr int kNeighbours = 3;        // neighbours
+constexpr std::size_t kSteps = 2;  // further on, so that one picture may be missing
+constexpr std::size_t kReach = 2;  // further on within a strand; on either side in the others
+constexpr int kNeighbours = 3;
 
 class Pieces {
  public:
@@ -34,47 +34,74 @@ class Pieces {
   std::vector<std::uint32_t> parent_, size_;
 };
 
-// visit(a, b) for each pair of neighbours, once.
-template <class Visit>
-void for_neighbours(const Cloud& cloud, double reach, Visit visit) {
-  const auto look = [&](std::size_t a, std::size_t b) {
-    const Vec3 d = cloud.positions[a] - cloud.positions[b];
-    if (dot(d, d) <= reach * reach) visit(a, b);
-  };
-  const std::size_t steps = std::min(kProfiles, (cloud.profiles.size() - 1) / 2);
-  for (std::size_t k = 0; k < cloud.profiles.size(); ++k) {
-    const auto& points = cloud.profiles[k].points;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      for (std::size_t j = i + 1; j < std::min(i + 1 + kReach, points.size()); ++j)
-        look(cloud.first[k] + i, cloud.first[k] + j);
+// Pairs of neighbours, each once.
+class Neighbours {
+ public:
+  Neighbours(const Cloud& cloud, double reach) : cloud_(cloud), reach_(reach) {}
+
+  template <class Visit>
+  void visit(Visit visit) const {
+    const std::size_t steps = std::min(kSteps, (cloud_.step_count() - 1) / 2);
+    for (std::size_t s = 0; s < cloud_.step_count(); ++s) {
+      for (std::size_t k = cloud_.steps[s]; k < cloud_.steps[s + 1]; ++k) {
+        within(k, visit);
+        for (std::size_t step = 1; step <= steps; ++step) {
+          const std::size_t other = cloud_.after(s, step);
+          between(k, cloud_.steps[other], cloud_.steps[other + 1], visit);
+        }
+      }
     }
-    for (std::size_t step = 1; step <= steps; ++step) {
-      const std::size_t other = cloud.after(k, step);
-      const auto& others = cloud.profiles[other].points;
+  }
+
+ private:
+  template <class Visit>
+  void within(std::size_t strand, Visit visit) const {
+    const std::size_t first = cloud_.first[strand], end = cloud_.first[strand + 1];
+    for (std::size_t i = first; i < end; ++i) {
+      for (std::size_t j = i + 1; j < std::min(i + 1 + kReach, end); ++j)
+        look(i, j, visit);
+    }
+  }
+
+  // Of one strand and those in [from, to).
+  template <class Visit>
+  void between(std::size_t strand, std::size_t from, std::size_t to, Visit visit) const {
+    const auto& points = cloud_.strands[strand].points;
+    for (std::size_t other = from; other < to; ++other) {
+      const auto& others = cloud_.strands[other].points;
       std::size_t near = 0;
       for (std::size_t i = 0; i < points.size(); ++i) {
         while (near < others.size() && others[near].row < points[i].row)
           ++near;
-        const std::size_t to = std::min(near + kReach, others.size());
-        for (std::size_t j = near - std::min(near, kReach); j < to; ++j)
-          look(cloud.first[k] + i, cloud.first[other] + j);
+        const std::size_t end = std::min(near + kReach, others.size());
+        for (std::size_t j = near - std::min(near, kReach); j < end; ++j)
+          look(cloud_.first[strand] + i, cloud_.first[other] + j, visit);
       }
     }
   }
-}
+
+  template <class Visit>
+  void look(std::size_t a, std::size_t b, Visit visit) const {
+    const Vec3 d = cloud_.positions[a] - cloud_.positions[b];
+    if (dot(d, d) <= reach_ * reach_) visit(a, b);
+  }
+
+  const Cloud& cloud_;
+  double reach_;
+};
 
 }  // namespace
 
 Strays find_strays(const Cloud& cloud, double reach, std::size_t smallest) {
   Strays strays{std::vector<bool>(cloud.size(), true)};
   std::vector<std::uint8_t> neighbours(cloud.size(), 0);
-  for_neighbours(cloud, reach,
-                 [&](std::size_t a, std::size_t b) { ++neighbours[a], ++neighbours[b]; });
+  const Neighbours pairs(cloud, reach);
+  pairs.visit([&](std::size_t a, std::size_t b) { ++neighbours[a], ++neighbours[b]; });
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (neighbours[i] < kNeighbours) strays.kept[i] = false, ++strays.outliers;
   }
   Pieces pieces(cloud.size());
-  for_neighbours(cloud, reach, [&](std::size_t a, std::size_t b) {
+  pairs.visit([&](std::size_t a, std::size_t b) {
     if (strays.kept[a] && strays.kept[b]) pieces.join(a, b);
   });
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -14,10 +14,11 @@ struct Strays {
   std::uint64_t outliers = 0, isolated = 0;
 };
 
-// Neighbours of a point are those of the rows next to its own, in its profile and the two on either
-// side, that are closer than `reach` (mm). Outliers have fewer than three of them; what is left and
-// hangs together in pieces of fewer than `smallest` points is isolated. Pieces are formed over rows
-// and profiles alike, so that a thin edge which shows on a few rows of many profiles is one. O(n).
+// Neighbours of a point are those of the rows next to its own, in its strand and all of the two
+// steps on either side, that are closer than `reach` (mm). Outliers have fewer than three of them;
+// what is left and hangs together in pieces of fewer than `smallest` points is isolated. Pieces are
+// formed over rows and steps alike, so that a thin edge which shows on a few rows of many profiles
+// is one. O(n).
 Strays find_strays(const Cloud& cloud, double reach, std::size_t smallest);
 
 }  // namespace vitrine

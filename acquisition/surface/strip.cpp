@@ -5,13 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "acquisition/surface/nearest_strand.h"
+
 namespace vitrine {
 namespace {
 
 struct Side {
+  std::size_t strand;
   const std::vector<ProfilePoint>& points;
   std::size_t first;  // of the cloud
-  int rows;           // from point to point at least
+  std::vector<std::size_t>
+      nearest;  // the strand of the other step that each point may be joined to
+  int rows;     // from point to point at least
 
   std::size_t size() const { return points.size(); }
   bool goes_on(std::size_t i) const { return i + 1 < size() && !(points[i + 1].flags & kApart); }
@@ -22,7 +27,7 @@ struct Side {
     if (i > 0 && goes_on(i - 1)) reach = std::max(reach, points[i].row - points[i - 1].row);
     return reach;
   }
-  // The rho that the profile has at `row` if it goes there from point i, otherwise that of point i.
+  // The rho that the strand has at `row` if it goes there from point i, otherwise that of point i.
   double depth_at(std::size_t i, int row) const {
     const ProfilePoint& at = points[i];
     std::size_t next = i;
@@ -36,12 +41,8 @@ struct Side {
 
 class Strip {
  public:
-  Strip(const Cloud& cloud, std::size_t profile, const Spacing& spacing)
-      : cloud_(cloud),
-        spacing_(spacing),
-        a_{cloud.profiles[profile].points, cloud.first[profile], spacing.rows},
-        b_{cloud.profiles[cloud.after(profile)].points, cloud.first[cloud.after(profile)],
-           spacing.rows} {}
+  Strip(const Cloud& cloud, const Side& a, const Side& b, const Spacing& spacing)
+      : cloud_(cloud), spacing_(spacing), a_(a), b_(b) {}
 
   void walk(std::vector<Triangle>& faces) {
     std::size_t i = 0, j = 0;
@@ -75,6 +76,7 @@ class Strip {
 
   bool is_accepted(std::size_t i, std::size_t j) const {
     const ProfilePoint &p = a_.points[i], &q = b_.points[j];
+    if (a_.nearest[i] != b_.strand || b_.nearest[j] != a_.strand) return false;
     if ((p.at.rho < 0) != (q.at.rho < 0)) return false;
     if (std::abs(p.row - q.row) > std::max(a_.reach(i), b_.reach(j))) return false;
     const double distance = length_across(i, j), in_depth = p.at.rho - q.at.rho,
@@ -82,7 +84,7 @@ class Strip {
     if (distance * distance - in_depth * in_depth - height * height >
         spacing_.bridge * spacing_.bridge)
       return false;
-    // Depths are compared at the same row: between the rows of a sampled profile a surface that is
+    // Depths are compared at the same row: between the rows of a sampled strand a surface that is
     // nearly flat goes far in depth without a step.
     const double depth = std::min(std::abs(a_.depth_at(i, q.row) - q.at.rho),
                                   std::abs(b_.depth_at(j, p.row) - p.at.rho));
@@ -93,7 +95,7 @@ class Strip {
     return is_accepted(i, j) ? length_across(i, j) : kNever;
   }
 
-  // Rows go down and the object has been turned back further in the next profile, so that this
+  // Rows go down and the object has been turned back further in the next step, so that this
   // order is counter-clockwise from the laser's side; beyond the axis the turn goes the other way.
   void add(std::size_t i, std::size_t j, std::uint32_t third, std::vector<Triangle>& faces) const {
     if (a_.points[i].at.rho < 0)
@@ -104,14 +106,29 @@ class Strip {
 
   const Cloud& cloud_;
   const Spacing& spacing_;
-  Side a_, b_;
+  const Side &a_, &b_;
 };
+
+// The strands of a step, to be joined to those of `other`.
+std::vector<Side> sides_of(const Cloud& cloud, std::size_t step, std::size_t other,
+                           const Spacing& spacing) {
+  std::vector<Side> sides;
+  for (std::size_t k = cloud.steps[step]; k < cloud.steps[step + 1]; ++k)
+    sides.push_back({k, cloud.strands[k].points, cloud.first[k], nearest_strands(cloud, k, other),
+                     spacing.rows});
+  return sides;
+}
 
 }  // namespace
 
-void add_strip(const Cloud& cloud, std::size_t profile, const Spacing& spacing,
-               std::vector<Triangle>& faces) {
-  Strip(cloud, profile, spacing).walk(faces);
+void add_strips(const Cloud& cloud, std::size_t step, const Spacing& spacing,
+                std::vector<Triangle>& faces) {
+  const std::size_t next = cloud.after(step);
+  const std::vector<Side> after = sides_of(cloud, next, step, spacing);
+  for (const Side& a : sides_of(cloud, step, next, spacing)) {
+    for (const Side& b : after)
+      Strip(cloud, a, b, spacing).walk(faces);
+  }
 }
 
 }  // namespace vitrine

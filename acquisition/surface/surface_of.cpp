@@ -4,20 +4,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "acquisition/surface/close_holes.h"
 #include "acquisition/surface/cloud.h"
 #include "acquisition/surface/fill_gaps.h"
 #include "acquisition/surface/second_views.h"
 #include "acquisition/surface/smooth.h"
+#include "acquisition/surface/strands.h"
 #include "acquisition/surface/strays.h"
 #include "acquisition/surface/strip.h"
 
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kFewestProfiles = 3;  // fewer have no turn to close
-constexpr double kNeighbourhood = 4;        // of s_max, as in eq. 5
+constexpr std::size_t kFewestSteps = 3;  // fewer have no turn to close
+constexpr double kNeighbourhood = 4;     // of s_max, as in eq. 5
+
+std::vector<Profile> all_strands(std::span<const Profile> profiles) {
+  std::vector<Profile> all;
+  for (const Profile& profile : profiles)
+    std::ranges::move(strands_of(profile), std::back_inserter(all));
+  return all;
+}
 
 std::vector<Profile> without_strays(const Cloud& cloud, const Spacing& spacing,
                                     const SurfaceOptions& options, SurfaceReport& report) {
@@ -34,11 +43,11 @@ std::vector<Profile> without_second_views(const Cloud& cloud, const Spacing& spa
   return keep(cloud, kept);
 }
 
-void sample_all(std::vector<Profile>& profiles, const SamplingOptions& options,
+void sample_all(std::vector<Profile>& strands, const SamplingOptions& options,
                 SurfaceReport& report) {
-  for (Profile& profile : profiles) {
-    profile = sample(profile, options);
-    report.sampled += profile.points.size();
+  for (Profile& strand : strands) {
+    strand = sample(strand, options);
+    report.sampled += strand.points.size();
   }
 }
 
@@ -65,8 +74,8 @@ void drop_unused(TriangleMesh& mesh) {
 TriangleMesh mesh_of(const Cloud& cloud, const Spacing& spacing) {
   TriangleMesh mesh{cloud.positions, {}, {}};
   mesh.faces.reserve(2 * cloud.size());
-  for (std::size_t k = 0; k < cloud.profiles.size(); ++k)
-    add_strip(cloud, k, spacing, mesh.faces);
+  for (std::size_t step = 0; step < cloud.step_count(); ++step)
+    add_strips(cloud, step, spacing, mesh.faces);
   return mesh;
 }
 
@@ -76,21 +85,21 @@ Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
                                     const SurfaceOptions& options) {
   ScannedSurface surface;
   SurfaceReport& report = surface.report;
-  Cloud cloud({profiles.begin(), profiles.end()});
+  Cloud cloud(all_strands(profiles));
   report.points = cloud.size();
-  if (profiles.size() < kFewestProfiles)
+  if (cloud.step_count() < kFewestSteps)
     return fail(ErrorCode::kBadInput,
                 fmt::format("{} profiles make no surface: scan at least {} steps of a turn",
-                            profiles.size(), kFewestProfiles));
+                            cloud.step_count(), kFewestSteps));
   const Spacing spacing = spacing_of(cloud, options);
   report.spacing = spacing.largest;
   cloud = Cloud(without_strays(cloud, spacing, options, report));
   cloud = Cloud(without_second_views(cloud, spacing, report));
-  for (Profile& profile : cloud.profiles)
-    report.filled += fill_gaps(profile, options.largest_hole, spacing);
-  report.smoothed = smooth(cloud.profiles, options.noise, spacing);
-  sample_all(cloud.profiles, options.sampling, report);
-  surface.mesh = mesh_of(Cloud(std::move(cloud.profiles)), spacing);
+  for (Profile& strand : cloud.strands)
+    report.filled += fill_gaps(strand, options.largest_hole, spacing);
+  report.smoothed = smooth(cloud.strands, options.noise, spacing);
+  sample_all(cloud.strands, options.sampling, report);
+  surface.mesh = mesh_of(Cloud(std::move(cloud.strands)), spacing);
   report.holes = close_holes(surface.mesh, options.largest_hole);
   drop_unused(surface.mesh);
   if (surface.mesh.faces.empty())

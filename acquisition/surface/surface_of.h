@@ -38,12 +38,13 @@ struct ScannedSurface {
   SurfaceReport report;
 };
 
-// `profiles` of one turn, in any order; the last joins the first. In this order: outliers, isolated
-// points, what is seen a second time beyond the axis, filling, smoothing, sampling, mesh, small
-// holes. No edge has more than two faces, and these run along it in opposite directions; a vertex
-// may have more than one fan, which the import parts. Nothing closes the object's top and bottom
-// where no laser came, but for holes up to `largest_hole`. Fails (kBadInput) where nothing is left
-// to mesh, saying why. O(n log n).
+// `profiles` of one turn, in any order; the last joins the first. Rows that show two surfaces part
+// a profile into strands (strands.h), which are joined where they are nearest. In this order:
+// outliers, isolated points, what is seen a second time beyond the axis, filling, smoothing,
+// sampling, mesh, small holes. No edge has more than two faces, and these run along it in opposite
+// directions; a vertex may have more than one fan, which the import parts. Nothing closes the
+// object's top and bottom where no laser came, but for holes up to `largest_hole`. Fails
+// (kBadInput) where nothing is left to mesh, saying why. O(n log n).
 Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
                                     const SurfaceOptions& options);
 

@@ -25,6 +25,14 @@ TEST(Judge, AScanWithAStripeIsFine) {
   EXPECT_EQ(verdict(judge(count(stripe(500, 0)) + count(stripe(100, kSaturated)))), "");
 }
 
+TEST(Judge, ARowThatShowsTwoSurfacesIsOneRow) {
+  auto points = stripe(1, kSaturated);
+  points.push_back({0, 200, 90, kSaturated | kSecond});
+  const StripeCount one = count(points);
+  EXPECT_EQ(one.rows, 1);
+  EXPECT_EQ(one.saturated, 1);
+}
+
 TEST(Judge, NoStripeNamesWhatToDo) {
   EXPECT_THAT(verdict(judge(count({}) + count({}))),
               AllOf(StartsWith("no stripe: 0 rows of 2 pictures"), HasSubstr("laser is on"),

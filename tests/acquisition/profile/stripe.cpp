@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "acquisition/profile/stripe_image.h"
@@ -22,11 +23,21 @@ std::vector<StripePoint> stripe_of(const StripeImage& image, const StripeOptions
   return stripe.value_or(std::vector<StripePoint>{});
 }
 
-double rms_error(const std::vector<StripePoint>& stripe, const StripeImage& image) {
+double rms_error(const std::vector<StripePoint>& stripe,
+                 const std::function<double(double)>& centre) {
   double sum = 0;
   for (const StripePoint& p : stripe)
-    sum += std::pow(p.u - image.centre(p.row), 2);
+    sum += std::pow(p.u - centre(p.row), 2);
   return std::sqrt(sum / static_cast<double>(stripe.size()));
+}
+
+double rms_error(const std::vector<StripePoint>& stripe, const StripeImage& image) {
+  return rms_error(stripe, image.centre);
+}
+
+std::vector<StripePoint> with_flag(std::vector<StripePoint> stripe, int flag, bool is_set) {
+  std::erase_if(stripe, [=](const StripePoint& p) { return ((p.flags & flag) != 0) != is_set; });
+  return stripe;
 }
 
 using Method = testing::TestWithParam<StripeMethod>;
@@ -117,11 +128,44 @@ TEST(Stripe, TheOneThatContinuesItsNeighboursIsTakenAndFlagged) {
                           .noise = 2,
                           .second = [](double v) { return v > 60 && v < 90 ? 40 + v / 2 : NAN; },
                           .second_peak = 200};
-  const auto stripe = stripe_of(image);
+  const auto stripe = with_flag(stripe_of(image), kSecond, false);
   ASSERT_EQ(stripe.size(), 200);
   EXPECT_LT(rms_error(stripe, image), .05);
   for (const StripePoint& p : stripe)
     EXPECT_EQ((p.flags & kDouble) != 0, p.row > 60 && p.row < 90) << "row " << p.row;
+}
+
+TEST(Stripe, TheOtherSurfaceOfARowFollowsTheFirst) {
+  const StripeImage image{.centre = shape,
+                          .peak = 120,
+                          .noise = 2,
+                          .second = [](double v) { return v > 60 && v < 90 ? 40 + v / 2 : NAN; },
+                          .second_peak = 80};
+  const auto stripe = stripe_of(image);
+  const auto second = with_flag(stripe, kSecond, true);
+  ASSERT_EQ(second.size(), 29);
+  EXPECT_LT(rms_error(second, image.second), .1);
+  EXPECT_TRUE(std::ranges::is_sorted(
+      stripe, {}, [](const StripePoint& p) { return std::pair(p.row, (p.flags & kSecond) != 0); }));
+}
+
+TEST(Stripe, AGlintOnAFewRowsIsNoSurface) {
+  const StripeImage image{.centre = shape,
+                          .noise = 2,
+                          .second = [](double v) { return v > 60 && v < 65 ? 40. : NAN; },
+                          .second_peak = 120};
+  EXPECT_EQ(stripe_of(image).size(), 200);
+}
+
+// Two peaks of a stripe that is lit unevenly: it is not dark between them.
+TEST(Stripe, AStripeThatRunsAlongTheRowsIsOneSurface) {
+  const StripeImage image{.centre = [](double) { return 150.; },
+                          .sigma = 3,
+                          .second = [](double) { return 162.; },
+                          .second_peak = 120};
+  const auto stripe = stripe_of(image);
+  EXPECT_EQ(stripe.size(), 200);
+  EXPECT_EQ(with_flag(stripe, kDouble, true).size(), 200);
 }
 
 TEST(Stripe, FramesOfDifferentSizeAreRefused) {

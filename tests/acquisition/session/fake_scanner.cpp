@@ -69,6 +69,8 @@ class FakeCamera : public Camera {
     const double centre = kFakeWidth / 2.0 + fake_radius(world_.degrees) / kFakePixel;
     if (world_.object == FakeObject::kSaturated) return 10 * stripe(u, centre);
     if (world_.object == FakeObject::kTwoStripes) return stripe(u, centre) + stripe(u, 16);
+    if (world_.object == FakeObject::kTwoSurfaces && v >= kFakeOtherRow)
+      return stripe(u, centre) + .4 * stripe(u, centre - 40);
     return stripe(u, centre);
   }
 

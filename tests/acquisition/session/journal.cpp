@@ -26,7 +26,8 @@ class Journal : public testing::Test {
   static Profile profile(int points) {
     Profile profile{.theta = 0.1 * points, .points = {}};
     for (int i = 0; i < points; ++i)
-      profile.points.push_back({{1.0 / (i + 3), -0.1 * i, 0.3 * i}, 2 * i, kDouble});
+      profile.points.push_back(
+          {{1.0 / (i + 3), -0.1 * i, 0.3 * i}, i / 2, i % 2 ? kSecond : kDouble});
     return profile;
   }
   std::vector<std::uint8_t> bytes() const { return *read_file(path_, 1 << 20); }

@@ -73,6 +73,21 @@ TEST_F(Reprocess, kept_pictures_measured_again_give_the_same_profiles) {
   EXPECT_EQ(surface->mesh.positions, surface_->mesh.positions);
 }
 
+TEST_F(Reprocess, two_surfaces_in_a_row_are_both_kept) {
+  world_.object = FakeObject::kTwoSurfaces;
+  scan_once(true);
+  const auto profiles = ScanFolder::open(path())->profiles();
+  ASSERT_TRUE(profiles);
+  for (const Profile& profile : *profiles) {
+    const auto second = std::ranges::count_if(
+        profile.points, [](const ProfilePoint& p) { return (p.flags & kSecond) != 0; });
+    EXPECT_EQ(second, kFakeHeight - kFakeOtherRow);
+  }
+  const auto surface = again({});
+  ASSERT_TRUE(surface) << surface.error().message;
+  EXPECT_EQ(surface->mesh.positions, surface_->mesh.positions);
+}
+
 TEST(Pgm, a_frame_comes_back_as_it_was) {
   const Frame frame{3, 2, {0, 10, 255, 13, 32, 1}};
   EXPECT_EQ(*from_pgm(to_pgm(frame)), frame);

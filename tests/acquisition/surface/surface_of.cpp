@@ -255,6 +255,66 @@ TEST(Surface, ASmallHoleInTheMeshIsClosed) {
   EXPECT_EQ(topology_of(mesh_of(scan_of(dome, how), {.largest_hole = 1})).boundary, 360);
 }
 
+// The points of both in the same rows, in any order.
+std::vector<Profile> both(std::vector<Profile> profiles, const std::vector<Profile>& others) {
+  std::mt19937 random(1);
+  for (std::size_t k = 0; k < profiles.size(); ++k) {
+    auto& points = profiles[k].points;
+    points.insert(points.end(), others[k].points.begin(), others[k].points.end());
+    std::ranges::shuffle(points, random);
+    std::ranges::stable_sort(points, {}, &ProfilePoint::row);
+  }
+  return profiles;
+}
+
+TEST(Surface, OfTwoInEachRowIsBoth) {
+  const TriangleMesh mesh = mesh_of(both(scan_of(cylinder(20)), scan_of(cylinder(12))));
+  EXPECT_EQ(mesh.faces.size(), 2 * (2 * 90 * 59));
+  const Topology topology = topology_of(mesh);
+  EXPECT_EQ(topology.most, 2);
+  EXPECT_EQ(topology.boundary, 4 * 90);
+  EXPECT_TRUE(topology.oriented);
+}
+
+// A pocket in front of a wall: at its rim both surfaces go on, or end.
+TEST(Surface, OfTwoInSomeRowsIsBothThere) {
+  auto pocket = scan_of(cylinder(24));
+  for (std::size_t k = 0; k < pocket.size(); ++k) {
+    std::erase_if(pocket[k].points, [&](const ProfilePoint& p) {
+      return k < 20 || k >= 40 || p.row < 10 || p.row >= 30;
+    });
+  }
+  const TriangleMesh mesh = mesh_of(both(scan_of(cylinder(20)), pocket));
+  EXPECT_EQ(mesh.faces.size(), 2 * 90 * 59 + 2 * 19 * 19);
+  EXPECT_EQ(topology_of(mesh).boundary, 2 * 90 + 4 * 19);
+}
+
+// What is nearer in depth than two steps may differ is still not one surface.
+TEST(Surface, OfTwoThatAreCloseJoinsNoneToTheOther) {
+  const TriangleMesh mesh = mesh_of(both(scan_of(cylinder(20)), scan_of(cylinder(18))));
+  EXPECT_EQ(mesh.faces.size(), 2 * (2 * 90 * 59));
+  for (const Triangle& f : mesh.faces) {
+    const auto rho = [&](std::uint32_t v) {
+      return std::hypot(mesh.positions[v].x, mesh.positions[v].y);
+    };
+    EXPECT_NEAR(rho(f[0]), rho(f[1]), 1e-9);
+    EXPECT_NEAR(rho(f[0]), rho(f[2]), 1e-9);
+  }
+}
+
+TEST(Surface, ASecondSurfaceOfFewPointsVanishes) {
+  auto speck = scan_of(cylinder(30));
+  for (std::size_t k = 0; k < speck.size(); ++k) {
+    std::erase_if(speck[k].points, [&](const ProfilePoint& p) {
+      return k < 20 || k >= 24 || p.row < 10 || p.row >= 15;
+    });
+  }
+  const auto surface = surface_of(both(scan_of(cylinder(20)), speck), {});
+  ASSERT_TRUE(surface.has_value());
+  EXPECT_EQ(surface->report.isolated, 20);
+  EXPECT_EQ(surface->mesh.faces.size(), 2 * 90 * 59);
+}
+
 double rms_rho(const TriangleMesh& mesh, const std::function<double(const Vec3&)>& error) {
   double sum = 0;
   for (const Vec3& p : mesh.positions)
@@ -268,6 +328,18 @@ TEST(Surface, NoiseIsSmoothedWithinWhatTheSensorHas) {
   const double raw = rms_rho(mesh_of(profiles), error);
   EXPECT_NEAR(raw, .03, .002);
   EXPECT_LT(rms_rho(mesh_of(profiles, {.noise = .03}), error), .5 * raw);
+}
+
+// Which of a step's strands is which is not the same from step to step.
+TEST(Surface, TwoInEachRowAreSmoothedAsOne) {
+  const auto error = [](const Vec3& p) {
+    const double rho = std::hypot(p.x, p.y);
+    return std::min(std::abs(rho - 20), std::abs(rho - 12));
+  };
+  const auto profiles = both(scan_of(cylinder(20), {.noise = .03, .seed = 1}),
+                             scan_of(cylinder(12), {.noise = .03, .seed = 2}));
+  EXPECT_LT(rms_rho(mesh_of(profiles, {.noise = .03}), error),
+            .5 * rms_rho(mesh_of(profiles), error));
 }
 
 TEST(Surface, AnEdgeIsNotSmoothedAway) {
@@ -303,7 +375,13 @@ TEST(Surface, TooLittleIsRefusedWithAReason) {
   EXPECT_THAT(empty.error().message, HasSubstr("0 profiles make no surface"));
   const auto none = surface_of(std::vector<Profile>(4), {});
   ASSERT_FALSE(none.has_value());
-  EXPECT_THAT(none.error().message, HasSubstr("of 0 points"));
+  EXPECT_THAT(none.error().message, HasSubstr("1 profiles make no surface"));
+  std::vector<Profile> empty_turn(4);
+  for (std::size_t k = 0; k < empty_turn.size(); ++k)
+    empty_turn[k].theta = 90. * static_cast<double>(k);
+  const auto nothing = surface_of(empty_turn, {});
+  ASSERT_FALSE(nothing.has_value());
+  EXPECT_THAT(nothing.error().message, HasSubstr("of 0 points"));
 }
 
 // Whatever the profiles: no edge of three faces, one orientation, and the import takes it.
@@ -321,7 +399,8 @@ TEST(Surface, OfRandomProfilesIsEdgeManifold) {
       int row = 0;
       for (std::size_t i = 0, n = random() % 40; i < n; ++i) {
         row += 1 + static_cast<int>(random() % 4 == 0 ? random() % 9 : 0);
-        profiles[k].points.push_back({{real(-2, 6) * rough / 4, real(-1, 1), -.3 * row}, row});
+        for (std::size_t surfaces = 1 + random() % 2; surfaces > 0; --surfaces)
+          profiles[k].points.push_back({{real(-2, 6) * rough / 4, real(-1, 1), -.3 * row}, row});
       }
     }
     for (const int window : {1, 5}) {
@@ -334,6 +413,34 @@ TEST(Surface, OfRandomProfilesIsEdgeManifold) {
       EXPECT_LE(topology.most, 2);
       EXPECT_TRUE(topology.oriented);
       EXPECT_TRUE(repair({.mesh = surface->mesh}).has_value());
+    }
+  }
+}
+
+// Two sheets that come close, part and end anywhere, so that strands swap, merge and split.
+TEST(Surface, OfTwoRaggedSheetsIsEdgeManifold) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    const auto sheet = [&](double phase) {
+      auto scan = scan_of([=](double angle, double z) {
+        return 20 + 2 * std::sin(3 * angle + .3 * z + phase) * std::sin(.4 * z);
+      });
+      for (Profile& profile : scan) {
+        const int from = static_cast<int>(random() % 60), to = static_cast<int>(random() % 60);
+        std::erase_if(profile.points, [=](const ProfilePoint& p) {
+          return p.row > std::min(from, to) && p.row < std::max(from, to);
+        });
+      }
+      return scan;
+    };
+    const auto profiles = both(sheet(0), sheet(2));
+    for (const int window : {1, 5}) {
+      const TriangleMesh mesh = mesh_of(profiles, {.noise = .02, .sampling = {.window = window}});
+      const Topology topology = topology_of(mesh);
+      EXPECT_EQ(topology.most, 2);
+      EXPECT_TRUE(topology.oriented);
+      EXPECT_TRUE(repair({.mesh = mesh}).has_value());
     }
   }
 }

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// One sheet behind the other, both lit and seen in the same rows of the picture, from the pictures
+// to the mesh.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <map>
+
+#include "acquisition/profile/profile_of.h"
+#include "acquisition/surface/surface_of.h"
+#include "support/rig_scenes.h"
+
+namespace vitrine::rig::test {
+namespace {
+
+constexpr double kFront = 38, kBehind = 16;  // mm before the axis: the ends of the arc do not meet
+constexpr double kHeight = 40;               // mm, of the sheet behind; the other has half
+constexpr double kStep = .5;                 // degrees
+constexpr int kSteps = 17;
+
+TriangleMesh two_sheets() {
+  TriangleMesh mesh;
+  add_quad(mesh, {kFront, -8, 0}, {0, 16, 0}, {0, 0, kHeight / 2});
+  add_quad(mesh, {kBehind, -8, 0}, {0, 16, 0}, {0, 0, kHeight});
+  return mesh;
+}
+
+// From what the rig is: in the sheet of light x is the world's, y upwards from the origin's foot.
+Calibration known(const Optics& optics) {
+  const Vec3 &normal = optics.laser.normal, up{0, -normal.z, normal.y};
+  const auto in_sheet = [&](double x, double y) {
+    return normal * optics.laser.offset + Vec3{1, 0, 0} * x + up * y;
+  };
+  std::vector<Correspondence> points;
+  for (double x = -10; x <= 45; x += 2.5) {
+    for (double y = -5; y <= 60; y += 2.5) {
+      const auto pixel = project(optics.camera, in_sheet(x, y));
+      points.push_back({pixel->u, pixel->v, {x, y}});
+    }
+  }
+  Calibration calibration;
+  calibration.map = *PlaneMap::fit(points, 5, kSensorWidth, kSensorHeight);
+  calibration.axis = {
+      .offset = optics.laser.offset, .tilt = -normal.z / normal.y, .clockwise = optics.clockwise};
+  return calibration;
+}
+
+// About the middle of the turn, where both sheets face the laser.
+std::vector<Profile> profiles() {
+  const Optics optics = optics_of(1);
+  const Calibration calibration = known(optics);
+  const Solid solid = matt(two_sheets());
+  Renderer renderer(optics, &solid, ideal());
+  std::vector<Profile> profiles;
+  for (int step = 0; step < kSteps; ++step) {
+    const double angle = kStep * (step - kSteps / 2);
+    const Frame lit = renderer.take({at(angle, true)}), dark = renderer.take({at(angle, false)});
+    profiles.push_back(profile_of(*find_stripe(lit, dark), calibration, angle));
+  }
+  return profiles;
+}
+
+double across(const Vec3& p, double sheet) {
+  return std::abs(p.x - sheet);
+}
+
+double area_on(const TriangleMesh& mesh, double sheet) {
+  double sum = 0;
+  for (const Triangle& face : mesh.faces) {
+    const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
+               &c = mesh.positions[face[2]];
+    if (std::max({across(a, sheet), across(b, sheet), across(c, sheet)}) < .2)
+      sum += length(cross(b - a, c - a)) / 2;
+  }
+  return sum;
+}
+
+// The height of a point of the sheet behind from where on the front one does not shade it.
+double shade() {
+  const Vec3 source = optics_of(1).laser.source;
+  const double slope = (source.z - kHeight / 2) / (source.x - kFront);
+  return kHeight / 2 - slope * (kFront - kBehind);
+}
+
+double width_of(double sheet) {
+  return 2 * sheet * std::tan(kStep * (kSteps / 2) * std::numbers::pi / 180);
+}
+
+TEST(TwoSheets, AreBothInTheRowsThatShowBoth) {
+  for (const Profile& profile : profiles()) {
+    std::map<int, int> in_row;
+    for (const ProfilePoint& point : profile.points) {
+      const Vec3 p = position(profile, point);
+      EXPECT_LT(std::min(across(p, kFront), across(p, kBehind)), .3) << "row " << point.row;
+      ++in_row[point.row];
+    }
+    EXPECT_GT(std::ranges::count_if(in_row, [](const auto& row) { return row.second == 2; }), 10);
+  }
+}
+
+TEST(TwoSheets, AreBothWholeInTheMesh) {
+  const auto surface = surface_of(profiles(), {});
+  ASSERT_TRUE(surface.has_value()) << surface.error().message;
+  const double front = width_of(kFront) * kHeight / 2,
+               behind = width_of(kBehind) * (kHeight - shade());
+  EXPECT_NEAR(area_on(surface->mesh, kFront), front, .02 * front);
+  EXPECT_NEAR(area_on(surface->mesh, kBehind), behind, .02 * behind);
+}
+
+}  // namespace
+}  // namespace vitrine::rig::test
