@@ -7,6 +7,7 @@
 
 #include "codec/progressive/birth_pass.h"
 #include "codec/progressive/cell.h"
+#include "property/seeds.h"
 #include "support/random_mesh.h"
 #include "support/stored_model.h"
 
@@ -80,7 +81,7 @@ TEST(RefinementOrder, ManyRandomModelsForkAndBringComponentsWhole) {
 }
 
 TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
-  const std::uint64_t count = 200;
+  const std::uint64_t count = seeds(200);
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     ASSERT_NO_THROW(expect_same_in_every_order(seed));

@@ -2,6 +2,7 @@
 // What is coded comes back, for random meshes.
 #include <gtest/gtest.h>
 
+#include "property/seeds.h"
 #include "support/random_mesh.h"
 #include "support/stored_model.h"
 
@@ -35,8 +36,8 @@ void expect_round_trip(std::uint64_t seed) {
   ASSERT_EQ(canonical_surface(refiner.lattice_mesh()), canonical_surface(fine));
 }
 
-TEST(RoundTrip, TenThousandRandomMeshesComeBackExactly) {
-  const std::uint64_t count = 10'000;
+TEST(RoundTrip, RandomMeshesComeBackExactly) {
+  const std::uint64_t count = seeds(10'000);
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     ASSERT_NO_THROW(expect_round_trip(seed));
