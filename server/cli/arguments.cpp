@@ -105,6 +105,15 @@ tl::expected<std::optional<double>, Fault> Arguments::distance(std::string_view 
   return wrong_value(flag, "a number of at least 0, in the model's unit");
 }
 
+tl::expected<std::optional<double>, Fault> Arguments::number_between(std::string_view flag,
+                                                                     double low,
+                                                                     double high) const {
+  if (!has(flag)) return std::nullopt;
+  const auto value = parse_number<double>(text(flag));
+  if (value && *value >= low && *value <= high) return value;
+  return wrong_value(flag, fmt::format("a number from {} to {}", low, high));
+}
+
 tl::expected<std::size_t, Fault> Arguments::choice(
     std::string_view flag, std::span<const std::string_view> choices) const {
   if (!has(flag)) return 0;

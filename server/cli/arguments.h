@@ -39,6 +39,9 @@ class Arguments {
                                                            std::uint64_t high) const;
   // The value as a finite number of at least 0.
   tl::expected<std::optional<double>, Fault> distance(std::string_view flag) const;
+  // The value as a number in [low, high].
+  tl::expected<std::optional<double>, Fault> number_between(std::string_view flag, double low,
+                                                            double high) const;
   // The value's place among `choices`; 0 where the flag is absent.
   tl::expected<std::size_t, Fault> choice(std::string_view flag,
                                           std::span<const std::string_view> choices) const;

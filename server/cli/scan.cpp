@@ -8,6 +8,7 @@
 #include "codec/files/atomic_file.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
+#include "server/cli/processing_options.h"
 #include "server/cli/stop_signals.h"
 
 namespace vitrine::cli {
@@ -15,28 +16,22 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kRequestFlags[] = {"--steps", "--sampling", "--length", "--exposure",
-                                              "--keep-frames"};
+constexpr std::string_view kRequestFlags[] = {
+    "--steps",          "--exposure",     "--keep-frames",        kStripeFlag.name,
+    kSamplingFlag.name, kLengthFlag.name, kLargestAngleFlag.name, kLargestHoleFlag.name};
 
 tl::expected<ScanRequest, Fault> request_of(const Arguments& arguments,
                                             const ScannerConfig& config) {
-  constexpr std::string_view kSamplings[] = {"adaptive", "paper", "equidistant"};
-  constexpr SamplingMethod kMethods[] = {SamplingMethod::kAdaptive, SamplingMethod::kPaper,
-                                         SamplingMethod::kEquidistant};
-  constexpr std::string_view kLengths[] = {"5", "10", "15", "20"};
   const auto steps = arguments.number("--steps", kLeastSteps, kMostSteps);
   if (!steps) return tl::unexpected(steps.error());
-  const auto sampling = arguments.choice("--sampling", kSamplings);
-  if (!sampling) return tl::unexpected(sampling.error());
-  const auto length = arguments.choice("--length", kLengths);
-  if (!length) return tl::unexpected(length.error());
   const auto exposure =
       arguments.number("--exposure", 1, static_cast<std::uint64_t>(kMostExposure));
   if (!exposure) return tl::unexpected(exposure.error());
+  const auto processing = processing_options(arguments, {});
+  if (!processing) return tl::unexpected(processing.error());
   ScanRequest request;
+  request.processing = *processing;
   request.steps = static_cast<int>(steps->value_or(static_cast<std::uint64_t>(config.steps)));
-  request.processing.sampling.method = kMethods[*sampling];
-  request.processing.sampling.window = 5 * (static_cast<int>(*length) + 1);
   if (*exposure) request.exposure_us = static_cast<double>(**exposure);
   request.keep_frames = arguments.has("--keep-frames");
   return request;
@@ -155,8 +150,11 @@ constexpr Flag kScanFlags[] = {
     {"--config", "rig.json", "the scanner; it must be calibrated"},
     {"-o", "OUT.ply", "the mesh to write, in mm"},
     {"--steps", "N", "of one turn of the table (default: the scanner's)"},
-    {"--sampling", "adaptive|paper|equidistant", "of each profile (default adaptive)"},
-    {"--length", "5|10|15|20", "points that become one, about (default 5)"},
+    kStripeFlag,
+    kSamplingFlag,
+    kLengthFlag,
+    kLargestAngleFlag,
+    kLargestHoleFlag,
     {"--exposure", "US", "microseconds (default: the scanner's)"},
     {"--keep-frames", "", "keep OUT.ply.scan with all pictures"},
     {"--resume", "", "go on with the scan in OUT.ply.scan; it is there until it is done"},

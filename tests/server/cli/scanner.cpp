@@ -36,8 +36,12 @@ TEST_F(ScannerCommands, wrong_usage_is_exit_code_2) {
       {"scan", "--config", rig, "-o", out, "--length", "6"},
       {"scan", "--config", rig, "-o", out, "--sampling", "best"},
       {"scan", "--config", rig, "-o", out, "--exposure", "0"},
+      {"scan", "--config", rig, "-o", out, "--stripe", "mass"},
+      {"scan", "--config", rig, "-o", out, "--largest-angle", "91"},
+      {"scan", "--config", rig, "-o", out, "--largest-hole", "-1"},
       {"scan", "--config", rig, "-o", out, "--resume", "--steps", "100"},
       {"scan", "--config", rig, "-o", out, "--resume", "--keep-frames"},
+      {"scan", "--config", rig, "-o", out, "--resume", "--stripe", "blais-rioux"},
   };
   for (const auto& words : lines) {
     const ProgramResult result = vitrine(words);
