@@ -72,7 +72,8 @@ tl::expected<Arguments, Fault> Arguments::parse(std::span<const std::string_view
   if (result.operands_.size() < operands.size()) {
     return misused(fmt::format("{} is missing", operands[result.operands_.size()]));
   }
-  if (result.operands_.size() > operands.size()) {
+  const bool takes_more = !operands.empty() && operands.back().ends_with("...");
+  if (result.operands_.size() > operands.size() && !takes_more) {
     return misused(fmt::format("unexpected word \"{}\"", result.operands_[operands.size()]));
   }
   return result;
