@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -74,7 +73,6 @@ SurfaceOptions surface_in(JsonMembers& root) {
 }  // namespace
 
 Expected<void> check(const ScanRequest& request) {
-  constexpr std::array kLengths = {5, 10, 15, 20};
   if (request.steps < kLeastSteps || request.steps > kMostSteps) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("{} steps are too few or too many; choose {} to {}", request.steps,
@@ -85,7 +83,9 @@ Expected<void> check(const ScanRequest& request) {
                 fmt::format("an exposure of {} us is too short or too long; choose up to {}",
                             *request.exposure_us, kMostExposure));
   }
-  if (std::ranges::find(kLengths, request.processing.sampling.window) != kLengths.end()) return {};
+  if (std::ranges::find(kSamplingLengths, request.processing.sampling.window) !=
+      kSamplingLengths.end())
+    return {};
   return fail(ErrorCode::kBadInput,
               fmt::format("a sampling length of {} points does not exist; choose 5, 10, 15 or 20",
                           request.processing.sampling.window));

@@ -22,6 +22,8 @@ inline constexpr std::array<std::string_view, 3> kSamplingNames = {"equidistant"
 inline constexpr std::array<std::string_view, 3> kStripeNames = {"derivative-of-gaussian",
                                                                  "centre-of-mass", "blais-rioux"};
 
+inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // points
+
 struct ScanRequest {
   int steps = 720;                    // of one turn of the table, kLeastSteps to kMostSteps
   std::optional<double> exposure_us;  // nothing: the scanner's
