@@ -65,10 +65,8 @@ ScanStatus follow(Scan& scan) {
 
 Outcome unfinished(const Scan& scan, const ScanStatus& status) {
   const auto record = scan.folder().record();
-  if (record && !*record) {  // nothing was measured that --resume could go on with
-    std::error_code ignored;
-    std::filesystem::remove_all(scan.folder().path(), ignored);
-  }
+  // Nothing was measured that --resume could go on with.
+  if (record && !*record) scan.folder().remove();
   if (status.state == ScanState::kFailed) return failed(*status.error);
   return failed(fmt::format("the scan is {} after step {} of {}; {}", name_of(status.state),
                             status.steps_done, status.steps,
@@ -106,9 +104,9 @@ Outcome run_scan(const Arguments& arguments) {
   if (!record || !*record) return failed("the scan's record is gone; scan again");
   const json report = describe_scanned(*surface, **record, (*record)->calibration, out);
   const bool keep = (*record)->request.keep_frames;
+  const ScanFolder rest = (*scan)->folder();
   scan->reset();
-  std::error_code ignored;  // what is left of a scan that is done harms nobody
-  if (!keep) std::filesystem::remove_all(folder, ignored);
+  if (!keep) rest.remove();
   return arguments.has("--json") ? print_json(report) : print(scanned_as_text(report));
 }
 

@@ -71,6 +71,14 @@ TEST_F(ScannerCommands, a_scanner_that_is_not_there_leaves_nothing_behind) {
   EXPECT_THAT(files(), ElementsAre("rig.json"));
 }
 
+TEST_F(ScannerCommands, what_lay_in_the_scans_folder_stays_there) {
+  std::filesystem::create_directory(path("out.ply.scan"));
+  write("out.ply.scan/notes.txt", "the object's left side");
+  EXPECT_EQ(vitrine({"scan", "--config", config(), "-o", path("out.ply")}).exit_code, 1);
+  EXPECT_EQ(read("out.ply.scan/notes.txt"), "the object's left side");
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply.scan/profiles")));
+}
+
 TEST_F(ScannerCommands, there_is_nothing_to_resume) {
   const ProgramResult result =
       vitrine({"scan", "--config", config(), "-o", path("out.ply"), "--resume"});
