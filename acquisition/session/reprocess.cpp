@@ -12,27 +12,43 @@ bool same_calibration(const ScanRecord& record, const Calibration& calibration) 
   return calibration.camera == record.camera && calibration.region == record.settings.region;
 }
 
+// A scan that is done has all its steps.
+Expected<void> check_journal(const ScanFolder& folder, int steps_there, int steps) {
+  if (folder.state().state != ScanState::kDone || steps_there == steps) return {};
+  return fail(ErrorCode::kBadInput,
+              fmt::format("{} holds {} of the {} steps of a scan that is done; restore it, or scan "
+                          "again",
+                          folder.journal().string(), steps_there, steps));
+}
+
 Expected<void> measure_again(std::vector<Profile>& profiles, const ScanFolder& folder,
                              const ScanRequest& request, const Calibration& calibration,
-                             const StripeOptions& stripe) {
+                             const ReprocessOptions& options) {
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     const int step = static_cast<int>(i);
     const auto frames = folder.frames(step);
     if (!frames) return tl::unexpected(frames.error());
-    auto profile = measure_profile(*frames, calibration, stripe, angle_of(request, step));
+    auto profile =
+        measure_profile(*frames, calibration, options.processing.stripe, angle_of(request, step));
     if (!profile) return tl::unexpected(profile.error());
     profiles[i] = std::move(*profile);
+    if (options.progress)
+      options.progress(static_cast<double>(i + 1) / static_cast<double>(profiles.size()));
   }
   return {};
 }
 
 }  // namespace
 
-Expected<ScannedSurface> reprocess(const ScanFolder& folder,
-                                   const std::filesystem::path& calibrations,
-                                   const ReprocessOptions& options) {
+Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem::path& calibrations,
+                                const ReprocessOptions& options) {
   const auto record = folder.record();
   if (!record) return tl::unexpected(record.error());
+  if (!*record) {
+    return fail(ErrorCode::kState, fmt::format("there is no scan in {} any more; name another "
+                                               "folder",
+                                               folder.path().string()));
+  }
   const ScanRequest& request = (*record)->request;
   const int number = options.calibration == 0 ? (*record)->calibration : options.calibration;
   const auto calibration = CalibrationStore(calibrations).load(number);
@@ -45,20 +61,25 @@ Expected<ScannedSurface> reprocess(const ScanFolder& folder,
   }
   auto profiles = folder.profiles();
   if (!profiles) return tl::unexpected(profiles.error());
+  const int steps = static_cast<int>(profiles->size());
+  if (auto whole = check_journal(folder, steps, request.steps); !whole)
+    return tl::unexpected(whole.error());
   const bool other_points =
       number != (*record)->calibration || options.processing.stripe != request.processing.stripe;
   if (other_points && !request.keep_frames) {
     return fail(ErrorCode::kState,
-                "the pictures of this scan were not kept, so its stripes cannot be found anew; "
-                "scan again and keep them");
+                fmt::format("{} needs the pictures of the scan, which were not kept; scan again "
+                            "and keep the frames",
+                            number != (*record)->calibration ? "another calibration"
+                                                             : "another stripe method"));
   }
   if (other_points) {
-    if (auto measured =
-            measure_again(*profiles, folder, request, *calibration, options.processing.stripe);
-        !measured)
+    if (auto measured = measure_again(*profiles, folder, request, *calibration, options); !measured)
       return tl::unexpected(measured.error());
   }
-  return mesh_of(std::move(*profiles), *calibration, options.processing);
+  return mesh_of(*profiles, *calibration, options.processing).map([&](ScannedSurface surface) {
+    return Reprocessed{{std::move(surface)}, steps};
+  });
 }
 
 }  // namespace vitrine

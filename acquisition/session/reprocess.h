@@ -2,6 +2,8 @@
 // A scan's mesh made anew, with other parameters or another calibration.
 #pragma once
 
+#include <functional>
+
 #include "acquisition/session/processing.h"
 #include "acquisition/session/scan_folder.h"
 
@@ -9,13 +11,18 @@ namespace vitrine {
 
 struct ReprocessOptions {
   Processing processing;
-  int calibration = 0;  // number; 0: the scan's own
+  int calibration = 0;                   // number; 0: the scan's own
+  std::function<void(double)> progress;  // 0..1 of the pictures; may be empty
+};
+
+struct Reprocessed : ScannedSurface {
+  int steps = 0;  // that it is made of
 };
 
 // Of all steps that are on disk, also of a scan that was cancelled. Another way to find the stripe
 // and another calibration need the scan's pictures: fails (kState) where they were not kept.
-Expected<ScannedSurface> reprocess(const ScanFolder& folder,
-                                   const std::filesystem::path& calibrations,
-                                   const ReprocessOptions& options);
+// Fails (kBadInput) where the scan is done and yet steps are missing: its journal is damaged.
+Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem::path& calibrations,
+                                const ReprocessOptions& options);
 
 }  // namespace vitrine

@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRecordName = "scan.json";
+constexpr const char *kRecordName = "scan.json", *kJournalName = "profiles",
+                     *kStateName = "state.json";
 constexpr std::uint64_t kMaxFrameBytes = std::uint64_t{1} << 30;
 
 Expected<void> make_folder(const fs::path& path) {
@@ -68,6 +69,10 @@ Expected<ScanFolder> ScanFolder::open(const fs::path& path) {
               fmt::format("there is no scan in {}; start a new one", path.string()));
 }
 
+fs::path ScanFolder::journal() const {
+  return path_ / kJournalName;
+}
+
 Expected<std::optional<ScanRecord>> ScanFolder::record() const {
   const fs::path file = path_ / kRecordName;
   std::error_code ignored;
@@ -89,9 +94,16 @@ Expected<std::vector<Profile>> ScanFolder::profiles() const {
   return read_journal(*bytes).profiles;
 }
 
+void ScanFolder::remove() const {
+  std::error_code ignored;  // what stays harms nobody
+  for (const char* name : {kRecordName, kJournalName, kStateName})
+    fs::remove(path_ / name, ignored);
+  fs::remove(path_, ignored);
+}
+
 StoredState ScanFolder::state() const {
   // What cannot be read is a scan that was interrupted: it can be resumed.
-  const auto text = read_text(path_ / "state.json");
+  const auto text = read_text(path_ / kStateName);
   const auto object = text ? parse_json_object(*text, "state.json")
                            : Expected<nlohmann::json>(tl::unexpected(text.error()));
   if (!object) return {};
@@ -107,7 +119,7 @@ StoredState ScanFolder::state() const {
 Expected<void> ScanFolder::write_state(const StoredState& state) const {
   nlohmann::json object = {{"state", name_of(state.state)}};
   if (state.error) object["error"] = state.error->message;
-  return write_text(path_ / "state.json", object.dump() + "\n");
+  return write_text(path_ / kStateName, object.dump() + "\n");
 }
 
 fs::path ScanFolder::frame(int step, const char* light) const {

@@ -29,7 +29,7 @@ class ScanFolder {
   static Expected<ScanFolder> open(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path journal() const { return path_ / "profiles"; }
+  std::filesystem::path journal() const;
 
   // Nothing where the checks of the scan have not passed yet.
   Expected<std::optional<ScanRecord>> record() const;
@@ -40,6 +40,9 @@ class ScanFolder {
 
   StoredState state() const;
   Expected<void> write_state(const StoredState& state) const;
+
+  // Removes the scan, but for its pictures, and the folder where nothing else is in it.
+  void remove() const;
 
   Expected<void> write_frames(int step, const FramePair& frames) const;
   Expected<FramePair> frames(int step) const;

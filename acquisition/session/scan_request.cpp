@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -16,10 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 3> kSamplings = {"equidistant", "paper", "adaptive"};
-constexpr std::array<std::string_view, 3> kStripes = {"derivative-of-gaussian", "centre-of-mass",
-                                                      "blais-rioux"};
-
 template <class Method>
 std::string_view name_in(std::span<const std::string_view> names, Method method) {
   return names[static_cast<std::size_t>(method)];
@@ -27,24 +22,24 @@ std::string_view name_in(std::span<const std::string_view> names, Method method)
 
 json to_json(const Processing& processing) {
   const auto& [stripe, sampling, surface] = processing;
-  return {
-      {"stripe",
-       {{"method", name_in(kStripes, stripe.method)},
-        {"width", stripe.width},
-        {"contrast", stripe.contrast},
-        {"steady_rows", stripe.steady_rows}}},
-      {"sampling", {{"method", name_in(kSamplings, sampling.method)}, {"length", sampling.window}}},
-      {"surface",
-       {{"largest_spacing", surface.largest_spacing},
-        {"largest_angle", surface.largest_angle},
-        {"largest_hole", surface.largest_hole},
-        {"smallest_piece", surface.smallest_piece}}}};
+  return {{"stripe",
+           {{"method", name_in(kStripeNames, stripe.method)},
+            {"width", stripe.width},
+            {"contrast", stripe.contrast},
+            {"steady_rows", stripe.steady_rows}}},
+          {"sampling",
+           {{"method", name_in(kSamplingNames, sampling.method)}, {"length", sampling.window}}},
+          {"surface",
+           {{"largest_spacing", surface.largest_spacing},
+            {"largest_angle", surface.largest_angle},
+            {"largest_hole", surface.largest_hole},
+            {"smallest_piece", surface.smallest_piece}}}};
 }
 
 StripeOptions stripe_in(JsonMembers& root) {
   StripeOptions stripe;
   auto members = root.object("stripe", {"method", "width", "contrast", "steady_rows"});
-  stripe.method = static_cast<StripeMethod>(members.choice("method", kStripes, 0));
+  stripe.method = static_cast<StripeMethod>(members.choice("method", kStripeNames, 0));
   stripe.width = members.number("width", 0.5, 50, stripe.width);
   stripe.contrast = members.number("contrast", 0, 1'000, stripe.contrast);
   stripe.steady_rows = members.whole("steady_rows", 0, 1'000, stripe.steady_rows);
@@ -56,7 +51,7 @@ SamplingOptions sampling_in(JsonMembers& root) {
   SamplingOptions sampling;
   auto members = root.object("sampling", {"method", "length"});
   sampling.method = static_cast<SamplingMethod>(
-      members.choice("method", kSamplings, static_cast<std::size_t>(sampling.method)));
+      members.choice("method", kSamplingNames, static_cast<std::size_t>(sampling.method)));
   sampling.window = members.whole("length", 1, 1'000, sampling.window);
   root.adopt(members);
   return sampling;
@@ -67,8 +62,8 @@ SurfaceOptions surface_in(JsonMembers& root) {
   auto members = root.object(
       "surface", {"largest_spacing", "largest_angle", "largest_hole", "smallest_piece"});
   surface.largest_spacing = members.number("largest_spacing", 0, 1'000, surface.largest_spacing);
-  surface.largest_angle = members.number("largest_angle", 0, 90, surface.largest_angle);
-  surface.largest_hole = members.number("largest_hole", 0, 1'000, surface.largest_hole);
+  surface.largest_angle = members.number("largest_angle", 0, kMostAngle, surface.largest_angle);
+  surface.largest_hole = members.number("largest_hole", 0, kMostHole, surface.largest_hole);
   surface.smallest_piece = static_cast<std::size_t>(
       members.whole("smallest_piece", 0, 1'000'000'000, static_cast<int>(surface.smallest_piece)));
   root.adopt(members);
@@ -77,15 +72,7 @@ SurfaceOptions surface_in(JsonMembers& root) {
 
 }  // namespace
 
-Expected<SamplingMethod> sampling_of(std::string_view name) {
-  const auto it = std::find(kSamplings.begin(), kSamplings.end(), name);
-  if (it != kSamplings.end()) return static_cast<SamplingMethod>(it - kSamplings.begin());
-  return fail(ErrorCode::kBadInput, fmt::format("there is no sampling \"{}\"; choose one of {}",
-                                                name, fmt::join(kSamplings, ", ")));
-}
-
 Expected<void> check(const ScanRequest& request) {
-  constexpr std::array kLengths = {5, 10, 15, 20};
   if (request.steps < kLeastSteps || request.steps > kMostSteps) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("{} steps are too few or too many; choose {} to {}", request.steps,
@@ -96,7 +83,9 @@ Expected<void> check(const ScanRequest& request) {
                 fmt::format("an exposure of {} us is too short or too long; choose up to {}",
                             *request.exposure_us, kMostExposure));
   }
-  if (std::ranges::find(kLengths, request.processing.sampling.window) != kLengths.end()) return {};
+  if (std::ranges::find(kSamplingLengths, request.processing.sampling.window) !=
+      kSamplingLengths.end())
+    return {};
   return fail(ErrorCode::kBadInput,
               fmt::format("a sampling length of {} points does not exist; choose 5, 10, 15 or 20",
                           request.processing.sampling.window));

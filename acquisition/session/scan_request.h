@@ -2,8 +2,10 @@
 // What a scan is to be, and what is written down about it when it starts.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "acquisition/device/camera.h"
 #include "acquisition/session/processing.h"
@@ -11,7 +13,16 @@
 namespace vitrine {
 
 inline constexpr int kLeastSteps = 8, kMostSteps = 36'000;
-inline constexpr double kMostExposure = 10e6;  // microseconds
+inline constexpr double kMostExposure = 10e6;                // microseconds
+inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // degrees, mm
+
+// In the order of SamplingMethod and StripeMethod.
+inline constexpr std::array<std::string_view, 3> kSamplingNames = {"equidistant", "paper",
+                                                                   "adaptive"};
+inline constexpr std::array<std::string_view, 3> kStripeNames = {"derivative-of-gaussian",
+                                                                 "centre-of-mass", "blais-rioux"};
+
+inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // points
 
 struct ScanRequest {
   int steps = 720;                    // of one turn of the table, kLeastSteps to kMostSteps
@@ -21,8 +32,6 @@ struct ScanRequest {
 };
 
 Expected<void> check(const ScanRequest& request);
-
-Expected<SamplingMethod> sampling_of(std::string_view name);  // "equidistant", "paper", "adaptive"
 
 // All that another process needs to go on with the scan. Written once, never changed.
 struct ScanRecord {

@@ -86,11 +86,18 @@ bool is_covered(const TriangleMesh& scan, const Triangle& face, const TriangleBv
 
 void add_uncovered(TriangleMesh& mesh, const TriangleMesh& scan, double reach) {
   const TriangleBvh surface(mesh);
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), scan.positions.begin(), scan.positions.end());
+  constexpr std::uint32_t kNone = UINT32_MAX;
+  std::vector<std::uint32_t> places(scan.positions.size(), kNone);
+  const auto place = [&](std::uint32_t vertex) {
+    if (places[vertex] == kNone) {
+      places[vertex] = static_cast<std::uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(scan.positions[vertex]);
+    }
+    return places[vertex];
+  };
   for (const Triangle& face : scan.faces) {
     if (!is_covered(scan, face, surface, reach))
-      mesh.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+      mesh.faces.push_back({place(face[0]), place(face[1]), place(face[2])});
   }
 }
 
@@ -106,7 +113,7 @@ Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const Rigi
     if (scans[k].faces.empty())
       return fail(ErrorCode::kBadInput, fmt::format("scan {} has no face: leave it out", k + 1));
   }
-  Merged merged{scans[0], {RigidMotion{}}, {0}};
+  Merged merged{{scans[0].positions, scans[0].faces, {}}, {RigidMotion{}}, {0}};
   for (std::size_t k = 1; k < scans.size(); ++k) {
     const Target target(merged.mesh);
     const std::vector<Vec3> points = some_of(scans[k].positions);

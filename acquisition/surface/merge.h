@@ -15,7 +15,7 @@ struct MergeOptions {
 };
 
 struct Merged {
-  TriangleMesh mesh;                 // in the frame of the first scan, mm
+  TriangleMesh mesh;                 // in the frame of the first scan, mm; without colours
   std::vector<RigidMotion> motions;  // of each scan; that of the first is none
   std::vector<double> rms;           // mm: of each scan to those before it where they overlap
 };
@@ -24,7 +24,7 @@ struct Merged {
 // some mm and degrees) each scan is moved onto those before it by iterated closest points over the
 // part that overlaps and is not at a rim (point to plane). Of a later scan the faces are dropped
 // whose three corners and middle lie closer than `overlap` to the earlier ones; the others are
-// added. So each
+// added, with their vertices alone. So each
 // place is shown by the first scan that saw it.
 // What is not done: the error of registration is not spread over all scans (each is moved once),
 // overlapping measurements are not averaged, and the seam is not closed: along it sheets overlap

@@ -72,7 +72,8 @@ tl::expected<Arguments, Fault> Arguments::parse(std::span<const std::string_view
   if (result.operands_.size() < operands.size()) {
     return misused(fmt::format("{} is missing", operands[result.operands_.size()]));
   }
-  if (result.operands_.size() > operands.size()) {
+  const bool takes_more = !operands.empty() && operands.back().ends_with("...");
+  if (result.operands_.size() > operands.size() && !takes_more) {
     return misused(fmt::format("unexpected word \"{}\"", result.operands_[operands.size()]));
   }
   return result;
@@ -103,6 +104,15 @@ tl::expected<std::optional<double>, Fault> Arguments::distance(std::string_view 
   const auto value = parse_number<double>(text(flag));
   if (value && std::isfinite(*value) && *value >= 0) return value;
   return wrong_value(flag, "a number of at least 0, in the model's unit");
+}
+
+tl::expected<std::optional<double>, Fault> Arguments::number_between(std::string_view flag,
+                                                                     double low,
+                                                                     double high) const {
+  if (!has(flag)) return std::nullopt;
+  const auto value = parse_number<double>(text(flag));
+  if (value && *value >= low && *value <= high) return value;
+  return wrong_value(flag, fmt::format("a number from {} to {}", low, high));
 }
 
 tl::expected<std::size_t, Fault> Arguments::choice(

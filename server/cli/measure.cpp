@@ -1,47 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include "codec/import/read_mesh.h"
 #include "codec/mesh/surface_distance.h"
-#include "codec/mesh/unit.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
-#include "server/cli/input.h"
 #include "server/cli/isolation.h"
-#include "server/jobs/open_model.h"
+#include "server/cli/surface_file.h"
 
 namespace vitrine::cli {
 namespace {
 
 using nlohmann::json;
-
-struct Surface {
-  TriangleMesh mesh;
-  std::string unit;  // empty where it is unknown
-};
-
-Expected<Surface> read_surface(const InputFile& file) {
-  if (!file.is_pmesh()) {
-    auto imported = read_mesh(file.bytes());
-    if (!imported) return tl::unexpected(imported.error());
-    return Surface{std::move(imported->mesh), std::move(imported->unit)};
-  }
-  auto refiner = open_model(file.bytes());
-  if (!refiner) return tl::unexpected(refiner.error());
-  const Manifest& manifest = refiner->manifest();
-  const WantLevel finest{static_cast<std::uint32_t>(manifest.levels.size() - 1)};
-  const auto refined = refine(*refiner, finest, chunks_of(manifest, file.bytes()));
-  if (!refined) return tl::unexpected(refined.error());
-  return Surface{refiner->display_mesh(), manifest.unit};
-}
-
-// Only where both units are known: otherwise the numbers are compared as they are.
-void convert(Surface& surface, std::string_view unit) {
-  const auto from = metres_per(surface.unit), to = metres_per(unit);
-  if (!from || !to || *from == *to) return;
-  for (Vec3& p : surface.mesh.positions)
-    p = p * (*from / *to);
-}
 
 // What to know of units before trusting the numbers; empty where they are as good as they look.
 std::string note_on_units(const Surface& a, const Surface& b) {
@@ -86,15 +55,10 @@ Outcome run_measure(const Arguments& arguments) {
   if (!a) return failed(a.error());
   if (!b) return failed(b.error());
 
-  const auto read = [](const InputFile& file, const std::string& name) {
-    return read_surface(file).map_error([&](const Error& error) {
-      return Error{error.code, name + ": " + error.message};
-    });
-  };
   const auto product = isolate("cannot measure", [&](const ProgressReport&) -> Expected<Product> {
-    auto first = read(*a, arguments.operand(0));
+    auto first = read_surface(*a, arguments.operand(0));
     if (!first) return tl::unexpected(first.error());
-    const auto second = read(*b, arguments.operand(1));
+    const auto second = read_surface(*b, arguments.operand(1));
     if (!second) return tl::unexpected(second.error());
     const std::string note = note_on_units(*first, *second);
     convert(*first, second->unit);

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "acquisition/session/open_scanner.h"
-#include "codec/export/write_mesh.h"
-#include "codec/files/atomic_file.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
+#include "server/cli/processing_options.h"
+#include "server/cli/scanned_mesh.h"
 #include "server/cli/stop_signals.h"
 
 namespace vitrine::cli {
@@ -15,28 +15,22 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kRequestFlags[] = {"--steps", "--sampling", "--length", "--exposure",
-                                              "--keep-frames"};
+constexpr std::string_view kRequestFlags[] = {
+    "--steps",          "--exposure",     "--keep-frames",        kStripeFlag.name,
+    kSamplingFlag.name, kLengthFlag.name, kLargestAngleFlag.name, kLargestHoleFlag.name};
 
 tl::expected<ScanRequest, Fault> request_of(const Arguments& arguments,
                                             const ScannerConfig& config) {
-  constexpr std::string_view kSamplings[] = {"adaptive", "paper", "equidistant"};
-  constexpr SamplingMethod kMethods[] = {SamplingMethod::kAdaptive, SamplingMethod::kPaper,
-                                         SamplingMethod::kEquidistant};
-  constexpr std::string_view kLengths[] = {"5", "10", "15", "20"};
   const auto steps = arguments.number("--steps", kLeastSteps, kMostSteps);
   if (!steps) return tl::unexpected(steps.error());
-  const auto sampling = arguments.choice("--sampling", kSamplings);
-  if (!sampling) return tl::unexpected(sampling.error());
-  const auto length = arguments.choice("--length", kLengths);
-  if (!length) return tl::unexpected(length.error());
   const auto exposure =
       arguments.number("--exposure", 1, static_cast<std::uint64_t>(kMostExposure));
   if (!exposure) return tl::unexpected(exposure.error());
+  const auto processing = processing_options(arguments, {});
+  if (!processing) return tl::unexpected(processing.error());
   ScanRequest request;
+  request.processing = *processing;
   request.steps = static_cast<int>(steps->value_or(static_cast<std::uint64_t>(config.steps)));
-  request.processing.sampling.method = kMethods[*sampling];
-  request.processing.sampling.window = 5 * (static_cast<int>(*length) + 1);
   if (*exposure) request.exposure_us = static_cast<double>(**exposure);
   request.keep_frames = arguments.has("--keep-frames");
   return request;
@@ -71,51 +65,16 @@ ScanStatus follow(Scan& scan) {
 
 Outcome unfinished(const Scan& scan, const ScanStatus& status) {
   const auto record = scan.folder().record();
-  if (record && !*record) {  // nothing was measured that --resume could go on with
-    std::error_code ignored;
-    std::filesystem::remove_all(scan.folder().path(), ignored);
-  }
+  // Nothing was measured that --resume could go on with.
+  if (record && !*record) scan.folder().remove();
   if (status.state == ScanState::kFailed) return failed(*status.error);
   return failed(fmt::format("the scan is {} after step {} of {}; {}", name_of(status.state),
                             status.steps_done, status.steps,
                             record && !*record ? "start it again" : "go on with --resume"));
 }
 
-json describe(const Scan& scan, const ScanRecord& record, const std::string& out) {
-  const auto surface = scan.surface();
-  const SurfaceReport& report = surface->report;
-  return {{"out", out},
-          {"steps", record.request.steps},
-          {"camera", record.camera},
-          {"calibration", record.calibration},
-          {"vertices", surface->mesh.positions.size()},
-          {"faces", surface->mesh.faces.size()},
-          {"points",
-           {{"measured", report.points},
-            {"outliers", report.outliers},
-            {"isolated", report.isolated},
-            {"filled", report.filled}}},
-          {"spacing", report.spacing}};
-}
-
-std::string as_text(const json& r) {
-  return fmt::format("{}: {} vertices, {} faces from {} points in {} steps, calibration {}",
-                     r["out"].get<std::string>(), r["vertices"].get<std::uint64_t>(),
-                     r["faces"].get<std::uint64_t>(), r["points"]["measured"].get<std::uint64_t>(),
-                     r["steps"].get<int>(), r["calibration"].get<int>());
-}
-
-Outcome write_surface(const Scan& scan, MeshFormat format, const std::string& out) {
-  const auto file = write_mesh(scan.surface()->mesh, format, "mm");
-  if (!file) return failed(file.error());
-  if (const auto written = write_file_atomically(out, *file); !written)
-    return failed(written.error());
-  return {};
-}
-
 Outcome check_usage(const Arguments& arguments) {
   if (!arguments.has("--config")) return misused("--config is missing; name the scanner's file");
-  if (!arguments.has("-o")) return misused("-o is missing; name the mesh to write");
   for (const std::string_view flag : kRequestFlags) {
     if (arguments.has("--resume") && arguments.has(flag)) {
       return misused(
@@ -128,11 +87,10 @@ Outcome check_usage(const Arguments& arguments) {
 Outcome run_scan(const Arguments& arguments) {
   if (auto right = check_usage(arguments); !right) return right;
   const std::string out = arguments.text("-o"), folder = out + ".scan";
-  const auto format = format_of_extension(std::filesystem::path(out).extension().string());
-  if (!format) return misused("the output's name must end in .ply or that of another mesh format");
+  const auto format = scan_output(out);
+  if (!format) return tl::unexpected(format.error());
   const auto config = read_scanner_config(arguments.text("--config"));
   if (!config) return failed(config.error());
-  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
 
   const StopSignals signals;
   auto scan = open_scan(arguments, *config, folder);
@@ -140,23 +98,27 @@ Outcome run_scan(const Arguments& arguments) {
   if (auto started = (*scan)->resume(); !started) return failed(started.error());
   const ScanStatus status = follow(**scan);
   if (status.state != ScanState::kDone) return unfinished(**scan, status);
-  if (auto written = write_surface(**scan, *format, out); !written) return written;
+  const auto surface = (*scan)->surface();
+  if (auto written = write_scanned(surface->mesh, *format, out); !written) return written;
   const auto record = (*scan)->folder().record();
   if (!record || !*record) return failed("the scan's record is gone; scan again");
-  const json report = describe(**scan, **record, out);
+  const json report = describe_scanned(*surface, **record, (*record)->calibration, out);
   const bool keep = (*record)->request.keep_frames;
+  const ScanFolder rest = (*scan)->folder();
   scan->reset();
-  std::error_code ignored;  // what is left of a scan that is done harms nobody
-  if (!keep) std::filesystem::remove_all(folder, ignored);
-  return arguments.has("--json") ? print_json(report) : print(as_text(report));
+  if (!keep) rest.remove();
+  return arguments.has("--json") ? print_json(report) : print(scanned_as_text(report));
 }
 
 constexpr Flag kScanFlags[] = {
     {"--config", "rig.json", "the scanner; it must be calibrated"},
     {"-o", "OUT.ply", "the mesh to write, in mm"},
     {"--steps", "N", "of one turn of the table (default: the scanner's)"},
-    {"--sampling", "adaptive|paper|equidistant", "of each profile (default adaptive)"},
-    {"--length", "5|10|15|20", "points that become one, about (default 5)"},
+    kStripeFlag,
+    kSamplingFlag,
+    kLengthFlag,
+    kLargestAngleFlag,
+    kLargestHoleFlag,
     {"--exposure", "US", "microseconds (default: the scanner's)"},
     {"--keep-frames", "", "keep OUT.ply.scan with all pictures"},
     {"--resume", "", "go on with the scan in OUT.ply.scan; it is there until it is done"},

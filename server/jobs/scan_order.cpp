@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/scan_order.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -18,7 +18,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kLeastExposure = 1;  // microseconds
-constexpr int kLongestWindow = 1'000;
 constexpr std::size_t kMaxTextBytes = 4096;
 constexpr std::string_view kSamplings[] = {"equidistant", "paper", "adaptive"};
 constexpr std::string_view kPlacements[] = {"midpoint", "pyramid"};
@@ -114,6 +113,17 @@ void read_bits(Fields& fields, const Json& body, int& bits) {
   bits = found->get<int>();
 }
 
+void read_length(Fields& fields, const Json& body, int& length) {
+  const auto found = body.find("length");
+  if (found == body.end()) return;
+  const bool fits =
+      found->is_number_integer() &&
+      std::ranges::find(kSamplingLengths, found->get<std::int64_t>()) != kSamplingLengths.end();
+  if (!fits)
+    return fields.fault("length", fmt::format("one of {}", fmt::join(kSamplingLengths, ", ")));
+  length = found->get<int>();
+}
+
 void read_metadata(Fields& fields, const Json& body, ModelMetadata& metadata, FieldFaults& faults) {
   constexpr std::string_view kKnown[] = {"title", "creator", "rights", "licence"};
   const auto found = body.find("metadata");
@@ -129,7 +139,7 @@ void read_metadata(Fields& fields, const Json& body, ModelMetadata& metadata, Fi
 
 void read_model(Fields& fields, const Json& body, ScanOrder& order, FieldFaults& faults) {
   fields.choice("sampling", kSamplings, order.sampling);
-  fields.whole("length", 1, kLongestWindow, order.length);
+  read_length(fields, body, order.length);
   read_bits(fields, body, order.bits);
   fields.choice("placement", kPlacements, order.placement);
   read_metadata(fields, body, order.metadata, faults);

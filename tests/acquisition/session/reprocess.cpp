@@ -16,7 +16,7 @@ class Reprocess : public ScanTest {
     ASSERT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
     surface_ = scan->surface();
   }
-  Expected<ScannedSurface> again(const ReprocessOptions& options) {
+  Expected<Reprocessed> again(const ReprocessOptions& options) {
     return reprocess(*ScanFolder::open(path()), calibrations_, options);
   }
 
@@ -28,6 +28,7 @@ TEST_F(Reprocess, with_the_same_parameters_the_mesh_is_the_same) {
   const auto surface = again({});
   ASSERT_TRUE(surface);
   EXPECT_EQ(surface->mesh.positions, surface_->mesh.positions);
+  EXPECT_EQ(surface->steps, kSteps);
 }
 
 TEST_F(Reprocess, another_sampling_needs_no_pictures) {
@@ -49,6 +50,41 @@ TEST_F(Reprocess, another_way_to_find_the_stripe_needs_the_pictures) {
   const auto surface = again(other);
   ASSERT_TRUE(surface) << surface.error().message;
   EXPECT_NE(surface->mesh.positions, surface_->mesh.positions);
+}
+
+TEST_F(Reprocess, a_picture_that_is_gone_is_named) {
+  scan_once(true);
+  std::filesystem::remove(path() / "frames/00003-lit.pgm");
+  const auto refused = again({.processing = {.stripe = {.method = StripeMethod::kCentreOfMass}}});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("frames/00003-lit.pgm"));
+}
+
+TEST_F(Reprocess, the_journal_of_a_done_scan_holds_all_steps) {
+  scan_once(false);
+  const auto journal = path() / "profiles";
+  std::filesystem::resize_file(journal, std::filesystem::file_size(journal) / 2);
+  const auto refused = again({});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("of the 12 steps of a scan that is done"));
+}
+
+TEST_F(Reprocess, of_a_cancelled_scan_the_steps_that_there_are_become_a_mesh) {
+  scan_once(false);
+  const auto journal = path() / "profiles";
+  std::filesystem::resize_file(journal, std::filesystem::file_size(journal) / 2);
+  ASSERT_TRUE(ScanFolder::open(path())->write_state({.state = ScanState::kCancelled}));
+  const auto surface = again({});
+  ASSERT_TRUE(surface) << surface.error().message;
+  EXPECT_GT(surface->steps, 0);
+  EXPECT_LT(surface->steps, kSteps);
+}
+
+TEST_F(Reprocess, a_folder_that_has_lost_its_scan_is_refused) {
+  scan_once(false);
+  const auto folder = ScanFolder::open(path());
+  std::filesystem::remove(path() / "scan.json");
+  EXPECT_THAT(reprocess(*folder, calibrations_, {}).error().message, HasSubstr("no scan in"));
 }
 
 TEST_F(Reprocess, another_calibration_moves_the_points) {

@@ -68,6 +68,16 @@ TEST(Merge, TwoPosesOfOneObjectBecomeOneSurface) {
   EXPECT_LT(merged->mesh.faces.size(), top.faces.size() + bottom.faces.size() * 4 / 5);
 }
 
+TEST(Merge, OnlyVerticesOfFacesThatAreAddedAreAddedAndNoColours) {
+  TriangleMesh top = part({}, -.4);
+  top.colours.resize(top.positions.size());
+  const auto merged = merge(std::vector{top, top}, std::vector<RigidMotion>(2));
+  ASSERT_TRUE(merged.has_value()) << merged.error().message;
+  EXPECT_EQ(merged->mesh.faces.size(), top.faces.size());
+  EXPECT_EQ(merged->mesh.positions.size(), top.positions.size());
+  EXPECT_TRUE(merged->mesh.colours.empty());
+}
+
 TEST(Merge, ScansThatDoNotMeetAreRefused) {
   const TriangleMesh top = part({}, .5);
   const auto merged =

@@ -37,6 +37,15 @@ TEST(Arguments, after_two_dashes_all_words_are_operands) {
   EXPECT_EQ(parse({"--json", "--", "--level"})->operand(0), "--level");
 }
 
+TEST(Arguments, of_an_operand_with_dots_there_may_be_more) {
+  constexpr std::string_view kMany[] = {"A", "B..."};
+  const auto taken = [&](const Words& words) { return Arguments::parse(words, kFlags, kMany); };
+  EXPECT_EQ(taken({"1", "--json", "2", "3"})->operands(),
+            (std::vector<std::string>{"1", "2", "3"}));
+  ASSERT_FALSE(taken({"1"}));
+  EXPECT_EQ(taken({"1"}).error().message, "B... is missing");
+}
+
 TEST(Arguments, every_fault_names_the_word) {
   EXPECT_EQ(fault_of({}), "IN is missing");
   EXPECT_EQ(fault_of({"a", "b"}), "unexpected word \"b\"");

@@ -38,8 +38,12 @@ TEST_F(ScannerCommands, wrong_usage_is_exit_code_2) {
       {"scan", "--config", rig, "-o", out, "--length", "6"},
       {"scan", "--config", rig, "-o", out, "--sampling", "best"},
       {"scan", "--config", rig, "-o", out, "--exposure", "0"},
+      {"scan", "--config", rig, "-o", out, "--stripe", "mass"},
+      {"scan", "--config", rig, "-o", out, "--largest-angle", "91"},
+      {"scan", "--config", rig, "-o", out, "--largest-hole", "-1"},
       {"scan", "--config", rig, "-o", out, "--resume", "--steps", "100"},
       {"scan", "--config", rig, "-o", out, "--resume", "--keep-frames"},
+      {"scan", "--config", rig, "-o", out, "--resume", "--stripe", "blais-rioux"},
   };
   for (const auto& words : lines) {
     const ProgramResult result = vitrine(words);
@@ -85,6 +89,14 @@ TEST_F(ScannerCommands, a_scanner_that_is_not_there_leaves_nothing_behind) {
   expect_fault(scan, 1);
   expect_fault(vitrine({"calibrate", "--config", rig}), 1);
   EXPECT_THAT(files(), ElementsAre("rig.json"));
+}
+
+TEST_F(ScannerCommands, what_lay_in_the_scans_folder_stays_there) {
+  std::filesystem::create_directory(path("out.ply.scan"));
+  write("out.ply.scan/notes.txt", "the object's left side");
+  EXPECT_EQ(vitrine({"scan", "--config", config(), "-o", path("out.ply")}).exit_code, 1);
+  EXPECT_EQ(read("out.ply.scan/notes.txt"), "the object's left side");
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply.scan/profiles")));
 }
 
 TEST_F(ScannerCommands, there_is_nothing_to_resume) {

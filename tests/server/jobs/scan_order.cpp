@@ -50,7 +50,7 @@ TEST(ScanOrder, each_fault_names_its_field) {
       {"steps", {7, 36'001, 12.5, "720", nullptr, 1e300}},
       {"exposure", {0, -1, 1e9, "fast"}},
       {"sampling", {"random", 1}},
-      {"length", {0, 1'001, "ten"}},
+      {"length", {0, 1, 6, 25, 10.0, "ten"}},
       {"bits", {9, 17, 12.5, "many"}},
       {"placement", {"anywhere", 2}},
       {"keep_frames", {1, "yes"}},

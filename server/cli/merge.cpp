@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/surface/merge.h"
+
+#include <fmt/format.h>
+
+#include "codec/files/atomic_file.h"
+#include "server/cli/command.h"
+#include "server/cli/console.h"
+#include "server/cli/isolation.h"
+#include "server/cli/scanned_mesh.h"
+#include "server/cli/starts.h"
+#include "server/cli/surface_file.h"
+
+namespace vitrine::cli {
+namespace {
+
+using nlohmann::json;
+
+tl::expected<std::vector<InputFile>, Fault> open_all(const std::vector<std::string>& paths,
+                                                     const std::string& out) {
+  std::vector<InputFile> files;
+  for (const std::string& path : paths) {
+    if (const auto distinct = check_distinct(path, out); !distinct) return failed(distinct.error());
+    auto file = InputFile::open(path);
+    if (!file) return failed(file.error());
+    files.push_back(std::move(*file));
+  }
+  return files;
+}
+
+json describe(const Merged& merged, const std::vector<std::string>& paths) {
+  const auto numbers = [](const Vec3& v) { return json{v.x, v.y, v.z}; };
+  json scans = json::array();
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const auto& [rows, shift] = merged.motions[k];
+    scans.push_back({{"file", paths[k]},
+                     {"rms", merged.rms[k]},
+                     {"rotation", {numbers(rows[0]), numbers(rows[1]), numbers(rows[2])}},
+                     {"shift", numbers(shift)}});
+  }
+  return {{"vertices", merged.mesh.positions.size()},
+          {"faces", merged.mesh.faces.size()},
+          {"scans", std::move(scans)}};
+}
+
+Expected<Product> merge_files(const std::vector<InputFile>& files,
+                              const std::vector<std::string>& paths,
+                              const std::vector<RigidMotion>& starts, const MergeOptions& options,
+                              MeshFormat format) {
+  std::vector<TriangleMesh> scans;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    auto scan = read_surface(files[k], paths[k]);
+    if (!scan) return tl::unexpected(scan.error());
+    convert(*scan, "mm");
+    scans.push_back(std::move(scan->mesh));
+  }
+  const auto merged = merge(scans, starts, options);
+  if (!merged) return tl::unexpected(merged.error());
+  auto file = write_mesh(merged->mesh, format, "mm");
+  if (!file) return tl::unexpected(file.error());
+  return Product{describe(*merged, paths), std::move(*file)};
+}
+
+std::string as_text(const json& r) {
+  std::string text =
+      fmt::format("{}: {} vertices, {} faces", r["out"].get<std::string>(),
+                  r["vertices"].get<std::uint64_t>(), r["faces"].get<std::uint64_t>());
+  for (const json& scan : r["scans"])
+    text += fmt::format("\n{}: rms {:.4f} mm to those before it", scan["file"].get<std::string>(),
+                        scan["rms"].get<double>());
+  return text;
+}
+
+Outcome run_merge(const Arguments& arguments) {
+  constexpr double kLeastOverlap = .001, kMostOverlap = 100;  // mm
+  if (!arguments.has("--starts"))
+    return misused("--starts is missing; name the file that says how the scans lie");
+  const std::string out = arguments.text("-o");
+  const auto format = scan_output(out);
+  if (!format) return tl::unexpected(format.error());
+  const auto overlap = arguments.number_between("--overlap", kLeastOverlap, kMostOverlap);
+  if (!overlap) return tl::unexpected(overlap.error());
+  MergeOptions options;
+  options.overlap = overlap->value_or(options.overlap);
+  const auto starts = read_starts(arguments.text("--starts"));
+  if (!starts) return failed(starts.error());
+  const std::size_t scans = arguments.operands().size();
+  if (starts->size() != scans) {
+    return failed(fmt::format("{} has {} starts for {} scans; give {}, one for each but the first",
+                              arguments.text("--starts"), starts->size() - 1, scans, scans - 1));
+  }
+  const auto files = open_all(arguments.operands(), out);
+  if (!files) return tl::unexpected(files.error());
+
+  auto product = isolate("cannot merge", [&](const ProgressReport&) {
+    return merge_files(*files, arguments.operands(), *starts, options, *format);
+  });
+  if (!product) return tl::unexpected(product.error());
+  if (const auto written = write_file_atomically(out, product->file); !written)
+    return failed(written.error());
+  product->report["out"] = out;
+  return arguments.has("--json") ? print_json(product->report) : print(as_text(product->report));
+}
+
+constexpr std::string_view kMergeOperands[] = {"SCAN", "SCAN..."};
+constexpr Flag kMergeFlags[] = {
+    {"--starts", "FILE.json", "about how each scan but the first has to be moved; see the README"},
+    {"-o", "OUT.ply", "the mesh to write, in mm, where the first scan is"},
+    {"--overlap", "MM", "surfaces closer than this show the same (default 0.5)"},
+    {"--json", "", "print one JSON object"}};
+
+}  // namespace
+
+const Command kMerge = {"merge", "Merges scans of one object that lay in several poses.",
+                        kMergeOperands, kMergeFlags, run_merge};
+
+}  // namespace vitrine::cli

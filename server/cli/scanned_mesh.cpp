@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/scanned_mesh.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "codec/files/atomic_file.h"
+
+namespace vitrine::cli {
+
+using nlohmann::json;
+
+tl::expected<MeshFormat, Fault> scan_output(const std::string& out) {
+  if (out.empty()) return misused("-o is missing; name the mesh to write");
+  const auto format = format_of_extension(std::filesystem::path(out).extension().string());
+  if (!format) return misused("the output's name must end in .ply or that of another mesh format");
+  if (const auto writable = check_writable(out); !writable) return failed(writable.error());
+  return *format;
+}
+
+Outcome write_scanned(const TriangleMesh& mesh, MeshFormat format, const std::string& out) {
+  const auto file = write_mesh(mesh, format, "mm");
+  if (!file) return failed(file.error());
+  if (const auto written = write_file_atomically(out, *file); !written)
+    return failed(written.error());
+  return {};
+}
+
+json describe_scanned(const ScannedSurface& surface, const ScanRecord& record, int calibration,
+                      const std::string& out) {
+  const SurfaceReport& report = surface.report;
+  return {{"out", out},
+          {"steps", record.request.steps},
+          {"camera", record.camera},
+          {"calibration", calibration},
+          {"vertices", surface.mesh.positions.size()},
+          {"faces", surface.mesh.faces.size()},
+          {"points",
+           {{"measured", report.points},
+            {"outliers", report.outliers},
+            {"isolated", report.isolated},
+            {"filled", report.filled}}},
+          {"spacing", report.spacing}};
+}
+
+std::string scanned_as_text(const json& r) {
+  return fmt::format("{}: {} vertices, {} faces from {} points in {} steps, calibration {}",
+                     r["out"].get<std::string>(), r["vertices"].get<std::uint64_t>(),
+                     r["faces"].get<std::uint64_t>(), r["points"]["measured"].get<std::uint64_t>(),
+                     r["steps"].get<int>(), r["calibration"].get<int>());
+}
+
+}  // namespace vitrine::cli

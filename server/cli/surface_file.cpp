@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/surface_file.h"
+
+#include "codec/import/read_mesh.h"
+#include "codec/mesh/unit.h"
+#include "server/jobs/open_model.h"
+
+namespace vitrine::cli {
+namespace {
+
+Expected<Surface> surface_in(const InputFile& file) {
+  if (!file.is_pmesh()) {
+    auto imported = read_mesh(file.bytes());
+    if (!imported) return tl::unexpected(imported.error());
+    return Surface{std::move(imported->mesh), std::move(imported->unit)};
+  }
+  auto refiner = open_model(file.bytes());
+  if (!refiner) return tl::unexpected(refiner.error());
+  const Manifest& manifest = refiner->manifest();
+  const WantLevel finest{static_cast<std::uint32_t>(manifest.levels.size() - 1)};
+  const auto refined = refine(*refiner, finest, chunks_of(manifest, file.bytes()));
+  if (!refined) return tl::unexpected(refined.error());
+  return Surface{refiner->display_mesh(), manifest.unit};
+}
+
+}  // namespace
+
+Expected<Surface> read_surface(const InputFile& file, const std::string& name) {
+  return surface_in(file).map_error([&](const Error& error) {
+    return Error{error.code, name + ": " + error.message};
+  });
+}
+
+void convert(Surface& surface, std::string_view unit) {
+  const auto from = metres_per(surface.unit), to = metres_per(unit);
+  if (!from || !to || *from == *to) return;
+  for (Vec3& p : surface.mesh.positions)
+    p = p * (*from / *to);
+}
+
+}  // namespace vitrine::cli

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+// The vertices of a bumpy PLY turned over about x and shifted by 2 along y.
+std::string turned_over(const std::string& ply) {
+  const std::size_t header = ply.find("end_header\n") + 11;
+  std::istringstream in(ply.substr(header));
+  std::ostringstream out;
+  out.precision(9);
+  out << ply.substr(0, header);
+  for (std::string line; std::getline(in, line);) {
+    double x = 0, y = 0, z = 0;
+    std::istringstream words(line);
+    const bool is_vertex = line.find('.') != std::string::npos && words >> x >> y >> z;
+    if (is_vertex) {
+      out << x << " " << 2 - y << " " << -z << "\n";
+    } else {
+      out << line << "\n";
+    }
+  }
+  return out.str();
+}
+
+class Merge : public VitrineCommand {
+ protected:
+  Merge() {
+    const std::string ply = bumpy_ply(3'000);
+    write("a.ply", ply), write("b.ply", turned_over(ply));
+  }
+
+  // By hand: 2 degrees and 0.1 mm off.
+  std::vector<std::string> words(const std::string& start =
+                                     R"({"axis": {"x": 1}, "degrees": -178,
+                                         "shift": {"x": 0.1, "y": 2}})") const {
+    const std::string starts = write("starts.json", R"({"starts": [)" + start + "]}");
+    return {"merge",     path("a.ply"), path("b.ply"), "--starts",     starts,
+            "--overlap", "0.1",         "-o",          path("out.ply")};
+  }
+};
+
+TEST_F(Merge, a_scan_of_the_object_in_another_pose_is_moved_onto_the_first) {
+  const json merged = vitrine_json(words());
+  EXPECT_EQ(merged["faces"], 2'888);  // of the second all is shown already
+  ASSERT_EQ(merged["scans"].size(), 2u);
+  EXPECT_EQ(merged["scans"][1]["file"], path("b.ply"));
+  EXPECT_LT(merged["scans"][1]["rms"].get<double>(), 1e-3);
+  EXPECT_NEAR(merged["scans"][1]["shift"][1].get<double>(), 2, 1e-3);
+  EXPECT_NEAR(merged["scans"][1]["rotation"][1][1].get<double>(), -1, 1e-3);
+  const ProgramResult said = vitrine(words());
+  EXPECT_THAT(said.output, HasSubstr("b.ply: rms 0.000"));
+  EXPECT_LT(vitrine_json({"measure", path("out.ply"), path("a.ply")})["rms"].get<double>(), 1e-3);
+}
+
+TEST_F(Merge, a_start_that_is_far_off_is_refused_and_nothing_is_written) {
+  const ProgramResult result = vitrine(words(R"({"shift": {"x": 500}})"));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.errors, HasSubstr("scan 2 overlaps"));
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+}
+
+TEST_F(Merge, each_scan_but_the_first_needs_a_start) {
+  const ProgramResult result = vitrine(words("{}, {}"));
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, HasSubstr("starts.json has 2 starts for 2 scans; give 1"));
+}
+
+TEST_F(Merge, wrong_usage_is_told_and_no_input_is_replaced) {
+  auto line = words();
+  line.back() = path("b.ply");
+  const std::string before = read("b.ply");
+  expect_fault(vitrine(line), 1);
+  EXPECT_EQ(read("b.ply"), before);
+  line.back() = path("out.xyz");
+  EXPECT_EQ(vitrine(line).exit_code, 2);
+  EXPECT_EQ(vitrine({"merge", path("a.ply"), "--starts", "s", "-o", path("out.ply")}).exit_code, 2);
+  EXPECT_EQ(vitrine({"merge", path("a.ply"), path("b.ply"), "-o", path("out.ply")}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace vitrine::test
