@@ -74,7 +74,7 @@ Expected<void> Scan::resume() {
     if (is_running(status_.state)) return not_now("start", status_.state);
     if (status_.state == ScanState::kCancelled) return not_now("resume", status_.state);
     wish_ = Wish::kRun;
-    stop_.release();
+    stop_.release(stop_.presses());
     status_.error.reset();
     surface_.reset();
     enter(ScanState::kChecking);

@@ -36,6 +36,11 @@ JobWish JobRun::wish() const {
   return wish_;
 }
 
+std::uint64_t JobRun::stops_known() const {
+  const std::scoped_lock lock(mutex_);
+  return stops_known_;
+}
+
 void JobRun::when_asked(std::function<void()> react) {
   const std::scoped_lock lock(mutex_);
   react_ = std::move(react);
@@ -76,7 +81,7 @@ Expected<void> JobQueue::start() {
   if (!left) return Unexpected(left.error());
   const std::scoped_lock lock(mutex_);
   for (const JobRecord& job : *left)
-    take_up(job);
+    take_up(job, 0);
   return {};
 }
 
@@ -93,8 +98,9 @@ void JobQueue::stop() {
     lane->finish();
 }
 
-void JobQueue::take_up(const JobRecord& job) {
+void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   const Run run = std::make_shared<JobRun>(job);
+  run->stops_known_ = stops;
   // Not at every step: each change of the catalogue makes visitors' caches ask anew.
   run->entered_stage_ = [this](const JobRecord& now) { store(now); };
   runs_[job.id] = run;
@@ -107,7 +113,7 @@ void JobQueue::post(const Run& run) {
 }
 
 Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<ScanEntry>& scan,
-                                  const std::optional<OnceKey>& once) {
+                                  const std::optional<OnceKey>& once, std::uint64_t stops) {
   const std::scoped_lock lock(mutex_);
   if (once) {
     const auto earlier = catalogue_.find_once(once->key);
@@ -127,7 +133,7 @@ Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<Scan
     if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
   }
   if (auto added = catalogue_.add(job, scan, once); !added) return Unexpected(added.error());
-  take_up(job);
+  take_up(job, stops);
   return job;
 }
 
@@ -198,13 +204,17 @@ Expected<JobStatus> JobQueue::pause(const JobId& id) {
   return (*run)->status();
 }
 
-Expected<JobStatus> JobQueue::resume(const JobId& id) {
+Expected<JobStatus> JobQueue::resume(const JobId& id, std::uint64_t stops) {
   const std::scoped_lock lock(mutex_);
   const auto run = unfinished(id);
   if (!run) return Unexpected(run.error());
   const JobRecord job = (*run)->job();
   if (job.state != JobState::kPaused) return not_now(job, "is not paused");
   if (stopping_) return stopping();
+  {
+    const std::scoped_lock inner((*run)->mutex_);
+    (*run)->stops_known_ = stops;
+  }
   post(*run);
   return (*run)->status();
 }

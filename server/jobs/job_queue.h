@@ -41,6 +41,8 @@ class JobRun {
   JobStatus status() const;  // also once it has ended
   JobRecord job() const { return status().record; }
   JobWish wish() const;
+  // Of its scanner's emergency stops, how many whoever handed it in knew of.
+  std::uint64_t stops_known() const;
 
   // `react` is called, by another thread, when a wish comes; at once, where one has come already.
   // Replaces the one before; {} takes it away, and it is not being called any more on return.
@@ -57,6 +59,7 @@ class JobRun {
   mutable std::mutex mutex_;  // guards what follows
   JobStatus status_;
   JobWish wish_ = JobWish::kNone;
+  std::uint64_t stops_known_ = 0;
   std::function<void()> react_;
 
   std::function<void(const JobRecord&)> entered_stage_;  // set once, before the task starts
@@ -78,12 +81,12 @@ class JobQueue {
   void stop();
 
   // kState where the scanner is busy; kBadInput where the key was used with another request, and
-  // with the same one the job of then is the result.
+  // with the same one the job of then is the result. `stops`: JobRun::stops_known().
   Expected<JobRecord> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
-                          const std::optional<OnceKey>& once);
+                          const std::optional<OnceKey>& once, std::uint64_t stops = 0);
 
   Expected<JobStatus> pause(const JobId& id);
-  Expected<JobStatus> resume(const JobId& id);
+  Expected<JobStatus> resume(const JobId& id, std::uint64_t stops = 0);
   Expected<JobStatus> cancel(const JobId& id);
 
   // Nothing where there is no such job.
@@ -110,7 +113,7 @@ class JobQueue {
   Expected<void> check_free(const std::string& scanner) const;
   Expected<Run> unfinished(const JobId& id) const;
   Run run_of(const std::string& scanner) const;
-  void take_up(const JobRecord& job);
+  void take_up(const JobRecord& job, std::uint64_t stops);
   void post(const Run& run);
   void set_state(const Run& run, JobState state);
   Lane& lane_of(const std::string& name);

@@ -155,22 +155,21 @@ Expected<Frame> ScanService::picture(ScannerStation& scanner) {
 
 Expected<JobRecord> ScanService::calibrate(ScannerStation& scanner,
                                            const std::optional<OnceKey>& once) {
-  scanner.backend().allow();
-  return queue_.add(new_job(JobKind::kCalibrate, scanner.name()), std::nullopt, once);
+  return queue_.add(new_job(JobKind::kCalibrate, scanner.name()), std::nullopt, once,
+                    scanner.backend().stops());
 }
 
 Expected<ScanStarted> ScanService::add(JobRecord job, ScanEntry scan,
                                        const std::optional<OnceKey>& once) {
   job.scan = scan.id;
   scan.job = job.id;
-  const auto added = queue_.add(job, scan, once);
+  const auto added = queue_.add(job, scan, once, stops_of(job.scanner));
   if (!added) return Unexpected(added.error());
   return ScanStarted{added->scan.value_or(scan.id), added->id};
 }
 
 Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
                                         const std::optional<OnceKey>& once) {
-  if (ScannerStation* station = scanner(order.scanner)) station->backend().allow();
   return add(new_job(JobKind::kScan, order.scanner), new_scan(order), once);
 }
 
@@ -193,13 +192,12 @@ Expected<void> ScanService::pause(const ScanEntry& scan) {
 Expected<void> ScanService::resume(const ScanEntry& scan) {
   const auto job = queue_.find(scan.job);
   if (!job) return Unexpected(job.error());
-  if (ScannerStation* station = scanner(scan.scanner)) station->backend().allow();
   const bool failed = *job && (*job)->record.state == JobState::kFailed;
   if (failed && (*job)->record.kind == JobKind::kScan) {
     const auto added = add(new_job(JobKind::kScan, scan.scanner), scan, std::nullopt);
     return added ? Expected<void>{} : Unexpected(added.error());
   }
-  const auto resumed = queue_.resume(scan.job);
+  const auto resumed = queue_.resume(scan.job, stops_of(scan.scanner));
   return resumed ? Expected<void>{} : Unexpected(resumed.error());
 }
 
@@ -258,6 +256,11 @@ std::filesystem::path ScanService::folder_of(const ScanId& id) const {
   return means_.data / "scans" / id.to_string();
 }
 
+std::uint64_t ScanService::stops_of(const std::string& name) {
+  ScannerStation* station = scanner(name);
+  return station == nullptr ? 0 : station->backend().stops();
+}
+
 void ScanService::keep(const ScanEntry& entry) {
   const auto kept = means_.jobs.update(entry);
   if (!kept) means_.events.event(Severity::kError, kept.error().message);
@@ -271,15 +274,9 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
                 fmt::format("there is no scanner {}; name its rig.json in the setting scanners",
                             job.scanner));
   }
-  switch (job.kind) {
-    case JobKind::kScan:
-      return work_on_scan(run, *station);
-    case JobKind::kReprocess:
-      return reprocess(run, *station);
-    case JobKind::kCalibrate:
-      return calibrate(run, *station);
-  }
-  return JobEnd::kDone;
+  if (job.kind == JobKind::kReprocess) return reprocess(run, *station);
+  station->backend().allow(run.stops_known());
+  return job.kind == JobKind::kScan ? work_on_scan(run, *station) : calibrate(run, *station);
 }
 
 Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {

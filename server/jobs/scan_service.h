@@ -85,6 +85,7 @@ class ScanService {
   Expected<JobEnd> calibrate(JobRun& run, ScannerStation& station);
   Expected<JobEnd> make_model(JobRun& run, const ScanOrder& order, const TriangleMesh& mesh);
   std::filesystem::path folder_of(const ScanId& id) const;
+  std::uint64_t stops_of(const std::string& name);  // of that scanner so far
   Expected<ScanInfo> with_job(ScanEntry entry);
   void keep(const ScanEntry& entry);
   Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);

@@ -71,6 +71,7 @@ class ScannerBackend {
   virtual Expected<ScannerIdentity> identify() = 0;
   virtual Expected<void> jog(double degrees) = 0;  // from where the table stands
   virtual Expected<void> laser(bool on) = 0;
+  // By the camera alone: also after an emergency stop.
   virtual Expected<Frame> picture() = 0;
 
   // Scans what `folder` does not hold yet, and meshes all of it; nothing where it was interrupted:
@@ -85,9 +86,11 @@ class ScannerBackend {
 
   virtual const std::string& name() const = 0;
 
-  // Laser and motor off at once, and no device is used before allow().
+  // Laser and motor off at once, and the board is not used before allow().
   virtual void emergency_stop() noexcept = 0;
-  virtual void allow() noexcept = 0;
+  virtual std::uint64_t stops() const noexcept = 0;  // how many so far
+  // Takes back the first `stops`: a later one holds.
+  virtual void allow(std::uint64_t stops) noexcept = 0;
 
   // Of a scan that nobody works on.
   virtual Expected<TriangleMesh> mesh_anew(const ScanOrder& order,

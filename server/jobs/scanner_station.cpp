@@ -26,6 +26,7 @@ void ScannerStation::look() {
 }
 
 void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
+  if (!seen && seen.error().code == ErrorCode::kState) return;  // stopped: that is no absence
   const std::scoped_lock lock(mutex_);
   if (seen) identity_ = *seen;
   problem_ = seen ? "" : seen.error().message;
@@ -44,17 +45,23 @@ ScannerStatus ScannerStation::status() {
   return status;
 }
 
-template <class Action>
-auto ScannerStation::command(Action action) -> decltype(action()) {
-  std::promise<decltype(action())> done;
-  backend_.allow();
-  const auto posted = jobs_.post_command(name(), [&] {
-    const auto seen = backend_.identify();
-    remember(seen);
-    done.set_value(seen ? action() : Unexpected(seen.error()));
-  });
+template <class Task>
+auto ScannerStation::in_lane(Task task) -> decltype(task()) {
+  std::promise<decltype(task())> done;
+  const auto posted = jobs_.post_command(name(), [&] { done.set_value(task()); });
   if (!posted) return Unexpected(posted.error());
   return done.get_future().get();
+}
+
+template <class Action>
+auto ScannerStation::command(Action action) -> decltype(action()) {
+  return in_lane([&, stops = backend_.stops()]() -> decltype(action()) {
+    backend_.allow(stops);
+    const auto seen = backend_.identify();
+    remember(seen);
+    if (!seen) return Unexpected(seen.error());
+    return action();
+  });
 }
 
 Expected<void> ScannerStation::jog(double degrees) {
@@ -66,7 +73,7 @@ Expected<void> ScannerStation::laser(bool on) {
 }
 
 Expected<Frame> ScannerStation::picture() {
-  return command([&] { return backend_.picture(); });
+  return in_lane([&] { return backend_.picture(); });
 }
 
 void ScannerStation::stop() {

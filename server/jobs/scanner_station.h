@@ -39,7 +39,7 @@ class ScannerStation {
 
   Expected<void> jog(double degrees);
   Expected<void> laser(bool on);
-  Expected<Frame> picture();
+  Expected<Frame> picture();  // takes no stop back
 
   // Laser and motor off at once, whatever is under way; a job that runs is paused.
   void stop();
@@ -50,6 +50,10 @@ class ScannerStation {
   void close_after_all();
 
  private:
+  // Has `task` done by the scanner's lane, and returns what it returns.
+  template <class Task>
+  auto in_lane(Task task) -> decltype(task());
+  // Does `action` with devices that are open, unless they are stopped between now and then.
   template <class Action>
   auto command(Action action) -> decltype(action());
   void remember(const Expected<ScannerIdentity>& seen);

@@ -112,16 +112,23 @@ Expected<std::optional<std::string>> text_of(const std::filesystem::path& file) 
 }  // namespace
 
 Expected<void> SessionBackend::open() {
+  return open_board().and_then([this] { return open_camera(); });
+}
+
+Expected<void> SessionBackend::open_board() {
   if (stop_.is_pressed()) {
     return fail(ErrorCode::kState,
                 fmt::format("scanner {} was stopped; give it another command", config_.name));
   }
-  if (!board_) {
-    auto board = scanner_.devices.open_board();
-    if (!board) return Unexpected(board.error());
-    board_ = std::move(*board);
-    stop_.guard(board_.get());
-  }
+  if (board_) return {};
+  auto board = scanner_.devices.open_board();
+  if (!board) return Unexpected(board.error());
+  board_ = std::move(*board);
+  stop_.guard(board_.get());
+  return {};
+}
+
+Expected<void> SessionBackend::open_camera() {
   if (camera_) return {};
   auto camera = scanner_.devices.open_camera();
   if (!camera) return Unexpected(camera.error());
@@ -167,7 +174,7 @@ Expected<void> SessionBackend::laser(bool on) {
 }
 
 Expected<Frame> SessionBackend::picture() {
-  return closed_on_error(open().and_then([&] { return camera_->capture(); }));
+  return closed_on_error(open_camera().and_then([&] { return camera_->capture(); }));
 }
 
 Expected<std::shared_ptr<Scan>> SessionBackend::open_scan(const ScanOrder& order,

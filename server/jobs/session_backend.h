@@ -30,7 +30,8 @@ class SessionBackend final : public ScannerBackend {
 
   const std::string& name() const override { return config_.name; }
   void emergency_stop() noexcept override;
-  void allow() noexcept override { stop_.release(); }
+  std::uint64_t stops() const noexcept override { return stop_.presses(); }
+  void allow(std::uint64_t stops) noexcept override { stop_.release(stops); }
   Expected<TriangleMesh> mesh_anew(const ScanOrder& order,
                                    const std::filesystem::path& folder) override;
   Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override;
@@ -40,6 +41,8 @@ class SessionBackend final : public ScannerBackend {
 
  private:
   Expected<void> open();
+  Expected<void> open_board();
+  Expected<void> open_camera();
   // Closes the devices where `result` is an error.
   template <class T>
   Expected<T> closed_on_error(Expected<T> result);

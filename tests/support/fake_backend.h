@@ -22,8 +22,12 @@ namespace vitrine::test {
 struct FakeScanner {
   std::string name = "rig";
   std::function<std::optional<Error>(int step)> before_step;  // may wait
+  std::function<void()> while_opening;                        // may wait
 
-  std::atomic<bool> reachable{true}, stopped{false}, laser{false}, open{false};
+  bool stopped() const { return stops > allowed; }
+
+  std::atomic<bool> reachable{true}, laser{false}, open{false};
+  std::atomic<std::uint64_t> stops{0}, allowed{0};
   std::atomic<int> calls{0}, steps{0}, calibrations{1};
   std::atomic<double> degrees{0};
 };
@@ -62,6 +66,7 @@ class FakeBackend final : public ScannerBackend {
   explicit FakeBackend(FakeScanner& world) : world_(world) {}
 
   Expected<ScannerIdentity> identify() override {
+    if (world_.while_opening) world_.while_opening();
     if (auto ready = use(); !ready) return Unexpected(ready.error());
     ScannerIdentity identity{{"Acme", "C1", "42"}, {"horus", "fake 1.0", "7"}, std::nullopt};
     if (world_.calibrations > 0) identity.calibration = world_.calibrations;
@@ -78,7 +83,7 @@ class FakeBackend final : public ScannerBackend {
     return {};
   }
   Expected<Frame> picture() override {
-    if (auto ready = use(); !ready) return Unexpected(ready.error());
+    if (auto ready = reach(); !ready) return Unexpected(ready.error());
     return Frame{1, 2, {3, 4}};
   }
 
@@ -119,10 +124,13 @@ class FakeBackend final : public ScannerBackend {
   void close() override { world_.open = false; }
   const std::string& name() const override { return world_.name; }
   void emergency_stop() noexcept override {
-    world_.stopped = true;
+    ++world_.stops;
     world_.laser = false;
   }
-  void allow() noexcept override { world_.stopped = false; }
+  std::uint64_t stops() const noexcept override { return world_.stops; }
+  void allow(std::uint64_t stops) noexcept override {
+    world_.allowed = std::max(world_.allowed.load(), stops);
+  }
 
   Expected<TriangleMesh> mesh_anew(const ScanOrder& order, const std::filesystem::path&) override {
     return torus(static_cast<std::uint32_t>(30 + order.length), 20);
@@ -155,9 +163,12 @@ class FakeBackend final : public ScannerBackend {
   };
 
   Expected<void> use() {
+    if (world_.stopped()) return fail(ErrorCode::kState, "stopped; release it");
+    return reach();
+  }
+  Expected<void> reach() {
     ++world_.calls;
-    world_.open = world_.reachable && !world_.stopped;
-    if (world_.stopped) return fail(ErrorCode::kState, "stopped; release it");
+    world_.open = world_.reachable.load();
     if (world_.reachable) return {};
     return fail(ErrorCode::kIo, "camera 42 is gone; check its cable");
   }

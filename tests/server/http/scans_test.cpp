@@ -106,7 +106,7 @@ TEST_F(ScanRoutes, JogLaserAndStopReachTheDevices) {
   const HttpAnswer stopped = post("/scanners/rig/stop");
   EXPECT_EQ(stopped.status, 200);
   EXPECT_EQ(json::parse(stopped.body)["name"], "rig");
-  EXPECT_TRUE(world_.stopped);
+  EXPECT_TRUE(world_.stopped());
   EXPECT_FALSE(world_.laser);
   world_.reachable = false;
   const HttpAnswer lost = post("/scanners/rig/jog", {{"degrees", 1}});

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "server/store/installation.h"
 #include "support/fake_backend.h"
 #include "support/temporary_folder.h"
@@ -183,7 +185,7 @@ TEST_F(Scans, an_emergency_stop_pauses_the_scan_and_nothing_moves_before_it_is_r
   const auto started = begin(order_);
   held.await();
   station().stop();
-  EXPECT_TRUE(world_.stopped);
+  EXPECT_TRUE(world_.stopped());
   EXPECT_FALSE(world_.laser);
   held.open();
   settle();
@@ -192,6 +194,48 @@ TEST_F(Scans, an_emergency_stop_pauses_the_scan_and_nothing_moves_before_it_is_r
   ASSERT_TRUE(service_->resume(info(started.scan).entry));
   settle();
   EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, a_picture_or_a_refused_command_takes_no_emergency_stop_back) {
+  HeldAtStep held(world_, 6);
+  begin(order_);
+  held.await();
+  station().stop();
+  EXPECT_FALSE(service_->scan(order_, {}));
+  EXPECT_FALSE(service_->calibrate(station(), {}));
+  EXPECT_FALSE(station().jog(10));
+  EXPECT_TRUE(world_.stopped());
+  held.open();
+  settle();
+  EXPECT_TRUE(world_.stopped());
+}
+
+TEST_F(Scans, a_stopped_scanner_takes_pictures_and_stays_stopped) {
+  station().stop();
+  EXPECT_TRUE(station().picture());
+  EXPECT_TRUE(world_.stopped());
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
+  EXPECT_TRUE(station().jog(10));
+  EXPECT_FALSE(world_.stopped());
+}
+
+TEST_F(Scans, what_is_ordered_after_a_stop_does_not_let_what_was_stopped_go_on) {
+  settle();
+  std::promise<void> opening, go_on;
+  world_.while_opening = [&] {
+    opening.set_value();
+    go_on.get_future().wait();
+    world_.while_opening = {};
+  };
+  auto jog = std::async(std::launch::async, [this] { return station().jog(10); });
+  opening.get_future().wait();
+  station().stop();
+  begin(order_);
+  go_on.set_value();
+  EXPECT_FALSE(jog.get());
+  EXPECT_EQ(world_.degrees, 0);
+  settle();
   EXPECT_EQ(world_.steps, 12);
 }
 
