@@ -179,6 +179,14 @@ std::optional<JobStatus> JobQueue::job_of(const std::string& scanner) const {
   return run ? std::optional(run->status()) : std::nullopt;
 }
 
+std::optional<JobStatus> JobQueue::job_on(const ScanId& scan) const {
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [id, run] : runs_) {
+    if (run->job().scan == scan) return run->status();
+  }
+  return std::nullopt;
+}
+
 void JobQueue::set_state(const Run& run, JobState state) {
   {
     const std::scoped_lock lock(run->mutex_);

@@ -99,6 +99,9 @@ class JobQueue {
   // The unfinished job of a scanner.
   std::optional<JobStatus> job_of(const std::string& scanner) const;
 
+  // An unfinished job on a scan, of whatever kind.
+  std::optional<JobStatus> job_on(const ScanId& scan) const;
+
   // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
   // is done, where it is busy.
   Expected<void> post_command(const std::string& scanner, std::function<void()> command);

@@ -175,13 +175,22 @@ Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
 
 Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOrder& order,
                                              const std::optional<OnceKey>& once) {
-  if (queue_.run(scan.job)) {
-    return fail(ErrorCode::kState,
-                fmt::format("job {} works on the scan; wait for its end", scan.job.to_string()));
-  }
+  if (auto unused = check_unused(scan); !unused) return Unexpected(unused.error());
+  if (scan.step == 0)
+    return fail(ErrorCode::kState, "the scan has no steps to make a model of; resume it first");
   JobRecord job = new_job(JobKind::kReprocess, scan.scanner);
+  job.scan = scan.id;
   job.parameters = to_json_text(order);
-  return add(job, scan, once);
+  const auto added = queue_.add(job, std::nullopt, once);
+  if (!added) return Unexpected(added.error());
+  return ScanStarted{scan.id, added->id};
+}
+
+Expected<void> ScanService::check_unused(const ScanEntry& scan) const {
+  const auto job = queue_.job_on(scan.id);
+  if (!job) return {};
+  return fail(ErrorCode::kState, fmt::format("job {} works on the scan; wait for its end",
+                                             job->record.id.to_string()));
 }
 
 Expected<void> ScanService::pause(const ScanEntry& scan) {
@@ -192,8 +201,8 @@ Expected<void> ScanService::pause(const ScanEntry& scan) {
 Expected<void> ScanService::resume(const ScanEntry& scan) {
   const auto job = queue_.find(scan.job);
   if (!job) return Unexpected(job.error());
-  const bool failed = *job && (*job)->record.state == JobState::kFailed;
-  if (failed && (*job)->record.kind == JobKind::kScan) {
+  if (*job && (*job)->record.state == JobState::kFailed) {
+    if (auto unused = check_unused(scan); !unused) return unused;
     const auto added = add(new_job(JobKind::kScan, scan.scanner), scan, std::nullopt);
     return added ? Expected<void>{} : Unexpected(added.error());
   }

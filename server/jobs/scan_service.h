@@ -18,7 +18,7 @@ namespace vitrine {
 
 struct ScanInfo {
   ScanEntry entry;
-  JobStatus job;  // the newest that works or worked on it
+  JobStatus job;  // the newest that scans or scanned it
 };
 
 struct ScanStarted {
@@ -58,7 +58,7 @@ class ScanService {
 
   // `order.scanner` is that of a station.
   Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<OnceKey>& once);
-  // Another model of a scan that nobody works on.
+  // Another model of a scan that nobody works on and that has steps; its own state stays.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
                                   const std::optional<OnceKey>& once);
   Expected<void> pause(const ScanEntry& scan);
@@ -89,6 +89,7 @@ class ScanService {
   Expected<ScanInfo> with_job(ScanEntry entry);
   void keep(const ScanEntry& entry);
   Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);
+  Expected<void> check_unused(const ScanEntry& scan) const;
 
   const ScanMeans means_;
   std::mutex stopping_;  // one stop() at a time

@@ -158,17 +158,18 @@ TEST_F(Scans, a_cancelled_scan_keeps_its_data_and_can_still_become_a_model) {
   ASSERT_TRUE(service_->jobs().cancel(started.job));
   held.open();
   settle();
-  ScanInfo scan = info(started.scan);
+  const ScanInfo scan = info(started.scan);
   EXPECT_EQ(scan.job.record.state, JobState::kCancelled);
   EXPECT_EQ(scan.entry.step, 3);
   EXPECT_EQ(service_->view(scan.entry).value()->points(), 3 * test::kFakePoints);
   EXPECT_FALSE(service_->resume(scan.entry));
-  ASSERT_TRUE(service_->reprocess(scan.entry, order_, {}));
+  const auto reprocessed = service_->reprocess(scan.entry, order_, {});
+  ASSERT_TRUE(reprocessed);
   service_->jobs().lane("").run([] {});
-  scan = info(started.scan);
-  EXPECT_EQ(scan.job.record.kind, JobKind::kReprocess);
-  EXPECT_EQ(scan.job.record.state, JobState::kDone) << scan.job.record.error;
-  EXPECT_TRUE(scan.entry.model);
+  const JobRecord job = (*service_->jobs().find(reprocessed->job))->record;
+  EXPECT_EQ(job.kind, JobKind::kReprocess);
+  EXPECT_EQ(job.state, JobState::kDone) << job.error;
+  EXPECT_TRUE(info(started.scan).entry.model);
 }
 
 TEST_F(Scans, a_scan_is_not_reprocessed_while_it_grows) {
@@ -293,6 +294,37 @@ TEST_F(Scans, a_scan_that_failed_can_be_gone_on_with_as_a_new_job) {
   EXPECT_NE(scan.entry.job, started.job);
   EXPECT_EQ(scan.job.record.state, JobState::kDone);
   EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, a_scan_that_failed_can_be_gone_on_with_after_it_was_reprocessed) {
+  world_.before_step = [](int step) -> std::optional<Error> {
+    if (step < 3) return std::nullopt;
+    return Error{ErrorCode::kIo, "camera 42 is gone; check its cable"};
+  };
+  const auto started = begin(order_);
+  settle();
+  const auto reprocessed = service_->reprocess(info(started.scan).entry, order_, {});
+  ASSERT_TRUE(reprocessed) << reprocessed.error().message;
+  service_->jobs().lane("").run([] {});
+  EXPECT_EQ((*service_->jobs().find(reprocessed->job))->record.state, JobState::kDone);
+  const ScanInfo scan = info(started.scan);
+  EXPECT_TRUE(scan.entry.model);
+  EXPECT_EQ(scan.job.record.state, JobState::kFailed);
+  EXPECT_EQ(scan.job.record.error, "camera 42 is gone; check its cable");
+  world_.before_step = {};
+  ASSERT_TRUE(service_->resume(scan.entry));
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, of_a_scan_without_a_step_no_model_is_made) {
+  world_.before_step = [](int) { return Error{ErrorCode::kIo, "camera 42 is gone; plug it in"}; };
+  const auto started = begin(order_);
+  settle();
+  EXPECT_EQ(service_->reprocess(info(started.scan).entry, order_, {}).error().code,
+            ErrorCode::kState);
+  EXPECT_EQ(info(started.scan).job.record.error, "camera 42 is gone; plug it in");
 }
 
 TEST_F(Scans, a_calibration_is_a_job_and_its_number_is_seen) {
