@@ -55,7 +55,8 @@ void JobRun::ask(JobWish wish) {
   if (react_ && wish != JobWish::kNone) react_();
 }
 
-void JobRun::report(std::string_view stage, double progress, std::optional<double> eta) {
+void JobRun::report(std::string_view stage, double progress, std::optional<double> eta,
+                    std::string_view note) {
   std::optional<JobRecord> entered;
   {
     const std::scoped_lock lock(mutex_);
@@ -63,6 +64,7 @@ void JobRun::report(std::string_view stage, double progress, std::optional<doubl
     status_.record.stage = stage;
     status_.record.progress = progress;
     status_.eta = eta;
+    status_.note = note;
     if (is_new) entered = status_.record;
   }
   if (entered) entered_stage_(*entered);
@@ -192,6 +194,7 @@ void JobQueue::set_state(const Run& run, JobState state) {
     const std::scoped_lock lock(run->mutex_);
     run->status_.record.state = state;
     run->status_.eta.reset();
+    run->status_.note.clear();
     if (state == JobState::kQueued) run->wish_ = JobWish::kNone;
     if (has_ended(state)) run->status_.record.ended = now_in_milliseconds();
     if (state == JobState::kDone) run->status_.record.progress = 1;
@@ -244,7 +247,7 @@ Expected<std::optional<JobStatus>> JobQueue::find(const JobId& id) {
   const auto stored = catalogue_.find_job(id);
   if (!stored) return Unexpected(stored.error());
   if (!*stored) return std::nullopt;
-  return JobStatus{**stored, std::nullopt};
+  return JobStatus{**stored, std::nullopt, {}};
 }
 
 Expected<std::vector<JobStatus>> JobQueue::list(const PageOf& page) {

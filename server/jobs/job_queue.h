@@ -29,6 +29,7 @@ enum class JobEnd : std::uint8_t { kDone, kPutAside };  // the latter where a wi
 struct JobStatus {
   JobRecord record;
   std::optional<double> eta;  // seconds
+  std::string note;           // what it waits for: a camera that is gone; mostly empty
 
   bool operator==(const JobStatus&) const = default;
 };
@@ -36,7 +37,7 @@ struct JobStatus {
 // A job as its task sees it. Thread-safe.
 class JobRun {
  public:
-  explicit JobRun(JobRecord job) : status_{std::move(job), std::nullopt} {}
+  explicit JobRun(JobRecord job) : status_{std::move(job), std::nullopt, {}} {}
 
   JobStatus status() const;  // also once it has ended
   JobRecord job() const { return status().record; }
@@ -48,8 +49,10 @@ class JobRun {
   // Replaces the one before; {} takes it away, and it is not being called any more on return.
   void when_asked(std::function<void()> react);
 
-  // `stage` in a word; `progress` 0..1 of the whole job; seconds that are left, where known.
-  void report(std::string_view stage, double progress, std::optional<double> eta = {});
+  // `stage` in a word; `progress` 0..1 of the whole job; seconds that are left, where known;
+  // JobStatus::note.
+  void report(std::string_view stage, double progress, std::optional<double> eta = {},
+              std::string_view note = {});
   void made(const ModelId& model);
 
  private:

@@ -83,7 +83,7 @@ class ScanService::Listener final : public ScanListener {
       const std::scoped_lock lock(service_.mutex_);
       service_.live_[entry_.id] = {entry_, view_};
     }
-    run_.report(told.stage, kMeshed * told.progress, told.eta);
+    run_.report(told.stage, kMeshed * told.progress, told.eta, told.note);
     if (calibration_is_new) keep();
   }
 

@@ -41,6 +41,7 @@ struct ScanTold {
   double progress = 0;             // 0..1 of the stages above
   std::optional<double> eta;       // seconds
   int calibration = 0;             // its number; 0: not known yet
+  std::string note;                // what it waits for: a camera that is gone; mostly empty
 };
 
 // Who is told about a scan or a calibration, from the thread that does it, and may put it aside.

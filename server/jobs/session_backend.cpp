@@ -82,7 +82,8 @@ ScanStatus follow(Scan& scan, ScanListener& listener) {
                    .step = status.steps_done,
                    .progress = status.progress,
                    .eta = status.seconds_left,
-                   .calibration = calibration});
+                   .calibration = calibration,
+                   .note = status.note});
     if (!is_under_way(status.state)) return status;
     if (asked || !listener.is_interrupted()) continue;
     // One that meshes by now cannot be paused, and ends by itself.

@@ -26,6 +26,8 @@ struct FakeScanner {
 
   bool stopped() const { return stops > allowed; }
 
+  std::string note;  // told at each step
+
   std::atomic<bool> reachable{true}, laser{false}, open{false};
   std::atomic<std::uint64_t> stops{0}, allowed{0};
   std::atomic<int> calls{0}, steps{0}, calibrations{1};
@@ -99,7 +101,10 @@ class FakeBackend final : public ScannerBackend {
     world_.laser = true;
     const LightsOff off{world_};
     for (; step < order.steps; ++step) {
-      listener.told({.step = step, .progress = 0.9 * step / order.steps, .calibration = 1});
+      listener.told({.step = step,
+                     .progress = 0.9 * step / order.steps,
+                     .calibration = 1,
+                     .note = world_.note});
       if (world_.before_step) {
         if (const auto error = world_.before_step(step)) return Unexpected(*error);
       }

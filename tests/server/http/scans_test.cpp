@@ -188,6 +188,19 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   EXPECT_EQ(get(scan_path(started) + "/points").body.size(), 12 * 10 * 12u);
 }
 
+TEST_F(ScanRoutes, WhatAScanWaitsForIsToldUntilItGoesOn) {
+  world_.note = "camera 42 is gone; check its cable";
+  HeldAtStep held(world_, 5);
+  const json started = begin();
+  held.await();
+  EXPECT_EQ(json::parse(get(scan_path(started)).body)["note"], world_.note);
+  EXPECT_EQ(json::parse(get(job_path(started)).body)["note"], world_.note);
+  held.open();
+  settle();
+  EXPECT_EQ(json::parse(get(scan_path(started)).body)["note"], nullptr);
+  EXPECT_EQ(json::parse(get(job_path(started)).body)["note"], nullptr);
+}
+
 TEST_F(ScanRoutes, APublicScanIsSeenByEverybodyAndBecomesAModel) {
   const json started = begin({{"publish", true}});
   const json other = [&] {
