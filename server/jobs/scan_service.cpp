@@ -285,7 +285,9 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
   }
   if (job.kind == JobKind::kReprocess) return reprocess(run, *station);
   station->backend().allow(run.stops_known());
-  return job.kind == JobKind::kScan ? work_on_scan(run, *station) : calibrate(run, *station);
+  auto end = job.kind == JobKind::kScan ? work_on_scan(run, *station) : calibrate(run, *station);
+  if (run.wish() != JobWish::kStop) station->look();  // what is known of it may have changed
+  return end;
 }
 
 Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
@@ -333,7 +335,6 @@ Expected<JobEnd> ScanService::calibrate(JobRun& run, ScannerStation& station) {
   run.report("calibrating", 0);
   const auto number = station.backend().calibrate(progress);
   if (!number) return Unexpected(number.error());
-  station.look();
   return *number ? JobEnd::kDone : JobEnd::kPutAside;
 }
 

@@ -32,15 +32,31 @@ void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
   problem_ = seen ? "" : seen.error().message;
 }
 
+// It may have been plugged in. One look at a time, and none that a job would have to wait for.
+void ScannerStation::look_again() {
+  if (looking_.exchange(true)) return;
+  const auto posted = jobs_.post_command(name(), [this] {
+    look();
+    looking_ = false;
+  });
+  if (!posted) looking_ = false;
+}
+
 ScannerStatus ScannerStation::status() {
   const auto job = jobs_.job_of(name());
   if (!job && looked_.valid()) looked_.wait_for(kPatience);  // a job may be in front of the look
-  const std::scoped_lock lock(mutex_);
-  ScannerStatus status{.name = name(), .identity = identity_, .problem = problem_};
-  if (!problem_.empty()) status.state = ScannerState::kUnreachable;
+  ScannerStatus status{.name = name()};
+  {
+    const std::scoped_lock lock(mutex_);
+    status.identity = identity_;
+    status.problem = problem_;
+  }
   if (job) {
     status.state = ScannerState::kBusy;
     status.scan = job->record.scan;
+  } else if (!status.problem.empty()) {
+    status.state = ScannerState::kUnreachable;
+    look_again();
   }
   return status;
 }
@@ -58,9 +74,9 @@ auto ScannerStation::command(Action action) -> decltype(action()) {
   return in_lane([&, stops = backend_.stops()]() -> decltype(action()) {
     backend_.allow(stops);
     const auto seen = backend_.identify();
-    remember(seen);
-    if (!seen) return Unexpected(seen.error());
-    return action();
+    auto done = seen ? action() : decltype(action())(Unexpected(seen.error()));
+    remember(done ? seen : Unexpected(done.error()));
+    return done;
   });
 }
 
@@ -73,7 +89,11 @@ Expected<void> ScannerStation::laser(bool on) {
 }
 
 Expected<Frame> ScannerStation::picture() {
-  return in_lane([&] { return backend_.picture(); });
+  return in_lane([&] {
+    auto frame = backend_.picture();
+    if (!frame) remember(Unexpected(frame.error()));
+    return frame;
+  });
 }
 
 void ScannerStation::stop() {

@@ -2,6 +2,7 @@
 // A scanner between its jobs: what is known of it, and the commands that an operator gives by hand.
 #pragma once
 
+#include <atomic>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -35,7 +36,8 @@ class ScannerStation {
   ScannerBackend& backend() { return backend_; }
   const std::string& name() const { return backend_.name(); }
 
-  ScannerStatus status();  // uses no device
+  // Uses no device itself; one that is unreachable is looked for again meanwhile.
+  ScannerStatus status();
 
   Expected<void> jog(double degrees);
   Expected<void> laser(bool on);
@@ -57,10 +59,12 @@ class ScannerStation {
   template <class Action>
   auto command(Action action) -> decltype(action());
   void remember(const Expected<ScannerIdentity>& seen);
+  void look_again();
 
   ScannerBackend& backend_;
   JobQueue& jobs_;
   std::shared_future<void> looked_;  // valid once look_for_it() was called
+  std::atomic<bool> looking_{false};
 
   std::mutex mutex_;  // guards what follows
   std::optional<ScannerIdentity> identity_;

@@ -121,6 +121,8 @@ Expected<void> SessionBackend::open_board() {
     return fail(ErrorCode::kState,
                 fmt::format("scanner {} was stopped; give it another command", config_.name));
   }
+  // One that was stopped, unplugged or switched off by its watchdog since is opened anew.
+  if (board_ && !board_->position()) close();
   if (board_) return {};
   auto board = scanner_.devices.open_board();
   if (!board) return Unexpected(board.error());

@@ -28,7 +28,7 @@ struct FakeScanner {
 
   std::string note;  // told at each step
 
-  std::atomic<bool> reachable{true}, laser{false}, open{false};
+  std::atomic<bool> reachable{true}, jams{false}, laser{false}, open{false};
   std::atomic<std::uint64_t> stops{0}, allowed{0};
   std::atomic<int> calls{0}, steps{0}, calibrations{1};
   std::atomic<double> degrees{0};
@@ -76,6 +76,7 @@ class FakeBackend final : public ScannerBackend {
   }
   Expected<void> jog(double degrees) override {
     if (auto ready = use(); !ready) return ready;
+    if (world_.jams) return fail(ErrorCode::kIo, "the motor is stuck; free the table");
     world_.degrees = world_.degrees + degrees;
     return {};
   }

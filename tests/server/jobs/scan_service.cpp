@@ -127,6 +127,29 @@ TEST_F(Scans, commands_by_hand_reach_the_devices_and_a_lost_one_is_a_problem_unt
   EXPECT_EQ(station().status().problem, "");
 }
 
+TEST_F(Scans, a_scanner_that_is_lost_in_a_job_is_unreachable_until_it_is_back) {
+  HeldAtStep held(world_, 5);
+  const auto started = begin(order_);
+  held.await();
+  world_.reachable = false;
+  held.open();
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kFailed);
+  EXPECT_EQ(station().status().state, ScannerState::kUnreachable);
+  settle();
+  world_.reachable = true;
+  static_cast<void>(station().status());  // whoever asks has it looked for
+  settle();
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
+  EXPECT_EQ(station().status().problem, "");
+}
+
+TEST_F(Scans, a_scanner_that_fails_at_a_command_is_unreachable) {
+  world_.jams = true;
+  EXPECT_FALSE(station().jog(10));
+  EXPECT_EQ(station().status().problem, "the motor is stuck; free the table");
+}
+
 TEST_F(Scans, the_state_of_a_scanner_is_told_without_using_it) {
   static_cast<void>(station().status());
   const int calls = world_.calls;
