@@ -173,7 +173,9 @@ Expected<void> SessionBackend::jog(double degrees) {
 }
 
 Expected<void> SessionBackend::laser(bool on) {
-  return closed_on_error(open().and_then([&] { return board_->laser(on); }));
+  // Off: all of it, so that the watchdog rests.
+  return closed_on_error(
+      open().and_then([&] { return on ? board_->laser(true) : board_->rest(); }));
 }
 
 Expected<Frame> SessionBackend::picture() {

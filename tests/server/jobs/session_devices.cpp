@@ -48,6 +48,14 @@ TEST_F(SessionDevices, TheCommandAfterAStopIsObeyed) {
   EXPECT_TRUE(backend_.jog(10));
 }
 
+TEST_F(SessionDevices, ALaserThatTheWatchdogSwitchedOffCanBeSwitchedOff) {
+  ASSERT_TRUE(backend_.laser(true));
+  lose_board();
+  EXPECT_TRUE(backend_.laser(false));
+  EXPECT_FALSE(world_.laser);
+  EXPECT_EQ(world_.calls["rest"], 1);
+}
+
 TEST_F(SessionDevices, ABoardThatWasPluggedInAgainIsUsed) {
   ASSERT_TRUE(backend_.identify());
   lose_board();
