@@ -98,7 +98,10 @@ Expected<Frame> ScannerStation::picture() {
 
 void ScannerStation::stop() {
   backend_.emergency_stop();  // first of all
-  if (const auto job = jobs_.job_of(name())) static_cast<void>(jobs_.pause(job->record.id));
+  const auto job = jobs_.job_of(name());
+  if (!job) return;
+  const bool can_be_resumed = job->record.kind == JobKind::kScan;
+  static_cast<void>(can_be_resumed ? jobs_.pause(job->record.id) : jobs_.cancel(job->record.id));
 }
 
 void ScannerStation::close_after_all() {

@@ -43,7 +43,8 @@ class ScannerStation {
   Expected<void> laser(bool on);
   Expected<Frame> picture();  // takes no stop back
 
-  // Laser and motor off at once, whatever is under way; a job that runs is paused.
+  // Laser and motor off at once, whatever is under way; a scan is paused, and a
+  // calibration ends.
   void stop();
 
   // By the scanner's lane: who it is now. Closes the devices.

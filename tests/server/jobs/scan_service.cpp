@@ -358,6 +358,19 @@ TEST_F(Scans, a_calibration_is_a_job_and_its_number_is_seen) {
   EXPECT_EQ(station().status().identity->calibration, 2);
 }
 
+TEST_F(Scans, a_calibration_that_is_stopped_ends_and_frees_the_scanner) {
+  HeldAtStep held(world_, 0);
+  const auto job = service_->calibrate(station(), {});
+  ASSERT_TRUE(job);
+  held.await();
+  station().stop();
+  held.open();
+  settle();
+  EXPECT_EQ((*service_->jobs().find(job->id))->record.state, JobState::kCancelled);
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
+  EXPECT_TRUE(service_->calibrate(station(), {}));
+}
+
 TEST_F(Scans, a_job_whose_scanner_is_not_configured_any_more_says_so) {
   HeldAtStep held(world_, 1);
   const auto started = begin(order_);
