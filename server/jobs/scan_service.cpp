@@ -253,7 +253,14 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   }
   ScannerStation* station = scanner(scan.scanner);
   if (station == nullptr || scan.step == 0) return nullptr;
-  auto view = station->backend().view(folder_of(scan.id));
+  const std::filesystem::path folder = folder_of(scan.id);
+  std::error_code unknown;
+  if (!std::filesystem::exists(folder, unknown)) {
+    return fail(ErrorCode::kState, fmt::format("the folder scans/{} of the data is gone; restore "
+                                               "it from a backup, or scan again",
+                                               scan.id.to_string()));
+  }
+  auto view = station->backend().view(folder);
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
   if (views_.size() >= kViews) views_.erase(views_.begin());

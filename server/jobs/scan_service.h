@@ -69,7 +69,7 @@ class ScanService {
   Expected<std::vector<ScanInfo>> list(const PageOf& page);
   static Expected<ScanOrder> order_of(const ScanEntry& scan);
 
-  // Null where nothing is to be seen yet.
+  // Null where nothing is to be seen yet; kState where the scan's folder is gone.
   Expected<std::shared_ptr<const ScanView>> view(const ScanEntry& scan);
 
  private:

@@ -57,6 +57,7 @@ class ScanListener {
 
 struct CalibrationSummary {
   int number = 0;
+  std::string problem;  // why it cannot be used, and there is nothing below; mostly empty
   std::string created, camera;
   SensorRegion region;
   double rms = 0, p95 = 0, max = 0;  // mm, over held-out poses

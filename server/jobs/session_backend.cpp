@@ -93,6 +93,7 @@ ScanStatus follow(Scan& scan, ScanListener& listener) {
 
 CalibrationSummary summary_of(const Calibration& calibration) {
   return {.number = calibration.number,
+          .problem = {},
           .created = calibration.created,
           .camera = calibration.camera,
           .region = calibration.region,
@@ -284,8 +285,8 @@ Expected<std::vector<CalibrationSummary>> SessionBackend::calibrations() {
   std::vector<CalibrationSummary> all;
   for (auto number = numbers->rbegin(); number != numbers->rend(); ++number) {
     const auto calibration = store.load(*number);
-    if (!calibration) return Unexpected(calibration.error());
-    all.push_back(summary_of(*calibration));
+    all.push_back(calibration ? summary_of(*calibration)
+                              : CalibrationSummary{*number, calibration.error().message});
   }
   return all;
 }

@@ -30,7 +30,7 @@ struct FakeScanner {
 
   std::atomic<bool> reachable{true}, jams{false}, laser{false}, open{false};
   std::atomic<std::uint64_t> stops{0}, allowed{0};
-  std::atomic<int> calls{0}, steps{0}, calibrations{1};
+  std::atomic<int> calls{0}, steps{0}, calibrations{1}, damaged{0};
   std::atomic<double> degrees{0};
 };
 
@@ -149,8 +149,9 @@ class FakeBackend final : public ScannerBackend {
   }
   Expected<std::vector<CalibrationSummary>> calibrations() override {
     std::vector<CalibrationSummary> all;
+    if (world_.damaged > 0) all.push_back({world_.damaged, "0009.json is cut short; remove it"});
     for (int i = world_.calibrations; i > 0; --i)
-      all.push_back({i, "2026-11-23T08:00:00Z", "42", {0, 0, 64, 48}, 0.02, 0.04, 0.06, 0.8});
+      all.push_back({i, "", "2026-11-23T08:00:00Z", "42", {0, 0, 64, 48}, 0.02, 0.04, 0.06, 0.8});
     return all;
   }
   Expected<std::optional<std::string>> calibration_report(int number) override {

@@ -175,12 +175,22 @@ TEST(CalibrationStore, NamesTheDamagedFile) {
   const CalibrationStore store(folder.path());
   ASSERT_TRUE(store.add(example()));
   write(folder.path() / "0002.json", "{");
-  EXPECT_THAT(message(store.for_camera("CAM-1", kRegion)), HasSubstr("0002.json is no whole"));
+  EXPECT_THAT(message(store.for_camera("CAM-9", kRegion)), HasSubstr("0002.json is no whole"));
   write(folder.path() / "0003.json", std::string((1 << 20) + 1, ' '));
   EXPECT_THAT(message(store.load(3)), HasSubstr("0003.json is too large"));
   write(folder.path() / "0004.json", to_json(example()));
   EXPECT_THAT(message(store.load(4)), HasSubstr("0004.json holds calibration 7: it was renamed"));
   EXPECT_THAT(message(store.load(5)), HasSubstr("cannot read"));
+}
+
+TEST(CalibrationStore, TheNewestWholeOneIsTakenWhereANewerOneIsDamaged) {
+  const TemporaryFolder folder;
+  const CalibrationStore store(folder.path());
+  ASSERT_TRUE(store.add(example()));
+  write(folder.path() / "0002.json", "{");
+  const auto found = store.for_camera("CAM-1", kRegion);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->number, 1);
 }
 
 TEST(CalibrationStore, DoesNotKeepWhatItCouldNotReadAgain) {

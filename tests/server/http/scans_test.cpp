@@ -157,6 +157,24 @@ TEST_F(ScanRoutes, CalibrationsAreListedShownAndMadeByAJob) {
             "image/svg+xml");
 }
 
+TEST_F(ScanRoutes, ADamagedCalibrationIsNamedBesideTheOthers) {
+  world_.damaged = 9;
+  const json answer = json::parse(get("/scanners/rig/calibrations").body);
+  EXPECT_EQ(answer["calibrations"].size(), 1u);
+  EXPECT_EQ(answer["damaged"],
+            json::parse(R"([{"number":9,"problem":"0009.json is cut short; remove it"}])"));
+}
+
+TEST_F(ScanRoutes, PointsWhoseFolderIsGoneAreAConflictThatNamesIt) {
+  const json started = begin();
+  settle();
+  std::filesystem::remove_all(server_.data() / "scans");
+  const HttpAnswer answer = get(scan_path(started) + "/points");
+  EXPECT_EQ(answer.status, 409);
+  EXPECT_NE(answer.body.find("scans/" + started["id"].get<std::string>()), std::string::npos);
+  EXPECT_EQ(get(scan_path(started) + "/profile").status, 409);
+}
+
 TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   HeldAtStep held(world_, 5);
   const json started = begin({{"metadata", {{"title", "A ring"}}}});
