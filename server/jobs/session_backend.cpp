@@ -8,10 +8,10 @@
 
 #include "acquisition/calibration/calibrate.h"
 #include "acquisition/calibration/calibration_store.h"
+#include "acquisition/calibration/keep_calibration.h"
 #include "acquisition/session/reprocess.h"
 #include "acquisition/session/rig_link.h"
 #include "acquisition/session/target_pictures.h"
-#include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
 
 namespace vitrine {
@@ -19,10 +19,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{100};  // how often a scan is asked how far it is
 constexpr std::uint64_t kMaxReport = 16 << 20;   // bytes
-
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 Processing processing_of(const ScanOrder& order) {
   constexpr SamplingMethod kMethods[] = {SamplingMethod::kEquidistant, SamplingMethod::kPaper,
@@ -245,20 +241,8 @@ Expected<std::optional<int>> SessionBackend::calibrate(ScanListener& listener) {
   if (!restored) return Unexpected(restored.error());
   const auto calibrated = vitrine::calibrate(*pictures, {});
   if (!calibrated) return Unexpected(calibrated.error());
-  return keep(*calibrated);
-}
-
-Expected<std::optional<int>> SessionBackend::keep(const Calibrated& calibrated) {
-  const auto stored = CalibrationStore(config_.calibrations).add(calibrated.calibration);
+  const auto stored = keep_calibration(config_.calibrations, *calibrated);
   if (!stored) return Unexpected(stored.error());
-  const std::pair<const char*, std::string> reports[] = {
-      {".report.json", report_json(*stored, calibrated.report)},
-      {".svg", vitrine::residual_plot(*stored, calibrated.report)}};
-  for (const auto& [ending, text] : reports) {
-    const auto file = calibration_file(stored->number, ending);
-    if (auto written = write_file_atomically(file, bytes_of(text)); !written)
-      return Unexpected(written.error());
-  }
   return stored->number;
 }
 
@@ -291,19 +275,15 @@ Expected<std::vector<CalibrationSummary>> SessionBackend::calibrations() {
   return all;
 }
 
-std::filesystem::path SessionBackend::calibration_file(int number, const char* ending) const {
-  return config_.calibrations / fmt::format("{:04}{}", number, ending);
-}
-
 // One that was made elsewhere may have no report: then it is itself what is known of it.
 Expected<std::optional<std::string>> SessionBackend::calibration_report(int number) {
-  auto report = text_of(calibration_file(number, ".report.json"));
+  auto report = text_of(report_file(config_.calibrations, number));
   if (!report || *report) return report;
-  return text_of(calibration_file(number, ".json"));
+  return text_of(config_.calibrations / fmt::format("{:04}.json", number));
 }
 
 Expected<std::optional<std::string>> SessionBackend::residual_plot(int number) {
-  return text_of(calibration_file(number, ".svg"));
+  return text_of(residuals_file(config_.calibrations, number));
 }
 
 }  // namespace vitrine

@@ -4,7 +4,6 @@
 
 #include <mutex>
 
-#include "acquisition/calibration/report.h"
 #include "acquisition/session/emergency_stop.h"
 #include "acquisition/session/scan.h"
 #include "acquisition/session/scanner_config.h"
@@ -48,9 +47,7 @@ class SessionBackend final : public ScannerBackend {
   Expected<T> closed_on_error(Expected<T> result);
   Expected<std::shared_ptr<Scan>> open_scan(const ScanOrder& order,
                                             const std::filesystem::path& folder);
-  Expected<std::optional<int>> keep(const Calibrated& calibrated);
   void drive(const std::shared_ptr<Scan>& scan);
-  std::filesystem::path calibration_file(int number, const char* ending) const;
 
   const ScannerConfig config_;
   const Scanner scanner_;
