@@ -10,8 +10,8 @@ namespace vitrine {
 namespace {
 
 Expected<void> write_text(const std::filesystem::path& file, const std::string& text) {
-  return write_file_atomically(
-      file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return write_file_atomically(file,
+                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 }  // namespace

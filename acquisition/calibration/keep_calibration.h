@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A calibration with what is known of it: NNNN.json, NNNN.report.json and, of the residuals, NNNN.svg.
+// A calibration with what is known of it: NNNN.json, NNNN.report.json and, of the residuals,
+// NNNN.svg.
 #pragma once
 
 #include <filesystem>

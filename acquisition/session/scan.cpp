@@ -50,6 +50,7 @@ Expected<std::unique_ptr<Scan>> Scan::reopen(Scanner scanner, const std::filesys
   scan->status_.state = stored.state;
   scan->status_.error = stored.error;
   scan->status_.steps_done = static_cast<int>(profiles->size());
+  scan->status_.progress = kScanningShare * scan->status_.steps_done / scan->status_.steps;
   return scan;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "server/jobs/clock.h"
@@ -62,7 +63,7 @@ void JobRun::report(std::string_view stage, double progress, std::optional<doubl
     const std::scoped_lock lock(mutex_);
     const bool is_new = status_.record.stage != stage;
     status_.record.stage = stage;
-    status_.record.progress = progress;
+    status_.record.progress = std::max(status_.record.progress, progress);
     status_.eta = eta;
     status_.note = note;
     if (is_new) entered = status_.record;

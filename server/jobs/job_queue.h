@@ -49,8 +49,8 @@ class JobRun {
   // Replaces the one before; {} takes it away, and it is not being called any more on return.
   void when_asked(std::function<void()> react);
 
-  // `stage` in a word; `progress` 0..1 of the whole job; seconds that are left, where known;
-  // JobStatus::note.
+  // `stage` in a word; `progress` 0..1 of the whole job, which never goes back; seconds that are
+  // left, where known; JobStatus::note.
   void report(std::string_view stage, double progress, std::optional<double> eta = {},
               std::string_view note = {});
   void made(const ModelId& model);

@@ -117,9 +117,37 @@ Expected<void> ScanService::start() {
                 fmt::format("cannot make the folder {}: {}; check its owner and mode",
                             scans.string(), error.message()));
   }
+  if (auto recalled = recall(); !recalled) return recalled;
   for (const auto& station : stations_)
     station->look_for_it();
   return queue_.start();
+}
+
+// The catalogue is told of a few steps only: how far scans really were when a daemon died, their
+// folders know.
+Expected<void> ScanService::recall() {
+  const auto left = means_.jobs.unfinished_jobs();
+  if (!left) return Unexpected(left.error());
+  for (const JobRecord& job : *left) {
+    if (job.kind == JobKind::kScan && job.scan) recall(job);
+  }
+  return {};
+}
+
+// What cannot be read is the job's own business.
+void ScanService::recall(JobRecord job) {
+  ScannerStation* station = scanner(job.scanner);
+  auto entry = means_.jobs.find_scan(*job.scan);
+  if (station == nullptr || !entry || !*entry) return;
+  const auto view = station->backend().view(folder_of(*job.scan));
+  if (!view || *view == nullptr) return;
+  const ScanTold told = (*view)->told();
+  (*entry)->step = std::max((*entry)->step, told.step);
+  (*entry)->points = (*view)->points();
+  keep(**entry);
+  job.progress = std::max(job.progress, kMeshed * told.progress);
+  if (auto kept = means_.jobs.update(job); !kept)
+    means_.events.event(Severity::kError, kept.error().message);
 }
 
 void ScanService::stop() {
@@ -203,7 +231,9 @@ Expected<void> ScanService::resume(const ScanEntry& scan) {
   if (!job) return Unexpected(job.error());
   if (*job && (*job)->record.state == JobState::kFailed) {
     if (auto unused = check_unused(scan); !unused) return unused;
-    const auto added = add(new_job(JobKind::kScan, scan.scanner), scan, std::nullopt);
+    JobRecord next = new_job(JobKind::kScan, scan.scanner);
+    next.progress = (*job)->record.progress;
+    const auto added = add(next, scan, std::nullopt);
     return added ? Expected<void>{} : Unexpected(added.error());
   }
   const auto resumed = queue_.resume(scan.job, stops_of(scan.scanner));

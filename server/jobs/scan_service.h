@@ -88,6 +88,8 @@ class ScanService {
   std::uint64_t stops_of(const std::string& name);  // of that scanner so far
   Expected<ScanInfo> with_job(ScanEntry entry);
   void keep(const ScanEntry& entry);
+  Expected<void> recall();
+  void recall(JobRecord job);
   Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);
   Expected<void> check_unused(const ScanEntry& scan) const;
 

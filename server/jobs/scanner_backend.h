@@ -23,18 +23,6 @@ struct ScannerIdentity {
   std::optional<int> calibration;  // the newest that fits the camera; nothing: there is none
 };
 
-// What is to be seen of a scan while it grows and afterwards. Thread-safe; nobody waits for long.
-class ScanView {
- public:
-  virtual ~ScanView() = default;
-
-  virtual std::shared_ptr<const Frame> frame() const = 0;  // the latest, laser on; may be null
-  virtual std::vector<std::array<double, 2>> profile() const = 0;  // the latest: rho, z in mm
-  virtual std::size_t points() const = 0;
-  // mm, z upwards, in the order in which they came, from number `first` on. Grows only.
-  virtual std::vector<std::array<float, 3>> points_from(std::size_t first) const = 0;
-};
-
 struct ScanTold {
   const char* stage = "scanning";  // or "meshing"
   int step = 0;                    // done so far
@@ -42,6 +30,19 @@ struct ScanTold {
   std::optional<double> eta;       // seconds
   int calibration = 0;             // its number; 0: not known yet
   std::string note;                // what it waits for: a camera that is gone; mostly empty
+};
+
+// What is to be seen of a scan while it grows and afterwards. Thread-safe; nobody waits for long.
+class ScanView {
+ public:
+  virtual ~ScanView() = default;
+
+  virtual std::shared_ptr<const Frame> frame() const = 0;  // the latest, laser on; may be null
+  virtual std::vector<std::array<double, 2>> profile() const = 0;  // the latest: rho, z in mm
+  virtual ScanTold told() const = 0;  // how far it is; without the calibration
+  virtual std::size_t points() const = 0;
+  // mm, z upwards, in the order in which they came, from number `first` on. Grows only.
+  virtual std::vector<std::array<float, 3>> points_from(std::size_t first) const = 0;
 };
 
 // Who is told about a scan or a calibration, from the thread that does it, and may put it aside.

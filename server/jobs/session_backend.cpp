@@ -41,6 +41,15 @@ bool is_under_way(ScanState state) {
          state == ScanState::kMeshing;
 }
 
+ScanTold told_of(const ScanStatus& status) {
+  return {.stage = status.state == ScanState::kMeshing ? "meshing" : "scanning",
+          .step = status.steps_done,
+          .progress = status.progress,
+          .eta = status.seconds_left,
+          .calibration = 0,
+          .note = status.note};
+}
+
 // What a session shows, and what it showed once it has ended.
 class SessionView final : public ScanView {
  public:
@@ -53,6 +62,7 @@ class SessionView final : public ScanView {
       points.push_back({point.at.rho, point.at.z});
     return points;
   }
+  ScanTold told() const override { return told_of(scan_->status()); }
   std::size_t points() const override { return scan_->preview().snapshot().cloud_size; }
   std::vector<std::array<float, 3>> points_from(std::size_t first) const override {
     return scan_->preview().cloud_from(first);
@@ -74,12 +84,9 @@ ScanStatus follow(Scan& scan, ScanListener& listener) {
   for (;;) {
     const ScanStatus status = scan.wait(kTick);
     if (calibration == 0 && status.steps_done > 0) calibration = calibration_of(scan);
-    listener.told({.stage = status.state == ScanState::kMeshing ? "meshing" : "scanning",
-                   .step = status.steps_done,
-                   .progress = status.progress,
-                   .eta = status.seconds_left,
-                   .calibration = calibration,
-                   .note = status.note});
+    ScanTold told = told_of(status);
+    told.calibration = calibration;
+    listener.told(told);
     if (!is_under_way(status.state)) return status;
     if (asked || !listener.is_interrupted()) continue;
     // One that meshes by now cannot be paused, and ends by itself.

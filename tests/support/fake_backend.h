@@ -38,6 +38,12 @@ inline constexpr std::size_t kFakePoints = 10;  // of a step
 
 class FakeView final : public ScanView {
  public:
+  explicit FakeView(int steps) : steps_(steps) {}
+
+  ScanTold told() const override {
+    const int step = static_cast<int>(points() / kFakePoints);
+    return {.step = step, .progress = 0.9 * step / steps_};
+  }
   void add_step(int step) {
     const std::scoped_lock lock(mutex_);
     for (std::size_t i = 0; i < kFakePoints; ++i) {
@@ -59,6 +65,7 @@ class FakeView final : public ScanView {
   }
 
  private:
+  const int steps_;
   mutable std::mutex mutex_;
   std::vector<std::array<float, 3>> points_;
 };
@@ -94,7 +101,8 @@ class FakeBackend final : public ScannerBackend {
                                              const std::filesystem::path& folder,
                                              ScanListener& listener) override {
     std::filesystem::create_directories(folder);
-    const auto view = std::make_shared<FakeView>();
+    std::ofstream(folder / "of") << order.steps;
+    const auto view = std::make_shared<FakeView>(order.steps);
     int step = 0;
     for (const int stored = steps_in(folder); step < stored; ++step)
       view->add_step(step);
@@ -142,7 +150,9 @@ class FakeBackend final : public ScannerBackend {
     return torus(static_cast<std::uint32_t>(30 + order.length), 20);
   }
   Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override {
-    auto view = std::make_shared<FakeView>();
+    int steps = 1;
+    std::ifstream(folder / "of") >> steps;
+    auto view = std::make_shared<FakeView>(steps);
     for (int step = 0; step < steps_in(folder); ++step)
       view->add_step(step);
     return view;

@@ -247,10 +247,10 @@ TEST_F(Scans, a_stopped_scanner_takes_pictures_and_stays_stopped) {
 TEST_F(Scans, what_is_ordered_after_a_stop_does_not_let_what_was_stopped_go_on) {
   settle();
   std::promise<void> opening, go_on;
-  world_.while_opening = [&] {
+  world_.while_opening = [&, first = true]() mutable {
+    if (!std::exchange(first, false)) return;
     opening.set_value();
     go_on.get_future().wait();
-    world_.while_opening = {};
   };
   auto jog = std::async(std::launch::async, [this] { return station().jog(10); });
   opening.get_future().wait();
@@ -281,6 +281,49 @@ TEST_F(Scans, what_scans_when_the_daemon_stops_goes_on_at_the_next_start) {
   EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
   EXPECT_EQ(info(started.scan).job.record.id, started.job);
   EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, progress_does_not_go_back_when_the_daemon_was_killed) {
+  HeldAtStep held(world_, 7);
+  const auto started = begin(order_);
+  held.await();
+  std::thread stopper([this] { service_->stop(); });
+  while (service_->scan(order_, {}).error().message.find("stopping") == std::string::npos)
+    std::this_thread::yield();
+  held.open();
+  stopper.join();
+  service_.reset();
+  ScanEntry entry = *installation_.jobs->find_scan(started.scan).value();
+  JobRecord job = *installation_.jobs->find_job(started.job).value();
+  entry.step = 1, job.progress = 0;  // the last that a daemon which is killed has stored
+  ASSERT_TRUE(installation_.jobs->update(entry));
+  ASSERT_TRUE(installation_.jobs->update(job));
+  std::promise<void> seen;
+  world_.while_opening = [until = seen.get_future().share()] { until.wait(); };  // before the job
+  start();
+  const ScanInfo scan = info(started.scan);
+  seen.set_value();
+  EXPECT_EQ(scan.entry.step, 7);
+  EXPECT_EQ(scan.entry.points, 7 * test::kFakePoints);
+  EXPECT_NEAR(scan.job.record.progress, 0.85 * 0.9 * 7 / 12, 1e-9);
+  settle();
+}
+
+TEST_F(Scans, progress_does_not_go_back_when_a_scan_that_failed_is_gone_on_with) {
+  world_.before_step = [](int step) -> std::optional<Error> {
+    if (step < 6) return std::nullopt;
+    return Error{ErrorCode::kIo, "camera 42 is gone; check its cable"};
+  };
+  const auto started = begin(order_);
+  settle();
+  const ScanInfo failed = info(started.scan);
+  std::promise<void> seen;
+  service_->jobs().lane(world_.name).post([&] { seen.get_future().wait(); });
+  ASSERT_TRUE(service_->resume(failed.entry));
+  EXPECT_EQ(info(started.scan).job.record.progress, failed.job.record.progress);
+  EXPECT_GT(failed.job.record.progress, 0.3);
+  seen.set_value();
+  settle();
 }
 
 TEST_F(Scans, what_was_published_before_a_crash_is_not_published_twice) {
