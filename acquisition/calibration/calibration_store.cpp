@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "acquisition/calibration/calibration_json.h"
 #include "codec/files/atomic_file.h"
@@ -105,14 +106,19 @@ Expected<Calibration> CalibrationStore::for_camera(const std::string& serial,
   const auto all = numbers();
   if (!all) return tl::make_unexpected(all.error());
   std::string other_region, other_camera;
+  std::optional<Error> damaged;
   for (auto number = all->rbegin(); number != all->rend(); ++number) {
     auto calibration = load(*number);
-    if (!calibration) return calibration;
+    if (!calibration) {
+      if (!damaged) damaged = calibration.error();
+      continue;
+    }
     if (calibration->camera == serial && calibration->region == region) return calibration;
     std::string& other = calibration->camera == serial ? other_region : other_camera;
     if (!other.empty()) continue;
     other = calibration->camera == serial ? text_of(calibration->region) : calibration->camera;
   }
+  if (damaged) return tl::make_unexpected(*damaged);
   if (!other_region.empty()) {
     return fail(ErrorCode::kState,
                 fmt::format("camera {} is calibrated for the region {}, not for {}; set that "

@@ -25,8 +25,8 @@ class CalibrationStore {
   // Ascending; none where there is no folder.
   Expected<std::vector<int>> numbers() const;
 
-  // The newest one of that camera and region. Fails (kState) where there is none, telling whether
-  // camera or region differ.
+  // The newest whole one of that camera and region. Where there is none it fails: kBadInput naming
+  // a damaged file, or kState telling whether camera or region differ.
   Expected<Calibration> for_camera(const std::string& serial, const SensorRegion& region) const;
 
  private:

@@ -3,6 +3,8 @@
 // that is opened later from being used.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <mutex>
 
 #include "acquisition/device/board.h"
@@ -13,29 +15,34 @@ class EmergencyStop {
  public:
   void press() noexcept {
     const std::lock_guard lock(mutex_);
-    pressed_ = true;
+    ++presses_;
     if (board_ != nullptr) board_->emergency_stop();
   }
   bool is_pressed() const {
     const std::lock_guard lock(mutex_);
-    return pressed_;
+    return presses_ > released_;
   }
-  void release() {
+  std::uint64_t presses() const {  // how many so far
     const std::lock_guard lock(mutex_);
-    pressed_ = false;
+    return presses_;
+  }
+  // Takes back the first `presses`: a later one holds.
+  void release(std::uint64_t presses) {
+    const std::lock_guard lock(mutex_);
+    released_ = std::max(released_, presses);
   }
 
   // Until guard(nullptr) `board` is stopped with a press; at once where that was before.
   void guard(Board* board) {
     const std::lock_guard lock(mutex_);
     board_ = board;
-    if (pressed_ && board_ != nullptr) board_->emergency_stop();
+    if (presses_ > released_ && board_ != nullptr) board_->emergency_stop();
   }
 
  private:
   mutable std::mutex mutex_;
   Board* board_ = nullptr;
-  bool pressed_ = false;
+  std::uint64_t presses_ = 0, released_ = 0;
 };
 
 }  // namespace vitrine

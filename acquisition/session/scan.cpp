@@ -50,6 +50,7 @@ Expected<std::unique_ptr<Scan>> Scan::reopen(Scanner scanner, const std::filesys
   scan->status_.state = stored.state;
   scan->status_.error = stored.error;
   scan->status_.steps_done = static_cast<int>(profiles->size());
+  scan->status_.progress = kScanningShare * scan->status_.steps_done / scan->status_.steps;
   return scan;
 }
 
@@ -74,7 +75,7 @@ Expected<void> Scan::resume() {
     if (is_running(status_.state)) return not_now("start", status_.state);
     if (status_.state == ScanState::kCancelled) return not_now("resume", status_.state);
     wish_ = Wish::kRun;
-    stop_.release();
+    stop_.release(stop_.presses());
     status_.error.reset();
     surface_.reset();
     enter(ScanState::kChecking);

@@ -234,6 +234,8 @@ int serve(const Settings& settings) {
 
 int check(const Settings& settings) {
   if (const auto usable = check_paths(settings); !usable) return report(usable.error());
+  if (const auto scanners = open_scanners(settings.scanners); !scanners)  // uses no device yet
+    return report(scanners.error());
   return print("the configuration is valid\n");
 }
 

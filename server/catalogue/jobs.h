@@ -49,7 +49,7 @@ struct JobRecord {
 
 struct ScanEntry {
   ScanId id;
-  JobId job;  // the newest that works on it
+  JobId job;  // the newest that scans; others make further models of it
   std::string scanner;
   bool is_public = false;  // everybody may see it grow
   std::string title;

@@ -7,12 +7,11 @@
 #include <cerrno>
 #include <optional>
 
-#include "acquisition/calibration/calibration_store.h"
+#include "acquisition/calibration/keep_calibration.h"
 #include "acquisition/calibration/report.h"
 #include "acquisition/session/open_scanner.h"
 #include "acquisition/session/rig_link.h"
 #include "acquisition/session/target_pictures.h"
-#include "codec/files/atomic_file.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
 #include "server/cli/measured_points.h"
@@ -140,14 +139,9 @@ Outcome run_calibrate(const Arguments& arguments) {
 
   const auto calibrated = measure(arguments, *config, *options);
   if (!calibrated) return failed(calibrated.error());
-  const auto stored = CalibrationStore(config->calibrations).add(calibrated->calibration);
+  const auto stored = keep_calibration(config->calibrations, *calibrated);
   if (!stored) return failed(stored.error());
-  const std::string svg = residual_plot(*stored, calibrated->report);
-  const std::string plot =
-      (config->calibrations / fmt::format("{:04}.svg", stored->number)).string();
-  const auto written =
-      write_file_atomically(plot, {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()});
-  if (!written) return failed(written.error());
+  const std::string plot = residuals_file(config->calibrations, stored->number).string();
   if (!arguments.has("--json")) return print(as_text(*stored, calibrated->report, plot));
   json object = json::parse(report_json(*stored, calibrated->report), nullptr, false);
   object.update({{"rms", stored->residuals.rms},  // mm, over held-out poses

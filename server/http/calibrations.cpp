@@ -41,10 +41,15 @@ Response list_calibrations(const Request& request, Services& services) {
   return with_scanner(request, services, [&](ScannerStation& scanner) {
     const auto all = scanner.backend().calibrations();
     if (!all) return internal_error(all.error(), request, services);
-    auto list = nlohmann::ordered_json::array();
-    for (const CalibrationSummary& one : *all)
-      list.push_back(summary_json(one));
-    return json_answer({{"calibrations", std::move(list)}});
+    auto whole = nlohmann::ordered_json::array(), damaged = nlohmann::ordered_json::array();
+    for (const CalibrationSummary& one : *all) {
+      if (one.problem.empty()) {
+        whole.push_back(summary_json(one));
+      } else {
+        damaged.push_back({{"number", one.number}, {"problem", one.problem}});
+      }
+    }
+    return json_answer({{"calibrations", std::move(whole)}, {"damaged", std::move(damaged)}});
   });
 }
 

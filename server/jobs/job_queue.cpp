@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "server/jobs/clock.h"
@@ -36,6 +37,11 @@ JobWish JobRun::wish() const {
   return wish_;
 }
 
+std::uint64_t JobRun::stops_known() const {
+  const std::scoped_lock lock(mutex_);
+  return stops_known_;
+}
+
 void JobRun::when_asked(std::function<void()> react) {
   const std::scoped_lock lock(mutex_);
   react_ = std::move(react);
@@ -50,14 +56,16 @@ void JobRun::ask(JobWish wish) {
   if (react_ && wish != JobWish::kNone) react_();
 }
 
-void JobRun::report(std::string_view stage, double progress, std::optional<double> eta) {
+void JobRun::report(std::string_view stage, double progress, std::optional<double> eta,
+                    std::string_view note) {
   std::optional<JobRecord> entered;
   {
     const std::scoped_lock lock(mutex_);
     const bool is_new = status_.record.stage != stage;
     status_.record.stage = stage;
-    status_.record.progress = progress;
+    status_.record.progress = std::max(status_.record.progress, progress);
     status_.eta = eta;
+    status_.note = note;
     if (is_new) entered = status_.record;
   }
   if (entered) entered_stage_(*entered);
@@ -76,7 +84,7 @@ Expected<void> JobQueue::start() {
   if (!left) return Unexpected(left.error());
   const std::scoped_lock lock(mutex_);
   for (const JobRecord& job : *left)
-    take_up(job);
+    take_up(job, 0);
   return {};
 }
 
@@ -93,8 +101,9 @@ void JobQueue::stop() {
     lane->finish();
 }
 
-void JobQueue::take_up(const JobRecord& job) {
+void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   const Run run = std::make_shared<JobRun>(job);
+  run->stops_known_ = stops;
   // Not at every step: each change of the catalogue makes visitors' caches ask anew.
   run->entered_stage_ = [this](const JobRecord& now) { store(now); };
   runs_[job.id] = run;
@@ -107,7 +116,7 @@ void JobQueue::post(const Run& run) {
 }
 
 Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<ScanEntry>& scan,
-                                  const std::optional<OnceKey>& once) {
+                                  const std::optional<OnceKey>& once, std::uint64_t stops) {
   const std::scoped_lock lock(mutex_);
   if (once) {
     const auto earlier = catalogue_.find_once(once->key);
@@ -127,7 +136,7 @@ Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<Scan
     if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
   }
   if (auto added = catalogue_.add(job, scan, once); !added) return Unexpected(added.error());
-  take_up(job);
+  take_up(job, stops);
   return job;
 }
 
@@ -173,11 +182,20 @@ std::optional<JobStatus> JobQueue::job_of(const std::string& scanner) const {
   return run ? std::optional(run->status()) : std::nullopt;
 }
 
+std::optional<JobStatus> JobQueue::job_on(const ScanId& scan) const {
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [id, run] : runs_) {
+    if (run->job().scan == scan) return run->status();
+  }
+  return std::nullopt;
+}
+
 void JobQueue::set_state(const Run& run, JobState state) {
   {
     const std::scoped_lock lock(run->mutex_);
     run->status_.record.state = state;
     run->status_.eta.reset();
+    run->status_.note.clear();
     if (state == JobState::kQueued) run->wish_ = JobWish::kNone;
     if (has_ended(state)) run->status_.record.ended = now_in_milliseconds();
     if (state == JobState::kDone) run->status_.record.progress = 1;
@@ -198,13 +216,17 @@ Expected<JobStatus> JobQueue::pause(const JobId& id) {
   return (*run)->status();
 }
 
-Expected<JobStatus> JobQueue::resume(const JobId& id) {
+Expected<JobStatus> JobQueue::resume(const JobId& id, std::uint64_t stops) {
   const std::scoped_lock lock(mutex_);
   const auto run = unfinished(id);
   if (!run) return Unexpected(run.error());
   const JobRecord job = (*run)->job();
   if (job.state != JobState::kPaused) return not_now(job, "is not paused");
   if (stopping_) return stopping();
+  {
+    const std::scoped_lock inner((*run)->mutex_);
+    (*run)->stops_known_ = stops;
+  }
   post(*run);
   return (*run)->status();
 }
@@ -226,7 +248,7 @@ Expected<std::optional<JobStatus>> JobQueue::find(const JobId& id) {
   const auto stored = catalogue_.find_job(id);
   if (!stored) return Unexpected(stored.error());
   if (!*stored) return std::nullopt;
-  return JobStatus{**stored, std::nullopt};
+  return JobStatus{**stored, std::nullopt, {}};
 }
 
 Expected<std::vector<JobStatus>> JobQueue::list(const PageOf& page) {

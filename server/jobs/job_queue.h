@@ -29,6 +29,7 @@ enum class JobEnd : std::uint8_t { kDone, kPutAside };  // the latter where a wi
 struct JobStatus {
   JobRecord record;
   std::optional<double> eta;  // seconds
+  std::string note;           // what it waits for: a camera that is gone; mostly empty
 
   bool operator==(const JobStatus&) const = default;
 };
@@ -36,18 +37,22 @@ struct JobStatus {
 // A job as its task sees it. Thread-safe.
 class JobRun {
  public:
-  explicit JobRun(JobRecord job) : status_{std::move(job), std::nullopt} {}
+  explicit JobRun(JobRecord job) : status_{std::move(job), std::nullopt, {}} {}
 
   JobStatus status() const;  // also once it has ended
   JobRecord job() const { return status().record; }
   JobWish wish() const;
+  // Of its scanner's emergency stops, how many whoever handed it in knew of.
+  std::uint64_t stops_known() const;
 
   // `react` is called, by another thread, when a wish comes; at once, where one has come already.
   // Replaces the one before; {} takes it away, and it is not being called any more on return.
   void when_asked(std::function<void()> react);
 
-  // `stage` in a word; `progress` 0..1 of the whole job; seconds that are left, where known.
-  void report(std::string_view stage, double progress, std::optional<double> eta = {});
+  // `stage` in a word; `progress` 0..1 of the whole job, which never goes back; seconds that are
+  // left, where known; JobStatus::note.
+  void report(std::string_view stage, double progress, std::optional<double> eta = {},
+              std::string_view note = {});
   void made(const ModelId& model);
 
  private:
@@ -57,6 +62,7 @@ class JobRun {
   mutable std::mutex mutex_;  // guards what follows
   JobStatus status_;
   JobWish wish_ = JobWish::kNone;
+  std::uint64_t stops_known_ = 0;
   std::function<void()> react_;
 
   std::function<void(const JobRecord&)> entered_stage_;  // set once, before the task starts
@@ -78,12 +84,12 @@ class JobQueue {
   void stop();
 
   // kState where the scanner is busy; kBadInput where the key was used with another request, and
-  // with the same one the job of then is the result.
+  // with the same one the job of then is the result. `stops`: JobRun::stops_known().
   Expected<JobRecord> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
-                          const std::optional<OnceKey>& once);
+                          const std::optional<OnceKey>& once, std::uint64_t stops = 0);
 
   Expected<JobStatus> pause(const JobId& id);
-  Expected<JobStatus> resume(const JobId& id);
+  Expected<JobStatus> resume(const JobId& id, std::uint64_t stops = 0);
   Expected<JobStatus> cancel(const JobId& id);
 
   // Nothing where there is no such job.
@@ -95,6 +101,9 @@ class JobQueue {
 
   // The unfinished job of a scanner.
   std::optional<JobStatus> job_of(const std::string& scanner) const;
+
+  // An unfinished job on a scan, of whatever kind.
+  std::optional<JobStatus> job_on(const ScanId& scan) const;
 
   // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
   // is done, where it is busy.
@@ -110,7 +119,7 @@ class JobQueue {
   Expected<void> check_free(const std::string& scanner) const;
   Expected<Run> unfinished(const JobId& id) const;
   Run run_of(const std::string& scanner) const;
-  void take_up(const JobRecord& job);
+  void take_up(const JobRecord& job, std::uint64_t stops);
   void post(const Run& run);
   void set_state(const Run& run, JobState state);
   Lane& lane_of(const std::string& name);

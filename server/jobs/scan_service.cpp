@@ -83,7 +83,7 @@ class ScanService::Listener final : public ScanListener {
       const std::scoped_lock lock(service_.mutex_);
       service_.live_[entry_.id] = {entry_, view_};
     }
-    run_.report(told.stage, kMeshed * told.progress, told.eta);
+    run_.report(told.stage, kMeshed * told.progress, told.eta, told.note);
     if (calibration_is_new) keep();
   }
 
@@ -117,9 +117,37 @@ Expected<void> ScanService::start() {
                 fmt::format("cannot make the folder {}: {}; check its owner and mode",
                             scans.string(), error.message()));
   }
+  if (auto recalled = recall(); !recalled) return recalled;
   for (const auto& station : stations_)
     station->look_for_it();
   return queue_.start();
+}
+
+// The catalogue is told of a few steps only: how far scans really were when a daemon died, their
+// folders know.
+Expected<void> ScanService::recall() {
+  const auto left = means_.jobs.unfinished_jobs();
+  if (!left) return Unexpected(left.error());
+  for (const JobRecord& job : *left) {
+    if (job.kind == JobKind::kScan && job.scan) recall(job);
+  }
+  return {};
+}
+
+// What cannot be read is the job's own business.
+void ScanService::recall(JobRecord job) {
+  ScannerStation* station = scanner(job.scanner);
+  auto entry = means_.jobs.find_scan(*job.scan);
+  if (station == nullptr || !entry || !*entry) return;
+  const auto view = station->backend().view(folder_of(*job.scan));
+  if (!view || *view == nullptr) return;
+  const ScanTold told = (*view)->told();
+  (*entry)->step = std::max((*entry)->step, told.step);
+  (*entry)->points = (*view)->points();
+  keep(**entry);
+  job.progress = std::max(job.progress, kMeshed * told.progress);
+  if (auto kept = means_.jobs.update(job); !kept)
+    means_.events.event(Severity::kError, kept.error().message);
 }
 
 void ScanService::stop() {
@@ -155,34 +183,42 @@ Expected<Frame> ScanService::picture(ScannerStation& scanner) {
 
 Expected<JobRecord> ScanService::calibrate(ScannerStation& scanner,
                                            const std::optional<OnceKey>& once) {
-  scanner.backend().allow();
-  return queue_.add(new_job(JobKind::kCalibrate, scanner.name()), std::nullopt, once);
+  return queue_.add(new_job(JobKind::kCalibrate, scanner.name()), std::nullopt, once,
+                    scanner.backend().stops());
 }
 
 Expected<ScanStarted> ScanService::add(JobRecord job, ScanEntry scan,
                                        const std::optional<OnceKey>& once) {
   job.scan = scan.id;
   scan.job = job.id;
-  const auto added = queue_.add(job, scan, once);
+  const auto added = queue_.add(job, scan, once, stops_of(job.scanner));
   if (!added) return Unexpected(added.error());
   return ScanStarted{added->scan.value_or(scan.id), added->id};
 }
 
 Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
                                         const std::optional<OnceKey>& once) {
-  if (ScannerStation* station = scanner(order.scanner)) station->backend().allow();
   return add(new_job(JobKind::kScan, order.scanner), new_scan(order), once);
 }
 
 Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOrder& order,
                                              const std::optional<OnceKey>& once) {
-  if (queue_.run(scan.job)) {
-    return fail(ErrorCode::kState,
-                fmt::format("job {} works on the scan; wait for its end", scan.job.to_string()));
-  }
+  if (auto unused = check_unused(scan); !unused) return Unexpected(unused.error());
+  if (scan.step == 0)
+    return fail(ErrorCode::kState, "the scan has no steps to make a model of; resume it first");
   JobRecord job = new_job(JobKind::kReprocess, scan.scanner);
+  job.scan = scan.id;
   job.parameters = to_json_text(order);
-  return add(job, scan, once);
+  const auto added = queue_.add(job, std::nullopt, once);
+  if (!added) return Unexpected(added.error());
+  return ScanStarted{scan.id, added->id};
+}
+
+Expected<void> ScanService::check_unused(const ScanEntry& scan) const {
+  const auto job = queue_.job_on(scan.id);
+  if (!job) return {};
+  return fail(ErrorCode::kState, fmt::format("job {} works on the scan; wait for its end",
+                                             job->record.id.to_string()));
 }
 
 Expected<void> ScanService::pause(const ScanEntry& scan) {
@@ -193,13 +229,14 @@ Expected<void> ScanService::pause(const ScanEntry& scan) {
 Expected<void> ScanService::resume(const ScanEntry& scan) {
   const auto job = queue_.find(scan.job);
   if (!job) return Unexpected(job.error());
-  if (ScannerStation* station = scanner(scan.scanner)) station->backend().allow();
-  const bool failed = *job && (*job)->record.state == JobState::kFailed;
-  if (failed && (*job)->record.kind == JobKind::kScan) {
-    const auto added = add(new_job(JobKind::kScan, scan.scanner), scan, std::nullopt);
+  if (*job && (*job)->record.state == JobState::kFailed) {
+    if (auto unused = check_unused(scan); !unused) return unused;
+    JobRecord next = new_job(JobKind::kScan, scan.scanner);
+    next.progress = (*job)->record.progress;
+    const auto added = add(next, scan, std::nullopt);
     return added ? Expected<void>{} : Unexpected(added.error());
   }
-  const auto resumed = queue_.resume(scan.job);
+  const auto resumed = queue_.resume(scan.job, stops_of(scan.scanner));
   return resumed ? Expected<void>{} : Unexpected(resumed.error());
 }
 
@@ -246,7 +283,14 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   }
   ScannerStation* station = scanner(scan.scanner);
   if (station == nullptr || scan.step == 0) return nullptr;
-  auto view = station->backend().view(folder_of(scan.id));
+  const std::filesystem::path folder = folder_of(scan.id);
+  std::error_code unknown;
+  if (!std::filesystem::exists(folder, unknown)) {
+    return fail(ErrorCode::kState, fmt::format("the folder scans/{} of the data is gone; restore "
+                                               "it from a backup, or scan again",
+                                               scan.id.to_string()));
+  }
+  auto view = station->backend().view(folder);
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
   if (views_.size() >= kViews) views_.erase(views_.begin());
@@ -256,6 +300,11 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
 
 std::filesystem::path ScanService::folder_of(const ScanId& id) const {
   return means_.data / "scans" / id.to_string();
+}
+
+std::uint64_t ScanService::stops_of(const std::string& name) {
+  ScannerStation* station = scanner(name);
+  return station == nullptr ? 0 : station->backend().stops();
 }
 
 void ScanService::keep(const ScanEntry& entry) {
@@ -271,15 +320,11 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
                 fmt::format("there is no scanner {}; name its rig.json in the setting scanners",
                             job.scanner));
   }
-  switch (job.kind) {
-    case JobKind::kScan:
-      return work_on_scan(run, *station);
-    case JobKind::kReprocess:
-      return reprocess(run, *station);
-    case JobKind::kCalibrate:
-      return calibrate(run, *station);
-  }
-  return JobEnd::kDone;
+  if (job.kind == JobKind::kReprocess) return reprocess(run, *station);
+  station->backend().allow(run.stops_known());
+  auto end = job.kind == JobKind::kScan ? work_on_scan(run, *station) : calibrate(run, *station);
+  if (run.wish() != JobWish::kStop) station->look();  // what is known of it may have changed
+  return end;
 }
 
 Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
@@ -327,7 +372,6 @@ Expected<JobEnd> ScanService::calibrate(JobRun& run, ScannerStation& station) {
   run.report("calibrating", 0);
   const auto number = station.backend().calibrate(progress);
   if (!number) return Unexpected(number.error());
-  station.look();
   return *number ? JobEnd::kDone : JobEnd::kPutAside;
 }
 

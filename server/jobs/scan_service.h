@@ -18,7 +18,7 @@ namespace vitrine {
 
 struct ScanInfo {
   ScanEntry entry;
-  JobStatus job;  // the newest that works or worked on it
+  JobStatus job;  // the newest that scans or scanned it
 };
 
 struct ScanStarted {
@@ -58,7 +58,7 @@ class ScanService {
 
   // `order.scanner` is that of a station.
   Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<OnceKey>& once);
-  // Another model of a scan that nobody works on.
+  // Another model of a scan that nobody works on and that has steps; its own state stays.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
                                   const std::optional<OnceKey>& once);
   Expected<void> pause(const ScanEntry& scan);
@@ -69,7 +69,7 @@ class ScanService {
   Expected<std::vector<ScanInfo>> list(const PageOf& page);
   static Expected<ScanOrder> order_of(const ScanEntry& scan);
 
-  // Null where nothing is to be seen yet.
+  // Null where nothing is to be seen yet; kState where the scan's folder is gone.
   Expected<std::shared_ptr<const ScanView>> view(const ScanEntry& scan);
 
  private:
@@ -85,9 +85,13 @@ class ScanService {
   Expected<JobEnd> calibrate(JobRun& run, ScannerStation& station);
   Expected<JobEnd> make_model(JobRun& run, const ScanOrder& order, const TriangleMesh& mesh);
   std::filesystem::path folder_of(const ScanId& id) const;
+  std::uint64_t stops_of(const std::string& name);  // of that scanner so far
   Expected<ScanInfo> with_job(ScanEntry entry);
   void keep(const ScanEntry& entry);
+  Expected<void> recall();
+  void recall(JobRecord job);
   Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);
+  Expected<void> check_unused(const ScanEntry& scan) const;
 
   const ScanMeans means_;
   std::mutex stopping_;  // one stop() at a time

@@ -23,6 +23,15 @@ struct ScannerIdentity {
   std::optional<int> calibration;  // the newest that fits the camera; nothing: there is none
 };
 
+struct ScanTold {
+  const char* stage = "scanning";  // or "meshing"
+  int step = 0;                    // done so far
+  double progress = 0;             // 0..1 of the stages above
+  std::optional<double> eta;       // seconds
+  int calibration = 0;             // its number; 0: not known yet
+  std::string note;                // what it waits for: a camera that is gone; mostly empty
+};
+
 // What is to be seen of a scan while it grows and afterwards. Thread-safe; nobody waits for long.
 class ScanView {
  public:
@@ -30,17 +39,10 @@ class ScanView {
 
   virtual std::shared_ptr<const Frame> frame() const = 0;  // the latest, laser on; may be null
   virtual std::vector<std::array<double, 2>> profile() const = 0;  // the latest: rho, z in mm
+  virtual ScanTold told() const = 0;  // how far it is; without the calibration
   virtual std::size_t points() const = 0;
   // mm, z upwards, in the order in which they came, from number `first` on. Grows only.
   virtual std::vector<std::array<float, 3>> points_from(std::size_t first) const = 0;
-};
-
-struct ScanTold {
-  const char* stage = "scanning";  // or "meshing"
-  int step = 0;                    // done so far
-  double progress = 0;             // 0..1 of the stages above
-  std::optional<double> eta;       // seconds
-  int calibration = 0;             // its number; 0: not known yet
 };
 
 // Who is told about a scan or a calibration, from the thread that does it, and may put it aside.
@@ -56,6 +58,7 @@ class ScanListener {
 
 struct CalibrationSummary {
   int number = 0;
+  std::string problem;  // why it cannot be used, and there is nothing below; mostly empty
   std::string created, camera;
   SensorRegion region;
   double rms = 0, p95 = 0, max = 0;  // mm, over held-out poses
@@ -71,6 +74,7 @@ class ScannerBackend {
   virtual Expected<ScannerIdentity> identify() = 0;
   virtual Expected<void> jog(double degrees) = 0;  // from where the table stands
   virtual Expected<void> laser(bool on) = 0;
+  // By the camera alone: also after an emergency stop.
   virtual Expected<Frame> picture() = 0;
 
   // Scans what `folder` does not hold yet, and meshes all of it; nothing where it was interrupted:
@@ -85,9 +89,11 @@ class ScannerBackend {
 
   virtual const std::string& name() const = 0;
 
-  // Laser and motor off at once, and no device is used before allow().
+  // Laser and motor off at once, and the board is not used before allow().
   virtual void emergency_stop() noexcept = 0;
-  virtual void allow() noexcept = 0;
+  virtual std::uint64_t stops() const noexcept = 0;  // how many so far
+  // Takes back the first `stops`: a later one holds.
+  virtual void allow(std::uint64_t stops) noexcept = 0;
 
   // Of a scan that nobody works on.
   virtual Expected<TriangleMesh> mesh_anew(const ScanOrder& order,

@@ -26,35 +26,58 @@ void ScannerStation::look() {
 }
 
 void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
+  if (!seen && seen.error().code == ErrorCode::kState) return;  // stopped: that is no absence
   const std::scoped_lock lock(mutex_);
   if (seen) identity_ = *seen;
   problem_ = seen ? "" : seen.error().message;
 }
 
+// It may have been plugged in. One look at a time, and none that a job would have to wait for.
+void ScannerStation::look_again() {
+  if (looking_.exchange(true)) return;
+  const auto posted = jobs_.post_command(name(), [this] {
+    look();
+    looking_ = false;
+  });
+  if (!posted) looking_ = false;
+}
+
 ScannerStatus ScannerStation::status() {
   const auto job = jobs_.job_of(name());
   if (!job && looked_.valid()) looked_.wait_for(kPatience);  // a job may be in front of the look
-  const std::scoped_lock lock(mutex_);
-  ScannerStatus status{.name = name(), .identity = identity_, .problem = problem_};
-  if (!problem_.empty()) status.state = ScannerState::kUnreachable;
+  ScannerStatus status{.name = name()};
+  {
+    const std::scoped_lock lock(mutex_);
+    status.identity = identity_;
+    status.problem = problem_;
+  }
   if (job) {
     status.state = ScannerState::kBusy;
     status.scan = job->record.scan;
+  } else if (!status.problem.empty()) {
+    status.state = ScannerState::kUnreachable;
+    look_again();
   }
   return status;
 }
 
-template <class Action>
-auto ScannerStation::command(Action action) -> decltype(action()) {
-  std::promise<decltype(action())> done;
-  backend_.allow();
-  const auto posted = jobs_.post_command(name(), [&] {
-    const auto seen = backend_.identify();
-    remember(seen);
-    done.set_value(seen ? action() : Unexpected(seen.error()));
-  });
+template <class Task>
+auto ScannerStation::in_lane(Task task) -> decltype(task()) {
+  std::promise<decltype(task())> done;
+  const auto posted = jobs_.post_command(name(), [&] { done.set_value(task()); });
   if (!posted) return Unexpected(posted.error());
   return done.get_future().get();
+}
+
+template <class Action>
+auto ScannerStation::command(Action action) -> decltype(action()) {
+  return in_lane([&, stops = backend_.stops()]() -> decltype(action()) {
+    backend_.allow(stops);
+    const auto seen = backend_.identify();
+    auto done = seen ? action() : decltype(action())(Unexpected(seen.error()));
+    remember(done ? seen : Unexpected(done.error()));
+    return done;
+  });
 }
 
 Expected<void> ScannerStation::jog(double degrees) {
@@ -66,12 +89,19 @@ Expected<void> ScannerStation::laser(bool on) {
 }
 
 Expected<Frame> ScannerStation::picture() {
-  return command([&] { return backend_.picture(); });
+  return in_lane([&] {
+    auto frame = backend_.picture();
+    if (!frame) remember(Unexpected(frame.error()));
+    return frame;
+  });
 }
 
 void ScannerStation::stop() {
   backend_.emergency_stop();  // first of all
-  if (const auto job = jobs_.job_of(name())) static_cast<void>(jobs_.pause(job->record.id));
+  const auto job = jobs_.job_of(name());
+  if (!job) return;
+  const bool can_be_resumed = job->record.kind == JobKind::kScan;
+  static_cast<void>(can_be_resumed ? jobs_.pause(job->record.id) : jobs_.cancel(job->record.id));
 }
 
 void ScannerStation::close_after_all() {

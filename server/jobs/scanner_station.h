@@ -2,6 +2,7 @@
 // A scanner between its jobs: what is known of it, and the commands that an operator gives by hand.
 #pragma once
 
+#include <atomic>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -35,13 +36,15 @@ class ScannerStation {
   ScannerBackend& backend() { return backend_; }
   const std::string& name() const { return backend_.name(); }
 
-  ScannerStatus status();  // uses no device
+  // Uses no device itself; one that is unreachable is looked for again meanwhile.
+  ScannerStatus status();
 
   Expected<void> jog(double degrees);
   Expected<void> laser(bool on);
-  Expected<Frame> picture();
+  Expected<Frame> picture();  // takes no stop back
 
-  // Laser and motor off at once, whatever is under way; a job that runs is paused.
+  // Laser and motor off at once, whatever is under way; a scan is paused, and a
+  // calibration ends.
   void stop();
 
   // By the scanner's lane: who it is now. Closes the devices.
@@ -50,13 +53,19 @@ class ScannerStation {
   void close_after_all();
 
  private:
+  // Has `task` done by the scanner's lane, and returns what it returns.
+  template <class Task>
+  auto in_lane(Task task) -> decltype(task());
+  // Does `action` with devices that are open, unless they are stopped between now and then.
   template <class Action>
   auto command(Action action) -> decltype(action());
   void remember(const Expected<ScannerIdentity>& seen);
+  void look_again();
 
   ScannerBackend& backend_;
   JobQueue& jobs_;
   std::shared_future<void> looked_;  // valid once look_for_it() was called
+  std::atomic<bool> looking_{false};
 
   std::mutex mutex_;  // guards what follows
   std::optional<ScannerIdentity> identity_;

@@ -8,10 +8,10 @@
 
 #include "acquisition/calibration/calibrate.h"
 #include "acquisition/calibration/calibration_store.h"
+#include "acquisition/calibration/keep_calibration.h"
 #include "acquisition/session/reprocess.h"
 #include "acquisition/session/rig_link.h"
 #include "acquisition/session/target_pictures.h"
-#include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
 
 namespace vitrine {
@@ -19,10 +19,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{100};  // how often a scan is asked how far it is
 constexpr std::uint64_t kMaxReport = 16 << 20;   // bytes
-
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 Processing processing_of(const ScanOrder& order) {
   constexpr SamplingMethod kMethods[] = {SamplingMethod::kEquidistant, SamplingMethod::kPaper,
@@ -45,6 +41,15 @@ bool is_under_way(ScanState state) {
          state == ScanState::kMeshing;
 }
 
+ScanTold told_of(const ScanStatus& status) {
+  return {.stage = status.state == ScanState::kMeshing ? "meshing" : "scanning",
+          .step = status.steps_done,
+          .progress = status.progress,
+          .eta = status.seconds_left,
+          .calibration = 0,
+          .note = status.note};
+}
+
 // What a session shows, and what it showed once it has ended.
 class SessionView final : public ScanView {
  public:
@@ -57,6 +62,7 @@ class SessionView final : public ScanView {
       points.push_back({point.at.rho, point.at.z});
     return points;
   }
+  ScanTold told() const override { return told_of(scan_->status()); }
   std::size_t points() const override { return scan_->preview().snapshot().cloud_size; }
   std::vector<std::array<float, 3>> points_from(std::size_t first) const override {
     return scan_->preview().cloud_from(first);
@@ -78,11 +84,9 @@ ScanStatus follow(Scan& scan, ScanListener& listener) {
   for (;;) {
     const ScanStatus status = scan.wait(kTick);
     if (calibration == 0 && status.steps_done > 0) calibration = calibration_of(scan);
-    listener.told({.stage = status.state == ScanState::kMeshing ? "meshing" : "scanning",
-                   .step = status.steps_done,
-                   .progress = status.progress,
-                   .eta = status.seconds_left,
-                   .calibration = calibration});
+    ScanTold told = told_of(status);
+    told.calibration = calibration;
+    listener.told(told);
     if (!is_under_way(status.state)) return status;
     if (asked || !listener.is_interrupted()) continue;
     // One that meshes by now cannot be paused, and ends by itself.
@@ -93,6 +97,7 @@ ScanStatus follow(Scan& scan, ScanListener& listener) {
 CalibrationSummary summary_of(const Calibration& calibration) {
   const SensorRegion& region = calibration.region;
   return {.number = calibration.number,
+          .problem = {},
           .created = calibration.created,
           .camera = calibration.camera,
           .region = region,
@@ -113,16 +118,25 @@ Expected<std::optional<std::string>> text_of(const std::filesystem::path& file) 
 }  // namespace
 
 Expected<void> SessionBackend::open() {
+  return open_board().and_then([this] { return open_camera(); });
+}
+
+Expected<void> SessionBackend::open_board() {
   if (stop_.is_pressed()) {
     return fail(ErrorCode::kState,
                 fmt::format("scanner {} was stopped; give it another command", config_.name));
   }
-  if (!board_) {
-    auto board = scanner_.devices.open_board();
-    if (!board) return Unexpected(board.error());
-    board_ = std::move(*board);
-    stop_.guard(board_.get());
-  }
+  // One that was stopped, unplugged or switched off by its watchdog since is opened anew.
+  if (board_ && !board_->position()) close();
+  if (board_) return {};
+  auto board = scanner_.devices.open_board();
+  if (!board) return Unexpected(board.error());
+  board_ = std::move(*board);
+  stop_.guard(board_.get());
+  return {};
+}
+
+Expected<void> SessionBackend::open_camera() {
   if (camera_) return {};
   auto camera = scanner_.devices.open_camera();
   if (!camera) return Unexpected(camera.error());
@@ -164,11 +178,13 @@ Expected<void> SessionBackend::jog(double degrees) {
 }
 
 Expected<void> SessionBackend::laser(bool on) {
-  return closed_on_error(open().and_then([&] { return board_->laser(on); }));
+  // Off: all of it, so that the watchdog rests.
+  return closed_on_error(
+      open().and_then([&] { return on ? board_->laser(true) : board_->rest(); }));
 }
 
 Expected<Frame> SessionBackend::picture() {
-  return closed_on_error(open().and_then([&] { return camera_->capture(); }));
+  return closed_on_error(open_camera().and_then([&] { return camera_->capture(); }));
 }
 
 Expected<std::shared_ptr<Scan>> SessionBackend::open_scan(const ScanOrder& order,
@@ -233,20 +249,8 @@ Expected<std::optional<int>> SessionBackend::calibrate(ScanListener& listener) {
   if (!restored) return Unexpected(restored.error());
   const auto calibrated = vitrine::calibrate(*pictures, {});
   if (!calibrated) return Unexpected(calibrated.error());
-  return keep(*calibrated);
-}
-
-Expected<std::optional<int>> SessionBackend::keep(const Calibrated& calibrated) {
-  const auto stored = CalibrationStore(config_.calibrations).add(calibrated.calibration);
+  const auto stored = keep_calibration(config_.calibrations, *calibrated);
   if (!stored) return Unexpected(stored.error());
-  const std::pair<const char*, std::string> reports[] = {
-      {".report.json", report_json(*stored, calibrated.report)},
-      {".svg", vitrine::residual_plot(*stored, calibrated.report)}};
-  for (const auto& [ending, text] : reports) {
-    const auto file = calibration_file(stored->number, ending);
-    if (auto written = write_file_atomically(file, bytes_of(text)); !written)
-      return Unexpected(written.error());
-  }
   return stored->number;
 }
 
@@ -273,25 +277,21 @@ Expected<std::vector<CalibrationSummary>> SessionBackend::calibrations() {
   std::vector<CalibrationSummary> all;
   for (auto number = numbers->rbegin(); number != numbers->rend(); ++number) {
     const auto calibration = store.load(*number);
-    if (!calibration) return Unexpected(calibration.error());
-    all.push_back(summary_of(*calibration));
+    all.push_back(calibration ? summary_of(*calibration)
+                              : CalibrationSummary{*number, calibration.error().message});
   }
   return all;
 }
 
-std::filesystem::path SessionBackend::calibration_file(int number, const char* ending) const {
-  return config_.calibrations / fmt::format("{:04}{}", number, ending);
-}
-
 // One that was made elsewhere may have no report: then it is itself what is known of it.
 Expected<std::optional<std::string>> SessionBackend::calibration_report(int number) {
-  auto report = text_of(calibration_file(number, ".report.json"));
+  auto report = text_of(report_file(config_.calibrations, number));
   if (!report || *report) return report;
-  return text_of(calibration_file(number, ".json"));
+  return text_of(config_.calibrations / fmt::format("{:04}.json", number));
 }
 
 Expected<std::optional<std::string>> SessionBackend::residual_plot(int number) {
-  return text_of(calibration_file(number, ".svg"));
+  return text_of(residuals_file(config_.calibrations, number));
 }
 
 }  // namespace vitrine

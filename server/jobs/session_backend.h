@@ -4,7 +4,6 @@
 
 #include <mutex>
 
-#include "acquisition/calibration/report.h"
 #include "acquisition/session/emergency_stop.h"
 #include "acquisition/session/scan.h"
 #include "acquisition/session/scanner_config.h"
@@ -30,7 +29,8 @@ class SessionBackend final : public ScannerBackend {
 
   const std::string& name() const override { return config_.name; }
   void emergency_stop() noexcept override;
-  void allow() noexcept override { stop_.release(); }
+  std::uint64_t stops() const noexcept override { return stop_.presses(); }
+  void allow(std::uint64_t stops) noexcept override { stop_.release(stops); }
   Expected<TriangleMesh> mesh_anew(const ScanOrder& order,
                                    const std::filesystem::path& folder) override;
   Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override;
@@ -40,14 +40,14 @@ class SessionBackend final : public ScannerBackend {
 
  private:
   Expected<void> open();
+  Expected<void> open_board();
+  Expected<void> open_camera();
   // Closes the devices where `result` is an error.
   template <class T>
   Expected<T> closed_on_error(Expected<T> result);
   Expected<std::shared_ptr<Scan>> open_scan(const ScanOrder& order,
                                             const std::filesystem::path& folder);
-  Expected<std::optional<int>> keep(const Calibrated& calibrated);
   void drive(const std::shared_ptr<Scan>& scan);
-  std::filesystem::path calibration_file(int number, const char* ending) const;
 
   const ScannerConfig config_;
   const Scanner scanner_;

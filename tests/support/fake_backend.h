@@ -22,9 +22,15 @@ namespace vitrine::test {
 struct FakeScanner {
   std::string name = "rig";
   std::function<std::optional<Error>(int step)> before_step;  // may wait
+  std::function<void()> while_opening;                        // may wait
 
-  std::atomic<bool> reachable{true}, stopped{false}, laser{false}, open{false};
-  std::atomic<int> calls{0}, steps{0}, calibrations{1};
+  bool stopped() const { return stops > allowed; }
+
+  std::string note;  // told at each step
+
+  std::atomic<bool> reachable{true}, jams{false}, laser{false}, open{false};
+  std::atomic<std::uint64_t> stops{0}, allowed{0};
+  std::atomic<int> calls{0}, steps{0}, calibrations{1}, damaged{0};
   std::atomic<double> degrees{0};
 };
 
@@ -32,6 +38,12 @@ inline constexpr std::size_t kFakePoints = 10;  // of a step
 
 class FakeView final : public ScanView {
  public:
+  explicit FakeView(int steps) : steps_(steps) {}
+
+  ScanTold told() const override {
+    const int step = static_cast<int>(points() / kFakePoints);
+    return {.step = step, .progress = 0.9 * step / steps_};
+  }
   void add_step(int step) {
     const std::scoped_lock lock(mutex_);
     for (std::size_t i = 0; i < kFakePoints; ++i) {
@@ -53,6 +65,7 @@ class FakeView final : public ScanView {
   }
 
  private:
+  const int steps_;
   mutable std::mutex mutex_;
   std::vector<std::array<float, 3>> points_;
 };
@@ -62,6 +75,7 @@ class FakeBackend final : public ScannerBackend {
   explicit FakeBackend(FakeScanner& world) : world_(world) {}
 
   Expected<ScannerIdentity> identify() override {
+    if (world_.while_opening) world_.while_opening();
     if (auto ready = use(); !ready) return Unexpected(ready.error());
     ScannerIdentity identity{{"Acme", "C1", "42"}, {"horus", "fake 1.0", "7"}, std::nullopt};
     if (world_.calibrations > 0) identity.calibration = world_.calibrations;
@@ -69,6 +83,7 @@ class FakeBackend final : public ScannerBackend {
   }
   Expected<void> jog(double degrees) override {
     if (auto ready = use(); !ready) return ready;
+    if (world_.jams) return fail(ErrorCode::kIo, "the motor is stuck; free the table");
     world_.degrees = world_.degrees + degrees;
     return {};
   }
@@ -78,7 +93,7 @@ class FakeBackend final : public ScannerBackend {
     return {};
   }
   Expected<Frame> picture() override {
-    if (auto ready = use(); !ready) return Unexpected(ready.error());
+    if (auto ready = reach(); !ready) return Unexpected(ready.error());
     return Frame{1, 2, {3, 4}};
   }
 
@@ -86,7 +101,8 @@ class FakeBackend final : public ScannerBackend {
                                              const std::filesystem::path& folder,
                                              ScanListener& listener) override {
     std::filesystem::create_directories(folder);
-    const auto view = std::make_shared<FakeView>();
+    std::ofstream(folder / "of") << order.steps;
+    const auto view = std::make_shared<FakeView>(order.steps);
     int step = 0;
     for (const int stored = steps_in(folder); step < stored; ++step)
       view->add_step(step);
@@ -94,7 +110,10 @@ class FakeBackend final : public ScannerBackend {
     world_.laser = true;
     const LightsOff off{world_};
     for (; step < order.steps; ++step) {
-      listener.told({.step = step, .progress = 0.9 * step / order.steps, .calibration = 1});
+      listener.told({.step = step,
+                     .progress = 0.9 * step / order.steps,
+                     .calibration = 1,
+                     .note = world_.note});
       if (world_.before_step) {
         if (const auto error = world_.before_step(step)) return Unexpected(*error);
       }
@@ -119,24 +138,30 @@ class FakeBackend final : public ScannerBackend {
   void close() override { world_.open = false; }
   const std::string& name() const override { return world_.name; }
   void emergency_stop() noexcept override {
-    world_.stopped = true;
+    ++world_.stops;
     world_.laser = false;
   }
-  void allow() noexcept override { world_.stopped = false; }
+  std::uint64_t stops() const noexcept override { return world_.stops; }
+  void allow(std::uint64_t stops) noexcept override {
+    world_.allowed = std::max(world_.allowed.load(), stops);
+  }
 
   Expected<TriangleMesh> mesh_anew(const ScanOrder& order, const std::filesystem::path&) override {
     return torus(static_cast<std::uint32_t>(30 + order.length), 20);
   }
   Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override {
-    auto view = std::make_shared<FakeView>();
+    int steps = 1;
+    std::ifstream(folder / "of") >> steps;
+    auto view = std::make_shared<FakeView>(steps);
     for (int step = 0; step < steps_in(folder); ++step)
       view->add_step(step);
     return view;
   }
   Expected<std::vector<CalibrationSummary>> calibrations() override {
     std::vector<CalibrationSummary> all;
+    if (world_.damaged > 0) all.push_back({world_.damaged, "0009.json is cut short; remove it"});
     for (int i = world_.calibrations; i > 0; --i)
-      all.push_back({i, "2026-11-23T08:00:00Z", "42", {0, 0, 64, 48}, 0.02, 0.04, 0.06, 0.8});
+      all.push_back({i, "", "2026-11-23T08:00:00Z", "42", {0, 0, 64, 48}, 0.02, 0.04, 0.06, 0.8});
     return all;
   }
   Expected<std::optional<std::string>> calibration_report(int number) override {
@@ -155,9 +180,12 @@ class FakeBackend final : public ScannerBackend {
   };
 
   Expected<void> use() {
+    if (world_.stopped()) return fail(ErrorCode::kState, "stopped; release it");
+    return reach();
+  }
+  Expected<void> reach() {
     ++world_.calls;
-    world_.open = world_.reachable && !world_.stopped;
-    if (world_.stopped) return fail(ErrorCode::kState, "stopped; release it");
+    world_.open = world_.reachable.load();
     if (world_.reachable) return {};
     return fail(ErrorCode::kIo, "camera 42 is gone; check its cable");
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { timeLeft } from "../../web/src/texts.ts";
+import { scanState, timeLeft } from "../../web/src/texts.ts";
 
 test.each([
   [0, "a few seconds left"],
@@ -12,3 +12,10 @@ test.each([
   [3590, "about an hour left"],
   [5400, "about 2 hours left"],
 ])("%s seconds are %s", (seconds, words) => expect(timeLeft(seconds)).toBe(words));
+
+test.each([
+  [null, null, "Scanning"],
+  [null, "camera 1 is gone; check its cable", "Scanning: camera 1 is gone; check its cable"],
+  ["no stripe; place the object", null, "Scanning: no stripe; place the object"],
+])("a scan with error %s and note %s is told as %s", (error, note, words) =>
+  expect(scanState({ state: "scanning", error, note })).toBe(words));

@@ -57,3 +57,9 @@ export const texts = {
   scanLost: "The connection is lost. Trying again\u2026",
   scanMissing: "This scan is not on display.",
 };
+
+/** What a scan does, and why it has failed or what it waits for. */
+export function scanState({ state, error, note }: { state: keyof typeof texts.scanStates; error: string | null; note: string | null }): string {
+  const why = error ?? note;
+  return why === null ? texts.scanStates[state] : `${texts.scanStates[state]}: ${why}`;
+}

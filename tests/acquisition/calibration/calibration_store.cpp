@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "acquisition/calibration/calibration_json.h"
+#include "acquisition/calibration/keep_calibration.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine {
@@ -37,6 +38,11 @@ Calibration example(const std::string& camera = "CAM-1", const SensorRegion& reg
           .axis = {.a = 1.0 / 3, .b = 0.1, .offset = -0.7, .tilt = 0.01, .clockwise = true},
           .residuals = {.rms = 0.0123456789012345, .p95 = 0.02, .max = 0.1},
           .noise = 0.011};
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -175,12 +181,32 @@ TEST(CalibrationStore, NamesTheDamagedFile) {
   const CalibrationStore store(folder.path());
   ASSERT_TRUE(store.add(example()));
   write(folder.path() / "0002.json", "{");
-  EXPECT_THAT(message(store.for_camera("CAM-1", kRegion)), HasSubstr("0002.json is no whole"));
+  EXPECT_THAT(message(store.for_camera("CAM-9", kRegion)), HasSubstr("0002.json is no whole"));
   write(folder.path() / "0003.json", std::string((1 << 20) + 1, ' '));
   EXPECT_THAT(message(store.load(3)), HasSubstr("0003.json is too large"));
   write(folder.path() / "0004.json", to_json(example()));
   EXPECT_THAT(message(store.load(4)), HasSubstr("0004.json holds calibration 7: it was renamed"));
   EXPECT_THAT(message(store.load(5)), HasSubstr("cannot read"));
+}
+
+TEST(CalibrationStore, TheNewestWholeOneIsTakenWhereANewerOneIsDamaged) {
+  const TemporaryFolder folder;
+  const CalibrationStore store(folder.path());
+  ASSERT_TRUE(store.add(example()));
+  write(folder.path() / "0002.json", "{");
+  const auto found = store.for_camera("CAM-1", kRegion);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->number, 1);
+}
+
+TEST(CalibrationStore, ReportAndResidualsAreKeptBesideACalibration) {
+  const TemporaryFolder folder;
+  const auto kept = keep_calibration(folder.path(), {example(), {.pictures = 31}});
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(kept->number, 1);
+  EXPECT_TRUE(CalibrationStore(folder.path()).load(1));
+  EXPECT_THAT(text_of(report_file(folder.path(), 1)), HasSubstr("31"));
+  EXPECT_THAT(text_of(residuals_file(folder.path(), 1)), HasSubstr("<svg"));
 }
 
 TEST(CalibrationStore, DoesNotKeepWhatItCouldNotReadAgain) {

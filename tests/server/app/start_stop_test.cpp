@@ -87,6 +87,27 @@ TEST(Start, ChecksThePathsOfAConfigurationAndCreatesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("new")));
 }
 
+TEST(Start, ChecksTheFilesOfTheScanners) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "rig.json").string();
+  const auto check = [&](const std::string& files) {
+    return run_vitrined({"--scanners", files, "--check-config"});
+  };
+  const ProgramResult missing = check(file);
+  EXPECT_NE(missing.exit_code, 0);
+  EXPECT_THAT(missing.output, HasSubstr(file));
+  std::ofstream(file) << R"({"name": "rig", "camera": {"address": "127.0.0.1"},
+    "board": {"dialect": "fabscan", "vendor": "0x2341", "product": "0x0043"},
+    "exposure_us": 4000, "gain_db": 0, "region": {"x": 0, "y": 0, "width": 1300, "height": 1030},
+    "target": {"squares_x": 9, "squares_y": 14, "square_mm": 8, "marker_mm": 6,
+               "dictionary": "DICT_4X4_100"},
+    "steps": 720, "calibrations": "calibrations"})";
+  EXPECT_EQ(check(file).exit_code, 0) << check(file).output;
+  const ProgramResult twice = check(file + "," + file);
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.output, HasSubstr("another scanner is named rig"));
+}
+
 TEST(Start, RefusesAFolderAsConfigurationAndAnAddressThatIsNoNumber) {
   const TemporaryFolder folder;
   EXPECT_EQ(run_vitrined({"--config", folder.path().string(), "--check-config"}).exit_code, 1);

@@ -74,6 +74,7 @@ TEST_F(ScanAtRig, a_calibrated_scanner_measures_what_stands_on_its_table) {
   EXPECT_LT(calibration["rms"].get<double>(), 0.2);
   EXPECT_EQ(calibration["number"], 1);
   EXPECT_TRUE(std::filesystem::exists(path("calibrations/0001.svg")));
+  EXPECT_TRUE(std::filesystem::exists(path("calibrations/0001.report.json")));
   undisturbed();
   const json scan = json::parse(read("scan.json"));
   EXPECT_EQ(scan["steps"], kSteps);

@@ -39,6 +39,7 @@ class LocalServer {
 
   std::uint16_t port() const { return port_; }
   ScanService& scans() { return scans_; }
+  const std::filesystem::path& data() const { return folder_.path(); }
   Catalogue& catalogue() { return *installation_.catalogue; }
   const Metrics& metrics() const { return metrics_; }
 

@@ -106,7 +106,7 @@ TEST_F(ScanRoutes, JogLaserAndStopReachTheDevices) {
   const HttpAnswer stopped = post("/scanners/rig/stop");
   EXPECT_EQ(stopped.status, 200);
   EXPECT_EQ(json::parse(stopped.body)["name"], "rig");
-  EXPECT_TRUE(world_.stopped);
+  EXPECT_TRUE(world_.stopped());
   EXPECT_FALSE(world_.laser);
   world_.reachable = false;
   const HttpAnswer lost = post("/scanners/rig/jog", {{"degrees", 1}});
@@ -158,6 +158,24 @@ TEST_F(ScanRoutes, CalibrationsAreListedShownAndMadeByAJob) {
             "image/svg+xml");
 }
 
+TEST_F(ScanRoutes, ADamagedCalibrationIsNamedBesideTheOthers) {
+  world_.damaged = 9;
+  const json answer = json::parse(get("/scanners/rig/calibrations").body);
+  EXPECT_EQ(answer["calibrations"].size(), 1u);
+  EXPECT_EQ(answer["damaged"],
+            json::parse(R"([{"number":9,"problem":"0009.json is cut short; remove it"}])"));
+}
+
+TEST_F(ScanRoutes, PointsWhoseFolderIsGoneAreAConflictThatNamesIt) {
+  const json started = begin();
+  settle();
+  std::filesystem::remove_all(server_.data() / "scans");
+  const HttpAnswer answer = get(scan_path(started) + "/points");
+  EXPECT_EQ(answer.status, 409);
+  EXPECT_NE(answer.body.find("scans/" + started["id"].get<std::string>()), std::string::npos);
+  EXPECT_EQ(get(scan_path(started) + "/profile").status, 409);
+}
+
 TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   HeldAtStep held(world_, 5);
   const json started = begin({{"metadata", {{"title", "A ring"}}}});
@@ -187,6 +205,19 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   ASSERT_TRUE(scan["model"].is_string());
   EXPECT_EQ(get("/models/" + scan["model"].get<std::string>()).status, 404);  // a draft
   EXPECT_EQ(get(scan_path(started) + "/points").body.size(), 12 * 10 * 12u);
+}
+
+TEST_F(ScanRoutes, WhatAScanWaitsForIsToldUntilItGoesOn) {
+  world_.note = "camera 42 is gone; check its cable";
+  HeldAtStep held(world_, 5);
+  const json started = begin();
+  held.await();
+  EXPECT_EQ(json::parse(get(scan_path(started)).body)["note"], world_.note);
+  EXPECT_EQ(json::parse(get(job_path(started)).body)["note"], world_.note);
+  held.open();
+  settle();
+  EXPECT_EQ(json::parse(get(scan_path(started)).body)["note"], nullptr);
+  EXPECT_EQ(json::parse(get(job_path(started)).body)["note"], nullptr);
 }
 
 TEST_F(ScanRoutes, APublicScanIsSeenByEverybodyAndBecomesAModel) {

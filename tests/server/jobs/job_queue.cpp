@@ -77,6 +77,13 @@ class Jobs : public testing::Test {
   Gate gate_;
 };
 
+TEST_F(Jobs, progress_never_goes_back) {
+  JobRun run(job_for("a"));
+  run.report("", 0.5);
+  run.report("", 0.25);
+  EXPECT_EQ(run.job().progress, 0.5);
+}
+
 TEST_F(Jobs, a_job_runs_and_what_it_tells_is_seen_and_kept) {
   const ModelId model = ModelId::generate();
   const auto queue = queue_of([&](JobRun& run) -> Expected<JobEnd> {

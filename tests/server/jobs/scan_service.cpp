@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "server/store/installation.h"
 #include "support/fake_backend.h"
 #include "support/temporary_folder.h"
@@ -125,6 +127,29 @@ TEST_F(Scans, commands_by_hand_reach_the_devices_and_a_lost_one_is_a_problem_unt
   EXPECT_EQ(station().status().problem, "");
 }
 
+TEST_F(Scans, a_scanner_that_is_lost_in_a_job_is_unreachable_until_it_is_back) {
+  HeldAtStep held(world_, 5);
+  const auto started = begin(order_);
+  held.await();
+  world_.reachable = false;
+  held.open();
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kFailed);
+  EXPECT_EQ(station().status().state, ScannerState::kUnreachable);
+  settle();
+  world_.reachable = true;
+  static_cast<void>(station().status());  // whoever asks has it looked for
+  settle();
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
+  EXPECT_EQ(station().status().problem, "");
+}
+
+TEST_F(Scans, a_scanner_that_fails_at_a_command_is_unreachable) {
+  world_.jams = true;
+  EXPECT_FALSE(station().jog(10));
+  EXPECT_EQ(station().status().problem, "the motor is stuck; free the table");
+}
+
 TEST_F(Scans, the_state_of_a_scanner_is_told_without_using_it) {
   static_cast<void>(station().status());
   const int calls = world_.calls;
@@ -156,17 +181,18 @@ TEST_F(Scans, a_cancelled_scan_keeps_its_data_and_can_still_become_a_model) {
   ASSERT_TRUE(service_->jobs().cancel(started.job));
   held.open();
   settle();
-  ScanInfo scan = info(started.scan);
+  const ScanInfo scan = info(started.scan);
   EXPECT_EQ(scan.job.record.state, JobState::kCancelled);
   EXPECT_EQ(scan.entry.step, 3);
   EXPECT_EQ(service_->view(scan.entry).value()->points(), 3 * test::kFakePoints);
   EXPECT_FALSE(service_->resume(scan.entry));
-  ASSERT_TRUE(service_->reprocess(scan.entry, order_, {}));
+  const auto reprocessed = service_->reprocess(scan.entry, order_, {});
+  ASSERT_TRUE(reprocessed);
   service_->jobs().lane("").run([] {});
-  scan = info(started.scan);
-  EXPECT_EQ(scan.job.record.kind, JobKind::kReprocess);
-  EXPECT_EQ(scan.job.record.state, JobState::kDone) << scan.job.record.error;
-  EXPECT_TRUE(scan.entry.model);
+  const JobRecord job = (*service_->jobs().find(reprocessed->job))->record;
+  EXPECT_EQ(job.kind, JobKind::kReprocess);
+  EXPECT_EQ(job.state, JobState::kDone) << job.error;
+  EXPECT_TRUE(info(started.scan).entry.model);
 }
 
 TEST_F(Scans, a_scan_is_not_reprocessed_while_it_grows) {
@@ -183,7 +209,7 @@ TEST_F(Scans, an_emergency_stop_pauses_the_scan_and_nothing_moves_before_it_is_r
   const auto started = begin(order_);
   held.await();
   station().stop();
-  EXPECT_TRUE(world_.stopped);
+  EXPECT_TRUE(world_.stopped());
   EXPECT_FALSE(world_.laser);
   held.open();
   settle();
@@ -192,6 +218,48 @@ TEST_F(Scans, an_emergency_stop_pauses_the_scan_and_nothing_moves_before_it_is_r
   ASSERT_TRUE(service_->resume(info(started.scan).entry));
   settle();
   EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, a_picture_or_a_refused_command_takes_no_emergency_stop_back) {
+  HeldAtStep held(world_, 6);
+  begin(order_);
+  held.await();
+  station().stop();
+  EXPECT_FALSE(service_->scan(order_, {}));
+  EXPECT_FALSE(service_->calibrate(station(), {}));
+  EXPECT_FALSE(station().jog(10));
+  EXPECT_TRUE(world_.stopped());
+  held.open();
+  settle();
+  EXPECT_TRUE(world_.stopped());
+}
+
+TEST_F(Scans, a_stopped_scanner_takes_pictures_and_stays_stopped) {
+  station().stop();
+  EXPECT_TRUE(station().picture());
+  EXPECT_TRUE(world_.stopped());
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
+  EXPECT_TRUE(station().jog(10));
+  EXPECT_FALSE(world_.stopped());
+}
+
+TEST_F(Scans, what_is_ordered_after_a_stop_does_not_let_what_was_stopped_go_on) {
+  settle();
+  std::promise<void> opening, go_on;
+  world_.while_opening = [&, first = true]() mutable {
+    if (!std::exchange(first, false)) return;
+    opening.set_value();
+    go_on.get_future().wait();
+  };
+  auto jog = std::async(std::launch::async, [this] { return station().jog(10); });
+  opening.get_future().wait();
+  station().stop();
+  begin(order_);
+  go_on.set_value();
+  EXPECT_FALSE(jog.get());
+  EXPECT_EQ(world_.degrees, 0);
+  settle();
   EXPECT_EQ(world_.steps, 12);
 }
 
@@ -213,6 +281,49 @@ TEST_F(Scans, what_scans_when_the_daemon_stops_goes_on_at_the_next_start) {
   EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
   EXPECT_EQ(info(started.scan).job.record.id, started.job);
   EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, progress_does_not_go_back_when_the_daemon_was_killed) {
+  HeldAtStep held(world_, 7);
+  const auto started = begin(order_);
+  held.await();
+  std::thread stopper([this] { service_->stop(); });
+  while (service_->scan(order_, {}).error().message.find("stopping") == std::string::npos)
+    std::this_thread::yield();
+  held.open();
+  stopper.join();
+  service_.reset();
+  ScanEntry entry = *installation_.jobs->find_scan(started.scan).value();
+  JobRecord job = *installation_.jobs->find_job(started.job).value();
+  entry.step = 1, job.progress = 0;  // the last that a daemon which is killed has stored
+  ASSERT_TRUE(installation_.jobs->update(entry));
+  ASSERT_TRUE(installation_.jobs->update(job));
+  std::promise<void> seen;
+  world_.while_opening = [until = seen.get_future().share()] { until.wait(); };  // before the job
+  start();
+  const ScanInfo scan = info(started.scan);
+  seen.set_value();
+  EXPECT_EQ(scan.entry.step, 7);
+  EXPECT_EQ(scan.entry.points, 7 * test::kFakePoints);
+  EXPECT_NEAR(scan.job.record.progress, 0.85 * 0.9 * 7 / 12, 1e-9);
+  settle();
+}
+
+TEST_F(Scans, progress_does_not_go_back_when_a_scan_that_failed_is_gone_on_with) {
+  world_.before_step = [](int step) -> std::optional<Error> {
+    if (step < 6) return std::nullopt;
+    return Error{ErrorCode::kIo, "camera 42 is gone; check its cable"};
+  };
+  const auto started = begin(order_);
+  settle();
+  const ScanInfo failed = info(started.scan);
+  std::promise<void> seen;
+  service_->jobs().lane(world_.name).post([&] { seen.get_future().wait(); });
+  ASSERT_TRUE(service_->resume(failed.entry));
+  EXPECT_EQ(info(started.scan).job.record.progress, failed.job.record.progress);
+  EXPECT_GT(failed.job.record.progress, 0.3);
+  seen.set_value();
+  settle();
 }
 
 TEST_F(Scans, what_was_published_before_a_crash_is_not_published_twice) {
@@ -251,12 +362,56 @@ TEST_F(Scans, a_scan_that_failed_can_be_gone_on_with_as_a_new_job) {
   EXPECT_EQ(world_.steps, 12);
 }
 
+TEST_F(Scans, a_scan_that_failed_can_be_gone_on_with_after_it_was_reprocessed) {
+  world_.before_step = [](int step) -> std::optional<Error> {
+    if (step < 3) return std::nullopt;
+    return Error{ErrorCode::kIo, "camera 42 is gone; check its cable"};
+  };
+  const auto started = begin(order_);
+  settle();
+  const auto reprocessed = service_->reprocess(info(started.scan).entry, order_, {});
+  ASSERT_TRUE(reprocessed) << reprocessed.error().message;
+  service_->jobs().lane("").run([] {});
+  EXPECT_EQ((*service_->jobs().find(reprocessed->job))->record.state, JobState::kDone);
+  const ScanInfo scan = info(started.scan);
+  EXPECT_TRUE(scan.entry.model);
+  EXPECT_EQ(scan.job.record.state, JobState::kFailed);
+  EXPECT_EQ(scan.job.record.error, "camera 42 is gone; check its cable");
+  world_.before_step = {};
+  ASSERT_TRUE(service_->resume(scan.entry));
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_EQ(world_.steps, 12);
+}
+
+TEST_F(Scans, of_a_scan_without_a_step_no_model_is_made) {
+  world_.before_step = [](int) { return Error{ErrorCode::kIo, "camera 42 is gone; plug it in"}; };
+  const auto started = begin(order_);
+  settle();
+  EXPECT_EQ(service_->reprocess(info(started.scan).entry, order_, {}).error().code,
+            ErrorCode::kState);
+  EXPECT_EQ(info(started.scan).job.record.error, "camera 42 is gone; plug it in");
+}
+
 TEST_F(Scans, a_calibration_is_a_job_and_its_number_is_seen) {
   const auto job = service_->calibrate(station(), {});
   ASSERT_TRUE(job);
   settle();
   EXPECT_EQ((*service_->jobs().find(job->id))->record.state, JobState::kDone);
   EXPECT_EQ(station().status().identity->calibration, 2);
+}
+
+TEST_F(Scans, a_calibration_that_is_stopped_ends_and_frees_the_scanner) {
+  HeldAtStep held(world_, 0);
+  const auto job = service_->calibrate(station(), {});
+  ASSERT_TRUE(job);
+  held.await();
+  station().stop();
+  held.open();
+  settle();
+  EXPECT_EQ((*service_->jobs().find(job->id))->record.state, JobState::kCancelled);
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
+  EXPECT_TRUE(service_->calibrate(station(), {}));
 }
 
 TEST_F(Scans, a_job_whose_scanner_is_not_configured_any_more_says_so) {

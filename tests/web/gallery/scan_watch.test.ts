@@ -3,7 +3,7 @@ import { ApiError, type ScanRecord, type ScanState } from "@gallery/api.ts";
 import { watchScan, type ScanSight, type ScanSource } from "@gallery/scan-watch.ts";
 
 const record: ScanRecord = {
-  id: "a", state: "scanning", step: 1, steps: 2, progress: 0.5, eta: null, error: null, model: null, title: "",
+  id: "a", state: "scanning", step: 1, steps: 2, progress: 0.5, eta: null, error: null, note: null, model: null, title: "",
 };
 
 /** A scan whose states and faults are dealt out one by one. */

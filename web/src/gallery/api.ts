@@ -19,7 +19,8 @@ export interface ScanRecord {
   steps: number;
   progress: number; // 0 to 1
   eta: number | null; // seconds
-  error: string | null;
+  error: string | null; // why it has failed
+  note: string | null; // what it waits for
   model: string | null; // its id
   title: string;
 }

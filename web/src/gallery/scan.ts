@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page "/scans/{id}": an object as it is measured. Its points grow where the model will stand.
-import { texts, timeLeft } from "../texts.ts";
+import { scanState, texts, timeLeft } from "../texts.ts";
 import { scan, scanPoints, type ScanRecord } from "./api.ts";
 import { CloudStage } from "./cloud-stage.ts";
 import { watchScan, type ScanSight } from "./scan-watch.ts";
@@ -55,9 +55,10 @@ class ScanPage implements ScanSight {
     this.#canvas.setAttribute("aria-label", texts.cloudOf(title));
   }
 
-  #tell({ state, step, steps, progress, eta, error }: ScanRecord): void {
+  #tell(scan: ScanRecord): void {
+    const { state, step, steps, progress, eta } = scan;
     const underWay = state !== "done" && state !== "failed" && state !== "cancelled";
-    this.#say(error === null ? texts.scanStates[state] : `${texts.scanStates[state]}: ${error}`);
+    this.#say(scanState(scan));
     find("#step").textContent = steps > 0 ? texts.step(step, steps) : "";
     find("#left").textContent = underWay && state !== "paused" && eta !== null ? timeLeft(eta) : "";
     find("#progress").setAttribute("aria-valuenow", String(Math.round(100 * progress)));

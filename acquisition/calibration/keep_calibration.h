@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// A calibration with what is known of it: NNNN.json, NNNN.report.json and, of the residuals,
+// NNNN.svg.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "acquisition/calibration/report.h"
+#include "codec/core/expected.h"
+
+namespace vitrine {
+
+std::filesystem::path report_file(const std::filesystem::path& folder, int number);
+std::filesystem::path residuals_file(const std::filesystem::path& folder, int number);
+
+// Writes all three into a folder of a CalibrationStore and returns the calibration with its number.
+// Fails with kIo.
+Expected<Calibration> keep_calibration(const std::filesystem::path& folder,
+                                       const Calibrated& calibrated);
+
+}  // namespace vitrine

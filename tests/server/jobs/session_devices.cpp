@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A backend and its devices between jobs.
+#include <gtest/gtest.h>
+
+#include "../../acquisition/session/fake_scanner.h"
+#include "server/jobs/session_backend.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine::test {
+namespace {
+
+class SessionDevices : public testing::Test {
+ protected:
+  // Whatever it is asked, the board that is open now does not obey any more.
+  void lose_board() {
+    const int lost = world_.calls["open board"];
+    world_.fault = [this, lost](const std::string& call, int) {
+      return world_.calls["open board"] == lost && call != "open board";
+    };
+  }
+
+  TemporaryFolder folder_;
+  FakeWorld world_;
+  SessionBackend backend_{{.name = "fake", .calibrations = folder_.path()},
+                          fake_scanner(world_, folder_.path())};
+};
+
+TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsTakenBack) {
+  world_.meanwhile = [this](const std::string& call, int) {
+    if (call == "open board") backend_.emergency_stop();
+  };
+  EXPECT_EQ(backend_.jog(10).error().code, ErrorCode::kState);
+  world_.meanwhile = {};
+  backend_.allow(0);  // by somebody who did not know of it
+  EXPECT_EQ(backend_.jog(10).error().code, ErrorCode::kState);
+  EXPECT_EQ(world_.degrees, 0);
+  EXPECT_TRUE(backend_.picture());
+  backend_.allow(backend_.stops());
+  EXPECT_TRUE(backend_.jog(10));
+  EXPECT_EQ(world_.degrees, 10);
+}
+
+TEST_F(SessionDevices, TheCommandAfterAStopIsObeyed) {
+  ASSERT_TRUE(backend_.laser(true));
+  backend_.emergency_stop();
+  EXPECT_FALSE(world_.laser);
+  backend_.allow(backend_.stops());
+  EXPECT_TRUE(backend_.jog(10));
+}
+
+TEST_F(SessionDevices, ALaserThatTheWatchdogSwitchedOffCanBeSwitchedOff) {
+  ASSERT_TRUE(backend_.laser(true));
+  lose_board();
+  EXPECT_TRUE(backend_.laser(false));
+  EXPECT_FALSE(world_.laser);
+  EXPECT_EQ(world_.calls["rest"], 1);
+}
+
+TEST_F(SessionDevices, ABoardThatWasPluggedInAgainIsUsed) {
+  ASSERT_TRUE(backend_.identify());
+  lose_board();
+  EXPECT_TRUE(backend_.identify());
+  EXPECT_TRUE(backend_.jog(10));
+}
+
+}  // namespace
+}  // namespace vitrine::test
