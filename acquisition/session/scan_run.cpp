@@ -30,14 +30,18 @@ Expected<void> same_camera(const ScanRecord& record, const LiveScanner& scanner)
                           record.camera, scanner.camera().serial));
 }
 
+Error stuck(const Error& error) {
+  return {error.code, "the table does not turn: " + error.message};
+}
+
 }  // namespace
 
-tl::unexpected<ScanRun::Setback> ScanRun::of_device(const Error& error) {
-  return tl::unexpected(Setback{error, error.code == ErrorCode::kIo});
+tl::unexpected<ScanRun::Setback> ScanRun::of_device(const Error& error, Cause cause) {
+  return tl::unexpected(Setback{error, error.code == ErrorCode::kIo ? cause : Cause::kScan});
 }
 
 tl::unexpected<ScanRun::Setback> ScanRun::of_scan(const Error& error) {
-  return tl::unexpected(Setback{error, false});
+  return tl::unexpected(Setback{error, Cause::kScan});
 }
 
 Expected<void> ScanRun::open_folder() {
@@ -59,19 +63,28 @@ Expected<void> ScanRun::open_folder() {
 
 Expected<void> ScanRun::run() {
   if (auto opened = open_folder(); !opened) return opened;
-  int tries = 0;
+  Tries tries;
   while (steps_done() < means_.request.steps && !means_.watch.is_interrupted()) {
     const int before = steps_done();
     Outcome outcome = scan_on();
     if (auto settled = settle(); !settled) outcome = of_scan(settled.error());
     if (outcome) continue;
-    tries = steps_done() > before ? 1 : tries + 1;
-    const int most = is_checked_ ? means_.patience.tries : means_.patience.first_tries;
-    if (!outcome.error().is_device || tries > most) return tl::unexpected(outcome.error().error);
-    means_.watch.waits_for(outcome.error().error);
+    const auto& [error, cause] = outcome.error();
+    if (steps_done() > before) tries = {};
+    ++tries.all;
+    if (cause == Cause::kMotion) ++tries.turns;
+    if (!is_worth_a_try(cause, tries))
+      return tl::unexpected(cause == Cause::kMotion ? stuck(error) : error);
+    means_.watch.waits_for(error);
     means_.watch.sleep(means_.patience.between);
   }
   return {};
+}
+
+bool ScanRun::is_worth_a_try(Cause cause, const Tries& tries) const {
+  const auto& [most, at_first, turns, between] = means_.patience;
+  if (cause == Cause::kScan || tries.all > (is_checked_ ? most : at_first)) return false;
+  return cause != Cause::kMotion || tries.turns < turns;
 }
 
 ScanRun::Outcome ScanRun::scan_on() {
@@ -98,7 +111,7 @@ CameraSettings ScanRun::settings() const {
 ScanRun::Outcome ScanRun::prepare(LiveScanner& scanner) {
   if (auto known = identify(scanner); !known) return of_scan(known.error());
   if (auto found = scanner.find_position(angle_of(means_.request, stands_at_)); !found)
-    return of_device(found.error());
+    return of_device(found.error(), Cause::kMotion);
   if (!is_checked_) {
     if (auto seen = look(scanner); !seen) return seen;
     if (auto begun = begin(scanner); !begun) return of_scan(begun.error());
@@ -152,7 +165,7 @@ Expected<void> ScanRun::begin(const LiveScanner& scanner) {
 
 tl::expected<FramePair, ScanRun::Setback> ScanRun::take(LiveScanner& scanner, int step) {
   if (auto turned = scanner.turn_to(angle_of(means_.request, step)); !turned)
-    return of_device(turned.error());
+    return of_device(turned.error(), Cause::kMotion);
   if (auto noted = journal_->note_turn(step); !noted) return of_scan(noted.error());
   stands_at_ = step;
   auto frames = scanner.capture_pair();

@@ -24,6 +24,9 @@ struct Patience {
   int tries = 60;  // to go on, without a step done in between
   // To begin: a device may still be held by a process that was killed.
   int first_tries = 10;
+  // To turn a table that does not turn, in all: what jams it stays, and with each try the place of
+  // the table is less certain.
+  int turns = 2;
   std::chrono::milliseconds between{500};
 };
 
@@ -63,16 +66,23 @@ class ScanRun {
   const Calibration& calibration() const { return calibration_; }
 
  private:
-  // An error, and whether opening the devices anew may help.
+  // Opening the devices anew helps where one was lost, and hardly where the table does not turn.
+  enum class Cause { kScan, kDevice, kMotion };
   struct Setback {
     Error error;
-    bool is_device = false;
+    Cause cause = Cause::kScan;
   };
   using Outcome = tl::expected<void, Setback>;
 
-  static tl::unexpected<Setback> of_device(const Error& error);
+  // Setbacks since the last step that was done.
+  struct Tries {
+    int all = 0, turns = 0;
+  };
+
+  static tl::unexpected<Setback> of_device(const Error& error, Cause cause = Cause::kDevice);
   static tl::unexpected<Setback> of_scan(const Error& error);
 
+  bool is_worth_a_try(Cause cause, const Tries& tries) const;
   Outcome scan_on();
   Outcome prepare(LiveScanner& scanner);
   Expected<void> identify(const LiveScanner& scanner);
