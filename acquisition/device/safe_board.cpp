@@ -53,6 +53,7 @@ class SafeBoard final : public Board {
 
   std::mutex mutex_;  // what follows, and controller_ but for halt()
   std::condition_variable closing_soon_;
+  bool is_off_ = false;  // as the board confirmed when it was switched off last
   std::optional<Error> failure_;
   Clock::time_point last_call_ = Clock::now();
   bool resting_ = true, closing_ = false;
@@ -63,11 +64,13 @@ Expected<void> SafeBoard::start() {
   auto firmware = controller_->greet();
   if (!firmware) {
     if (firmware.error().code == ErrorCode::kIo) switch_off();
+    guardian_.dismiss();  // nothing has been switched on, and it would be in the next try's way
     return Unexpected(std::move(firmware).error());
   }
   identity_.firmware = *firmware;
   if (auto off = controller_->switch_off(); !off) {
     controller_->halt();
+    guardian_.dismiss();
     return off;
   }
   watchdog_ = std::thread([this] { watch(); });
@@ -75,7 +78,8 @@ Expected<void> SafeBoard::start() {
 }
 
 void SafeBoard::switch_off() {
-  if (!controller_->switch_off()) controller_->halt();
+  is_off_ = controller_->switch_off().has_value();
+  if (!is_off_) controller_->halt();
 }
 
 template <class T>
@@ -162,7 +166,8 @@ SafeBoard::~SafeBoard() {
     watchdog_.join();
     if (!stopped_ && !failure_) switch_off();
   }
-  guardian_.dismiss();
+  // Else it does what it would do if this process died.
+  if (is_off_ && !stopped_) guardian_.dismiss();
 }
 
 }  // namespace
