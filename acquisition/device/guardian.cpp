@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -128,6 +129,11 @@ Expected<Guardian> Guardian::start(const BoardSelector& selector,
 
 Guardian::~Guardian() {
   if (socket_ >= 0) ::close(socket_);
+}
+
+bool Guardian::is_there() const {
+  pollfd other_end{.fd = socket_, .events = 0, .revents = 0};
+  return ::poll(&other_end, 1, 0) != 1;
 }
 
 void Guardian::dismiss() {

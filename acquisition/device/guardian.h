@@ -21,6 +21,9 @@ class Guardian {
   Guardian& operator=(Guardian&&) = delete;
   ~Guardian();
 
+  // Not where it has died.
+  bool is_there() const;
+
   // It ends without touching the board, before this returns.
   void dismiss();
 

@@ -42,6 +42,7 @@ class SafeBoard final : public Board {
   template <class T>
   Expected<T> judged(Expected<T> result);
   void switch_off();
+  void lose_guardian();
   void watch();
 
   Guardian guardian_;  // ends last
@@ -82,6 +83,13 @@ void SafeBoard::switch_off() {
   if (!is_off_) controller_->halt();
 }
 
+void SafeBoard::lose_guardian() {
+  switch_off();
+  failure_ = Error{ErrorCode::kIo, port_->name() +
+                                       " was switched off, the process that guards its laser has "
+                                       "ended; open the scanner anew to go on"};
+}
+
 template <class T>
 Expected<T> SafeBoard::judged(Expected<T> result) {
   if (stopped_) {
@@ -99,6 +107,7 @@ Expected<T> SafeBoard::judged(Expected<T> result) {
 template <class Call>
 auto SafeBoard::guarded(Call call) -> decltype(call()) {
   const std::lock_guard lock(mutex_);
+  if (!failure_ && !guardian_.is_there()) lose_guardian();
   if (failure_) return judged(decltype(call())(Unexpected(*failure_)));
   auto result = judged(stopped_ ? decltype(call())() : call());
   last_call_ = Clock::now();

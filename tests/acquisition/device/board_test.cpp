@@ -352,6 +352,29 @@ TEST(Guardian, IsNotDismissedWhereNobodyKnowsThatTheLaserIsOff) {
   }
 }
 
+TEST(Guardian, IsToldWhichBoardWasOpened) {
+  const UsbRig rig;
+  const WritingGuardian guardian;
+  ASSERT_EQ(rig.ask("plug horus cdc"), "ok");
+  BoardSelector any = selector_of("horus", "cdc");
+  any.serial.clear();
+  ASSERT_TRUE(open_board(any, {.guardian = guardian.program()}));
+  EXPECT_EQ(guardian.board(), "horus 9025 67 RIG0001 1-2\n");
+}
+
+TEST(Guardian, LeavesNoLaserUnguardedWhenItDies) {
+  const UsbRig rig;
+  ASSERT_EQ(rig.ask("plug horus cdc"), "ok");
+  auto board = open_board(selector_of("horus", "cdc"), {.guardian = "/bin/true"});
+  ASSERT_TRUE(board) << board.error().message;
+  const auto lit = (*board)->laser(true);
+  ASSERT_FALSE(lit);
+  EXPECT_NE(lit.error().message.find("the process that guards its laser has ended"),
+            std::string::npos)
+      << lit.error().message;
+  EXPECT_EQ(rig.ask("laser"), "off");
+}
+
 TEST(Board, IsNotOpenedWithoutItsGuardian) {
   const UsbRig rig;
   ASSERT_EQ(rig.ask("plug horus cdc"), "ok");

@@ -16,6 +16,7 @@ class ChatteringPort : public SerialPort {
  public:
   const std::string& name() const override { return name_; }
   const std::string& serial() const override { return none_; }
+  const std::string& socket() const override { return none_; }
   Expected<void> write(std::string_view bytes) override {
     if (echoes) unread_ += bytes;
     return {};
