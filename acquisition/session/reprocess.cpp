@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/reprocess.h"
 
-#include <fmt/core.h>
-
 #include "acquisition/calibration/calibration_store.h"
+#include "acquisition/session/scan_calibration.h"
 
 namespace vitrine {
 namespace {
 
-bool same_calibration(const ScanRecord& record, const Calibration& calibration) {
-  return calibration.camera == record.camera && calibration.region == record.settings.region;
+// The scan's own, or another of its camera and region.
+Expected<Calibration> chosen(const ScanRecord& record, const std::filesystem::path& calibrations,
+                             int number) {
+  if (number == record.calibration) return calibration_of(record, calibrations);
+  auto calibration = CalibrationStore(calibrations).load(number);
+  if (!calibration) return calibration;
+  if (auto possible = fits(*calibration, record); !possible)
+    return tl::unexpected(possible.error());
+  return calibration;
 }
 
 Expected<void> measure_again(std::vector<Profile>& profiles, const ScanFolder& folder,
@@ -35,14 +41,8 @@ Expected<ScannedSurface> reprocess(const ScanFolder& folder,
   if (!record) return tl::unexpected(record.error());
   const ScanRequest& request = (*record)->request;
   const int number = options.calibration == 0 ? (*record)->calibration : options.calibration;
-  const auto calibration = CalibrationStore(calibrations).load(number);
+  const auto calibration = chosen(**record, calibrations, number);
   if (!calibration) return tl::unexpected(calibration.error());
-  if (!same_calibration(**record, *calibration)) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("calibration {} is not of the camera and region of the scan; choose "
-                            "another",
-                            number));
-  }
   auto profiles = folder.profiles();
   if (!profiles) return tl::unexpected(profiles.error());
   const bool other_points =

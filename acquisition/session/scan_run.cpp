@@ -9,6 +9,7 @@
 
 #include "acquisition/calibration/calibration_store.h"
 #include "acquisition/session/first_look.h"
+#include "acquisition/session/scan_calibration.h"
 
 namespace vitrine {
 namespace {
@@ -55,7 +56,7 @@ Expected<void> ScanRun::open_folder() {
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
   if (!record_) return {};
-  auto calibration = CalibrationStore(means_.scanner.calibrations).load(record_->calibration);
+  auto calibration = calibration_of(*record_, means_.scanner.calibrations);
   if (!calibration) return tl::unexpected(calibration.error());
   calibration_ = std::move(*calibration);
   return {};
@@ -156,7 +157,8 @@ Expected<void> ScanRun::begin(const LiveScanner& scanner) {
                     .camera = scanner.camera().serial,
                     .settings = settings(),
                     .board = board_name(scanner.board()),
-                    .calibration = calibration_.number};
+                    .calibration = calibration_.number,
+                    .calibration_digest = digest_of(calibration_)};
   record.settings.region = scanner.region();
   if (auto written = means_.folder.write_record(record); !written) return written;
   record_ = std::move(record);

@@ -8,6 +8,7 @@
 #include <future>
 #include <numbers>
 
+#include "acquisition/session/reprocess.h"
 #include "scan_test.h"
 
 namespace vitrine::test {
@@ -228,6 +229,34 @@ TEST_F(ScanTest, a_newer_calibration_does_not_touch_a_scan_that_has_begun) {
   ASSERT_TRUE(CalibrationStore(calibrations_).add(newer));
   EXPECT_EQ(run(*scan), ScanState::kDone);
   EXPECT_EQ(mesh_text(*scan), expected);
+}
+
+TEST_F(ScanTest, it_goes_on_with_no_other_calibration_of_that_number) {
+  auto scan = this->scan();
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call == "turn" && count == 4) {
+      EXPECT_TRUE(scan->pause());
+    }
+  };
+  ASSERT_EQ(run(*scan), ScanState::kPaused);
+  const std::filesystem::path theirs = calibrations_.string() + "-theirs";
+  std::filesystem::rename(calibrations_, theirs);
+  Calibration camera = fake_calibration(), region = fake_calibration(), axis = fake_calibration();
+  camera.camera = "another";
+  region.region.x = 8;
+  axis.axis.a = 3;
+  for (const Calibration& other : {camera, region, axis}) {
+    std::filesystem::remove_all(calibrations_);
+    ASSERT_EQ(CalibrationStore(calibrations_).add(other)->number, 1);
+    ASSERT_EQ(run(*scan), ScanState::kFailed);
+    EXPECT_THAT(scan->status().error->message,
+                HasSubstr("is not the one that the scan was begun with; bring that one back"));
+    EXPECT_FALSE(reprocess(scan->folder(), calibrations_, {}));
+  }
+  std::filesystem::remove_all(calibrations_);
+  std::filesystem::rename(theirs, calibrations_);
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), undisturbed());
 }
 
 TEST_F(ScanTest, it_goes_on_with_no_other_camera) {
