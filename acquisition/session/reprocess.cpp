@@ -25,9 +25,9 @@ Expected<void> measure_again(std::vector<Profile>& profiles, const ScanFolder& f
     const int step = static_cast<int>(i);
     const auto frames = folder.frames(step);
     if (!frames) return tl::unexpected(frames.error());
-    auto profile = measure_profile(*frames, calibration, stripe, angle_of(request, step));
-    if (!profile) return tl::unexpected(profile.error());
-    profiles[i] = std::move(*profile);
+    auto measured = measure_profile(*frames, calibration, stripe, angle_of(request, step));
+    if (!measured) return tl::unexpected(measured.error());
+    profiles[i] = std::move(measured->profile);
   }
   return {};
 }

@@ -183,16 +183,16 @@ void ScanRun::measure(int step, FramePair frames) {
 
 Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
   const ScanRequest& request = means_.request;
-  auto profile =
+  auto measured =
       measure_profile(frames, calibration_, request.processing.stripe, angle_of(request, step));
-  if (!profile) return tl::unexpected(profile.error());
+  if (!measured) return tl::unexpected(measured.error());
   if (request.keep_frames) {
     if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
   }
-  if (auto stored = journal_->append(*profile); !stored) return stored;
+  if (auto stored = journal_->append(measured->profile); !stored) return stored;
   means_.preview.show(frames.lit);
-  means_.preview.add(*profile);
-  fresh_ = std::move(*profile);
+  means_.preview.add(measured->profile);
+  fresh_ = std::move(measured->profile);
   return {};
 }
 

@@ -18,7 +18,7 @@ inline constexpr int kFakeWidth = 160, kFakeHeight = 24;  // pixels
 inline constexpr double kFakePixel = 0.25;                // mm
 inline constexpr const char* kFakeSerial = "fake-1";
 
-enum class FakeObject { kColumn, kNothing, kEmptyTable, kSaturated, kTwoStripes };
+enum class FakeObject { kColumn, kNothing, kEmptyTable, kSaturated, kTwoStripes, kOverExposed };
 
 // What the devices share. `fault` is asked at each call of a device ("open camera", "capture",
 // "turn", "laser on", …) with how often it has been made, from 1; true: the device is lost.

@@ -289,6 +289,7 @@ TEST_F(ScanTest, what_the_first_frames_lack_is_named_with_what_to_do) {
   refused(FakeObject::kEmptyTable, "empty turntable");
   refused(FakeObject::kSaturated, "all saturated");
   refused(FakeObject::kTwoStripes, "two stripes");
+  refused(FakeObject::kOverExposed, "over-exposed");
 }
 
 TEST_F(ScanTest, an_object_put_on_the_table_after_a_refusal_is_scanned) {
