@@ -52,6 +52,9 @@ Expected<void> ScanRun::open_folder() {
   journal_ = std::move(*journal);
   profiles_ = std::move(contents.profiles);
   stands_at_ = contents.stands_at.value_or(0);
+  const bool is_lost =
+      !profiles_.empty() && !shows_stripe({.frames = 1, .rows = profiles_.back().points.size()});
+  lost_.emplace(means_.request.steps, is_lost);
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
@@ -192,7 +195,7 @@ Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
   if (auto stored = journal_->append(measured->profile); !stored) return stored;
   means_.preview.show(frames.lit);
   means_.preview.add(measured->profile);
-  fresh_ = std::move(measured->profile);
+  fresh_ = std::move(*measured);
   return {};
 }
 
@@ -200,9 +203,9 @@ Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
 Expected<void> ScanRun::settle() {
   if (!pending_.valid()) return {};
   if (auto stored = pending_.get(); !stored) return stored;
-  profiles_.push_back(std::move(fresh_));
+  profiles_.push_back(std::move(fresh_.profile));
   means_.watch.step_done(steps_done());
-  return {};
+  return lost_->add(fresh_.stripe, steps_done());
 }
 
 }  // namespace vitrine

@@ -292,6 +292,34 @@ TEST_F(ScanTest, what_the_first_frames_lack_is_named_with_what_to_do) {
   refused(FakeObject::kOverExposed, "over-exposed");
 }
 
+TEST_F(ScanTest, a_stripe_that_is_lost_on_the_way_stops_the_scan_once) {
+  constexpr int kSecondLook = 18;
+  auto scan = this->scan("scan", {.steps = 40});
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call != "turn") return;
+    const bool is_lost = count >= 12 && count < 30 && count != kSecondLook;
+    const std::lock_guard lock(world_.mutex);
+    world_.object = is_lost ? FakeObject::kNothing : FakeObject::kColumn;
+  };
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  // The first turn is that of the first look.
+  EXPECT_THAT(scan->status().error->message,
+              HasSubstr("the stripe is lost since step 11 of the scan, no stripe: 0 rows of 5"));
+  EXPECT_EQ(scan->status().steps_done, 15);
+  expect_dark(world_);
+  EXPECT_EQ(run(*scan), ScanState::kDone) << "the operator went on";
+}
+
+TEST_F(ScanTest, a_few_steps_without_stripe_are_the_object_s_shape) {
+  auto scan = this->scan("scan", {.steps = 40});
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call != "turn") return;
+    const std::lock_guard lock(world_.mutex);
+    world_.object = count % 5 == 1 ? FakeObject::kColumn : FakeObject::kNothing;
+  };
+  EXPECT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
+}
+
 TEST_F(ScanTest, an_object_put_on_the_table_after_a_refusal_is_scanned) {
   world_.object = FakeObject::kNothing;
   auto scan = this->scan();
