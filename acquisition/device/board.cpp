@@ -21,10 +21,14 @@ int baud_of(BoardDialect dialect) {
 
 Expected<std::unique_ptr<Board>> open_guarded(const BoardSelector& selector,
                                               const BoardOptions& options) {
-  auto guardian = Guardian::start(selector, options.guardian);
-  if (!guardian) return Unexpected(guardian.error());
   auto opened = open_controller(selector, options.patience);
   if (!opened) return Unexpected(opened.error());
+  // Before anything is switched on, and of this very board.
+  BoardSelector this_one = selector;
+  this_one.serial = opened->port->serial();
+  this_one.port = opened->port->socket();
+  auto guardian = Guardian::start(this_one, options.guardian);
+  if (!guardian) return Unexpected(guardian.error());
   BoardIdentity identity{.dialect = name_of(selector.dialect), .serial = opened->port->serial()};
   return make_safe(std::move(*opened), std::move(identity), options, std::move(*guardian));
 }

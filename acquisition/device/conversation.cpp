@@ -7,10 +7,10 @@ Expected<void> Conversation::say(std::string_view line) {
   return port_.write(std::string(line) + '\n');
 }
 
-Expected<std::optional<std::string>> Conversation::hear(std::chrono::milliseconds patience) {
-  const auto deadline = SerialPort::Clock::now() + patience;
+Expected<std::optional<std::string>> Conversation::hear(SerialPort::Clock::time_point deadline) {
   while (true) {
     if (auto line = reader_.next()) return line;
+    if (SerialPort::Clock::now() >= deadline) return std::nullopt;
     const Expected<std::string> bytes = port_.read(deadline);
     if (!bytes) return Unexpected(bytes.error());
     if (bytes->empty()) return std::nullopt;

@@ -16,8 +16,9 @@ class Conversation {
 
   SerialPort& port() { return port_; }
   Expected<void> say(std::string_view line);  // without its line feed
-  // The next line; nothing where none has come within `patience`.
-  Expected<std::optional<std::string>> hear(std::chrono::milliseconds patience);
+  // The next line; nothing where none has come until `deadline`, or the board has not stopped
+  // talking by then.
+  Expected<std::optional<std::string>> hear(SerialPort::Clock::time_point deadline);
   // Forgets what was said until nothing has come for `quiet`.
   Expected<void> ignore_all(std::chrono::milliseconds quiet);
 

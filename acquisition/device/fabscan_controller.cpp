@@ -49,8 +49,9 @@ Expected<std::string> FabScanController::command(const std::string& line, millis
   if (auto said = talk_.say(line); !said) return Unexpected(said.error());
   std::string answer;
   bool echoed = false;
+  const auto deadline = SerialPort::Clock::now() + patience;
   while (true) {
-    const auto heard = talk_.hear(patience);
+    const auto heard = talk_.hear(deadline);
     if (!heard) return Unexpected(heard.error());
     if (!*heard)
       return fail(ErrorCode::kIo, fmt::format("{} does not answer '{}' in time; check the motor's "

@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -45,7 +47,15 @@ Expected<BoardSelector> selector_from(int argc, char** argv) {
                        .port = argv[5]};
 }
 
-Expected<pid_t> spawn(std::vector<std::string> words, int input) {
+Unexpected cannot_start(const std::string& program, const std::string& why) {
+  return fail(ErrorCode::kIo,
+              fmt::format("cannot start {}: {}; install it beside vitrine, lasers are not safe "
+                          "without it",
+                          program, why));
+}
+
+// Returns once the guardian is on its own (guard()).
+Expected<void> spawn(std::vector<std::string> words, int input) {
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words)
@@ -59,26 +69,29 @@ Expected<pid_t> spawn(std::vector<std::string> words, int input) {
   const int error =
       posix_spawn(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0)
-    return fail(ErrorCode::kIo,
-                fmt::format("cannot start {}: {}; install it beside vitrine, lasers are not safe "
-                            "without it",
-                            words[0], std::generic_category().message(error)));
-  return process;
+  if (error != 0) return cannot_start(words[0], std::generic_category().message(error));
+  int status = -1;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (status != 0) return cannot_start(words[0], "it fails");
+  return {};
 }
 
-// The kernel may need a moment to take the board from a process that died.
+// The kernel may need a moment to take the board from a process that died, and its user to plug it
+// in again.
 bool switch_off(const BoardSelector& selector) {
   constexpr int kAttempts = 20;
+  std::string why;
   for (int i = 0; i < kAttempts; ++i) {
     const auto opened = open_controller(selector, std::chrono::seconds(1));
     if (opened) {
       if (!opened->controller->switch_off()) opened->controller->halt();
       return true;
     }
-    fmt::print(stderr, "vitrine-guardian: {}\n", opened.error().message);
+    why = opened.error().message;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
   }
+  fmt::print(stderr, "vitrine-guardian: {}\n", why);
   return false;
 }
 
@@ -102,41 +115,48 @@ std::filesystem::path beside_this_program() {
 Expected<Guardian> Guardian::start(const BoardSelector& selector,
                                    const std::filesystem::path& program) {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    return fail(ErrorCode::kIo, fmt::format("no pipe to a guardian process: {}; raise the limit of "
-                                            "open files",
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    return fail(ErrorCode::kIo, fmt::format("no socket to a guardian process: {}; raise the limit "
+                                            "of open files",
                                             std::generic_category().message(errno)));
   const auto path = program.empty() ? beside_this_program() : program;
-  const auto process = spawn(words_for(selector, path.string()), ends[0]);
+  const auto started = spawn(words_for(selector, path.string()), ends[0]);
   ::close(ends[0]);
-  if (process) return Guardian(ends[1], *process);
+  if (started) return Guardian(ends[1]);
   ::close(ends[1]);
-  return Unexpected(process.error());
+  return Unexpected(started.error());
+}
+
+Guardian::~Guardian() {
+  if (socket_ >= 0) ::close(socket_);
+}
+
+bool Guardian::is_there() const {
+  pollfd other_end{.fd = socket_, .events = 0, .revents = 0};
+  return ::poll(&other_end, 1, 0) != 1;
 }
 
 void Guardian::dismiss() {
-  if (pipe_ < 0) return;
-  // To a guardian that is dead already nothing is written: that would raise SIGPIPE.
-  if (::waitpid(process_, nullptr, WNOHANG) == 0) {
-    [[maybe_unused]] const ssize_t written = ::write(pipe_, &kDismissed, 1);
-    ::close(pipe_);
-    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  if (socket_ < 0) return;
+  if (::send(socket_, &kDismissed, 1, MSG_NOSIGNAL) == 1) {
+    char end = 0;
+    while (::recv(socket_, &end, 1, 0) < 0 && errno == EINTR) {
     }
-  } else {
-    ::close(pipe_);
   }
-  pipe_ = -1;
+  ::close(std::exchange(socket_, -1));
 }
 
 int guard(int argc, char** argv) {
-  ::setsid();  // the terminal's and the service's signals are meant for the process guarded
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE})
-    ::signal(signal, SIG_IGN);
   const auto selector = selector_from(argc, argv);
   if (!selector) {
     fmt::print(stderr, "{}\n", selector.error().message);
     return 2;
   }
+  // Nobody's child: the process guarded may live on without asking how it ended.
+  if (const pid_t child = ::fork(); child != 0) return child < 0 ? 1 : 0;
+  ::setsid();  // the terminal's and the service's signals are meant for the process guarded
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE})
+    ::signal(signal, SIG_IGN);
   return dismissed() || switch_off(*selector) ? 0 : 1;
 }
 

@@ -3,34 +3,34 @@
 // FabScan firmware know no watchdog, so after a SIGKILL nothing else would.
 #pragma once
 
-#include <sys/types.h>
-
 #include <utility>
 
 #include "acquisition/device/board.h"
 
 namespace vitrine {
 
-// The guardian waits at the end of a pipe and holds nothing else. Where the pipe ends without its
-// having been dismissed, it opens the board and switches it off.
+// The guardian waits at the end of a socket and holds nothing else. Where the socket is closed
+// without its having been dismissed, by the end of this process or of this object, it opens the
+// board and switches it off; nobody waits for that.
 class Guardian {
  public:
   static Expected<Guardian> start(const BoardSelector& selector,
                                   const std::filesystem::path& program);
 
-  Guardian(Guardian&& other) noexcept
-      : pipe_(std::exchange(other.pipe_, -1)), process_(std::exchange(other.process_, -1)) {}
+  Guardian(Guardian&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
   Guardian& operator=(Guardian&&) = delete;
-  ~Guardian() { dismiss(); }
+  ~Guardian();
 
-  // It ends without touching the board.
+  // Not where it has died.
+  bool is_there() const;
+
+  // It ends without touching the board, before this returns.
   void dismiss();
 
  private:
-  Guardian(int pipe, pid_t process) : pipe_(pipe), process_(process) {}
+  explicit Guardian(int socket) : socket_(socket) {}
 
-  int pipe_ = -1;
-  pid_t process_ = -1;
+  int socket_ = -1;
 };
 
 // What the guardian's program does: waits on standard input; returns its exit code.

@@ -75,8 +75,9 @@ Unexpected HorusController::refused(std::string_view line, const horus::Reply& r
 
 Expected<void> HorusController::command(const std::string& line, milliseconds patience) {
   if (auto said = talk_.say(line); !said) return said;
+  const auto deadline = SerialPort::Clock::now() + patience;
   while (true) {
-    const auto heard = talk_.hear(patience);
+    const auto heard = talk_.hear(deadline);
     if (!heard) return Unexpected(heard.error());
     if (!*heard) return no_answer(line);
     const horus::Reply reply = horus::parse(**heard);
@@ -88,8 +89,7 @@ Expected<void> HorusController::command(const std::string& line, milliseconds pa
 Expected<std::optional<horus::Reply>> HorusController::await(Kind kind, milliseconds patience) {
   const auto deadline = SerialPort::Clock::now() + patience;
   while (true) {
-    const auto left = std::chrono::duration_cast<milliseconds>(deadline - SerialPort::Clock::now());
-    const auto heard = talk_.hear(std::max(left, milliseconds(0)));
+    const auto heard = talk_.hear(deadline);
     if (!heard) return Unexpected(heard.error());
     if (!*heard) return std::nullopt;
     horus::Reply reply = horus::parse(**heard);
@@ -140,8 +140,9 @@ Expected<std::string> HorusController::greet() {
 Expected<double> HorusController::counter() {
   if (auto said = talk_.port().write({&horus::kAskStatus, 1}); !said)
     return Unexpected(said.error());
+  const auto deadline = SerialPort::Clock::now() + patience_;
   while (true) {
-    const auto heard = talk_.hear(patience_);
+    const auto heard = talk_.hear(deadline);
     if (!heard) return Unexpected(heard.error());
     if (!*heard) return no_answer("?");
     const horus::Reply reply = horus::parse(**heard);

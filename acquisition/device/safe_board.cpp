@@ -42,6 +42,7 @@ class SafeBoard final : public Board {
   template <class T>
   Expected<T> judged(Expected<T> result);
   void switch_off();
+  void lose_guardian();
   void watch();
 
   Guardian guardian_;  // ends last
@@ -53,6 +54,7 @@ class SafeBoard final : public Board {
 
   std::mutex mutex_;  // what follows, and controller_ but for halt()
   std::condition_variable closing_soon_;
+  bool is_off_ = false;  // as the board confirmed when it was switched off last
   std::optional<Error> failure_;
   Clock::time_point last_call_ = Clock::now();
   bool resting_ = true, closing_ = false;
@@ -63,11 +65,13 @@ Expected<void> SafeBoard::start() {
   auto firmware = controller_->greet();
   if (!firmware) {
     if (firmware.error().code == ErrorCode::kIo) switch_off();
+    guardian_.dismiss();  // nothing has been switched on, and it would be in the next try's way
     return Unexpected(std::move(firmware).error());
   }
   identity_.firmware = *firmware;
   if (auto off = controller_->switch_off(); !off) {
     controller_->halt();
+    guardian_.dismiss();
     return off;
   }
   watchdog_ = std::thread([this] { watch(); });
@@ -75,7 +79,15 @@ Expected<void> SafeBoard::start() {
 }
 
 void SafeBoard::switch_off() {
-  if (!controller_->switch_off()) controller_->halt();
+  is_off_ = controller_->switch_off().has_value();
+  if (!is_off_) controller_->halt();
+}
+
+void SafeBoard::lose_guardian() {
+  switch_off();
+  failure_ = Error{ErrorCode::kIo, port_->name() +
+                                       " was switched off, the process that guards its laser has "
+                                       "ended; open the scanner anew to go on"};
 }
 
 template <class T>
@@ -95,6 +107,7 @@ Expected<T> SafeBoard::judged(Expected<T> result) {
 template <class Call>
 auto SafeBoard::guarded(Call call) -> decltype(call()) {
   const std::lock_guard lock(mutex_);
+  if (!failure_ && !guardian_.is_there()) lose_guardian();
   if (failure_) return judged(decltype(call())(Unexpected(*failure_)));
   auto result = judged(stopped_ ? decltype(call())() : call());
   last_call_ = Clock::now();
@@ -162,7 +175,8 @@ SafeBoard::~SafeBoard() {
     watchdog_.join();
     if (!stopped_ && !failure_) switch_off();
   }
-  guardian_.dismiss();
+  // Else it does what it would do if this process died.
+  if (is_off_ && !stopped_) guardian_.dismiss();
 }
 
 }  // namespace

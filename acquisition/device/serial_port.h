@@ -16,9 +16,11 @@ class SerialPort {
 
   virtual ~SerialPort() = default;
 
-  // "USB board 2341:0043", for messages; and its serial number.
+  // "USB board 2341:0043", for messages; its serial number; and its socket, "1-2.4". The latter two
+  // are empty where it has none.
   virtual const std::string& name() const = 0;
   virtual const std::string& serial() const = 0;
+  virtual const std::string& socket() const = 0;
 
   // From any thread.
   virtual Expected<void> write(std::string_view bytes) = 0;

@@ -64,7 +64,8 @@ Expected<UsbDevice> open_one(libusb_device* device, const std::string& name) {
   if (const int code = libusb_open(device, &handle); code != LIBUSB_SUCCESS)
     return Unexpected(usb_error(name, "cannot be opened", code));
   UsbHandle owned(handle);
-  return UsbDevice{.handle = std::move(owned), .serial = serial_of(handle)};
+  return UsbDevice{
+      .handle = std::move(owned), .serial = serial_of(handle), .port = port_of(device)};
 }
 
 std::string wanted(const BoardSelector& selector) {

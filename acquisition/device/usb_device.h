@@ -32,6 +32,7 @@ Error usb_error(const std::string& name, const char* doing, int code);
 struct UsbDevice {
   UsbHandle handle;
   std::string serial;  // empty where it has none
+  std::string port;    // as of BoardSelector
 };
 Expected<UsbDevice> open_usb_device(libusb_context* context, const BoardSelector& selector);
 

@@ -29,6 +29,7 @@ class UsbSerial final : public SerialPort {
       : name_(std::move(name)),
         context_(std::move(context)),
         serial_(std::move(device.serial)),
+        socket_(std::move(device.port)),
         handle_(std::move(device.handle)),
         line_(line) {}
   ~UsbSerial() override;
@@ -37,6 +38,7 @@ class UsbSerial final : public SerialPort {
 
   const std::string& name() const override { return name_; }
   const std::string& serial() const override { return serial_; }
+  const std::string& socket() const override { return socket_; }
   Expected<void> write(std::string_view bytes) override;
   Expected<std::string> read(Clock::time_point deadline) override;
   void cancel() noexcept override;
@@ -68,7 +70,7 @@ class UsbSerial final : public SerialPort {
 
   const std::string name_;
   const UsbContext context_;
-  const std::string serial_;
+  const std::string serial_, socket_;
   const UsbHandle handle_;
   const SerialEndpoints line_;
   std::vector<int> claimed_;

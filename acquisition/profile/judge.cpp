@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kLeastRows = 2;  // a frame, on the average
 constexpr double kMostSaturated = .8, kMostDoubled = .5;
+constexpr double kMostFull = .05;   // a stripe is a hundredth of a picture, a lamp in view no more
+constexpr int kFullLevel = 254;     // grey levels, as where a stripe is saturated
 constexpr double kLeastHeight = 1;  // mm
 
 }  // namespace
@@ -26,13 +28,30 @@ StripeCount count(std::span<const StripePoint> stripe) {
   return sum;
 }
 
+StripeCount count_full(const Frame& picture) {
+  const auto full =
+      std::ranges::count_if(picture.pixels, [](int level) { return level >= kFullLevel; });
+  return {.pixels = picture.pixels.size(), .full = static_cast<std::uint64_t>(full)};
+}
+
 StripeCount operator+(const StripeCount& a, const StripeCount& b) {
-  return {a.frames + b.frames, a.rows + b.rows, a.saturated + b.saturated, a.doubled + b.doubled};
+  return {a.frames + b.frames,   a.rows + b.rows,     a.saturated + b.saturated,
+          a.doubled + b.doubled, a.pixels + b.pixels, a.full + b.full};
+}
+
+bool shows_stripe(const StripeCount& scan) {
+  return static_cast<double>(scan.rows) > kLeastRows * static_cast<double>(scan.frames);
 }
 
 Expected<void> judge(const StripeCount& scan) {
-  const auto rows = static_cast<double>(scan.rows), frames = static_cast<double>(scan.frames);
-  if (!(rows > kLeastRows * frames))
+  const auto rows = static_cast<double>(scan.rows), pixels = static_cast<double>(scan.pixels);
+  const auto full = static_cast<double>(scan.full);
+  if (full > kMostFull * pixels)
+    return fail(ErrorCode::kBadInput,
+                fmt::format("over-exposed: {:.0f} % of all pixels are at the end of the camera's "
+                            "range; lower the exposure or the gain, or darken the room",
+                            100 * full / pixels));
+  if (!shows_stripe(scan))
     return fail(ErrorCode::kBadInput,
                 fmt::format("no stripe: {} rows of {} pictures show the laser; put an object on "
                             "the table, check that the laser is on, raise the exposure",

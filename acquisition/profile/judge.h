@@ -15,13 +15,21 @@ namespace vitrine {
 struct StripeCount {
   std::uint64_t frames = 0, rows = 0;  // rows with a stripe
   std::uint64_t saturated = 0, doubled = 0;
+  std::uint64_t pixels = 0, full = 0;  // of the pictures, with and without laser; full: see below
 };
 
 StripeCount count(std::span<const StripePoint> stripe);
+// The pixels of a picture alone, and those of them at the end of the camera's range. Where the
+// picture without laser is full, the one with it shows no stripe, be the laser as bright as it may.
+StripeCount count_full(const Frame& picture);
 StripeCount operator+(const StripeCount& a, const StripeCount& b);
 
-// Fails (kBadInput) where hardly a frame shows a stripe ("no stripe"), where most of it is at the
-// end of the camera's range ("all saturated") or where most rows have two ("two stripes").
+// Whether there is something to measure.
+bool shows_stripe(const StripeCount& scan);
+
+// Fails (kBadInput) where the pictures are full ("over-exposed"), where hardly a frame shows a
+// stripe ("no stripe"), where most of it is at the end of the camera's range ("all saturated") or
+// where most rows have two ("two stripes").
 Expected<void> judge(const StripeCount& scan);
 
 // Fails (kBadInput) where all that the laser met lies at one height: the table itself ("empty

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/first_look.h"
 
+#include <utility>
+
 namespace vitrine {
 
 Expected<void> FirstLook::add(const FramePair& frames, double angle) {
-  const auto stripe = find_stripe(frames.lit, frames.dark, options_);
-  if (!stripe) return tl::unexpected(stripe.error());
-  stripe_ = stripe_ + count(*stripe);
-  profiles_.push_back(profile_of(*stripe, calibration_, angle));
+  auto measured = measure_profile(frames, calibration_, options_, angle);
+  if (!measured) return tl::unexpected(measured.error());
+  stripe_ = stripe_ + measured->stripe;
+  profiles_.push_back(std::move(measured->profile));
   return {};
 }
 

@@ -3,11 +3,12 @@
 
 namespace vitrine {
 
-Expected<Profile> measure_profile(const FramePair& frames, const Calibration& calibration,
-                                  const StripeOptions& options, double angle) {
+Expected<Measured> measure_profile(const FramePair& frames, const Calibration& calibration,
+                                   const StripeOptions& options, double angle) {
   const auto stripe = find_stripe(frames.lit, frames.dark, options);
   if (!stripe) return tl::unexpected(stripe.error());
-  return profile_of(*stripe, calibration, angle);
+  return Measured{profile_of(*stripe, calibration, angle),
+                  count(*stripe) + count_full(frames.lit) + count_full(frames.dark)};
 }
 
 Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,

@@ -20,10 +20,15 @@ struct Processing {
   SurfaceOptions surface;  // but for noise and sampling, which come from elsewhere
 };
 
+struct Measured {
+  Profile profile;
+  StripeCount stripe;
+};
+
 // Of one position of the table, which the board has turned by `angle` degrees. Fails (kBadInput)
 // where the frames differ in size.
-Expected<Profile> measure_profile(const FramePair& frames, const Calibration& calibration,
-                                  const StripeOptions& options, double angle);
+Expected<Measured> measure_profile(const FramePair& frames, const Calibration& calibration,
+                                   const StripeOptions& options, double angle);
 
 // Profiles as measured to the mesh.
 Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/reprocess.h"
 
-#include <fmt/core.h>
-
 #include "acquisition/calibration/calibration_store.h"
+#include "acquisition/session/scan_calibration.h"
 
 namespace vitrine {
 namespace {
 
-bool same_calibration(const ScanRecord& record, const Calibration& calibration) {
-  return calibration.camera == record.camera && calibration.region == record.settings.region;
+// The scan's own, or another of its camera and region.
+Expected<Calibration> chosen(const ScanRecord& record, const std::filesystem::path& calibrations,
+                             int number) {
+  if (number == record.calibration) return calibration_of(record, calibrations);
+  auto calibration = CalibrationStore(calibrations).load(number);
+  if (!calibration) return calibration;
+  if (auto possible = fits(*calibration, record); !possible)
+    return tl::unexpected(possible.error());
+  return calibration;
 }
 
 // A scan that is done has all its steps.
@@ -28,10 +34,10 @@ Expected<void> measure_again(std::vector<Profile>& profiles, const ScanFolder& f
     const int step = static_cast<int>(i);
     const auto frames = folder.frames(step);
     if (!frames) return tl::unexpected(frames.error());
-    auto profile =
+    auto measured =
         measure_profile(*frames, calibration, options.processing.stripe, angle_of(request, step));
-    if (!profile) return tl::unexpected(profile.error());
-    profiles[i] = std::move(*profile);
+    if (!measured) return tl::unexpected(measured.error());
+    profiles[i] = std::move(measured->profile);
     if (options.progress)
       options.progress(static_cast<double>(i + 1) / static_cast<double>(profiles.size()));
   }
@@ -51,14 +57,8 @@ Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem:
   }
   const ScanRequest& request = (*record)->request;
   const int number = options.calibration == 0 ? (*record)->calibration : options.calibration;
-  const auto calibration = CalibrationStore(calibrations).load(number);
+  const auto calibration = chosen(**record, calibrations, number);
   if (!calibration) return tl::unexpected(calibration.error());
-  if (!same_calibration(**record, *calibration)) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("calibration {} is not of the camera and region of the scan; choose "
-                            "another",
-                            number));
-  }
   auto profiles = folder.profiles();
   if (!profiles) return tl::unexpected(profiles.error());
   const int steps = static_cast<int>(profiles->size());

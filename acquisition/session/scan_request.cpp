@@ -103,6 +103,7 @@ std::string to_json_text(const ScanRecord& record) {
   object["region"] = to_json(record.settings.region);
   object["board"] = record.board;
   object["calibration"] = record.calibration;
+  object["calibration_digest"] = record.calibration_digest;
   return object.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
@@ -112,7 +113,7 @@ Expected<ScanRecord> scan_record_of(std::string_view text, const std::string& pl
   JsonMembers members(
       *object, place,
       {"created", "scanner", "steps", "keep_frames", "camera", "exposure_us", "gain_db", "region",
-       "board", "calibration", "stripe", "sampling", "surface"});
+       "board", "calibration", "calibration_digest", "stripe", "sampling", "surface"});
   ScanRecord record;
   record.request.steps = members.whole("steps", kLeastSteps, kMostSteps, 0);
   record.request.keep_frames = members.flag("keep_frames", false);
@@ -127,6 +128,7 @@ Expected<ScanRecord> scan_record_of(std::string_view text, const std::string& pl
   record.settings.region = region_in(members);
   record.board = members.text("board");
   record.calibration = members.whole("calibration", 0, 1'000'000'000, 0);
+  record.calibration_digest = members.text("calibration_digest");
   record.request.exposure_us = record.settings.exposure_us;
   if (!members.has("steps")) members.fault("steps", "is missing");
   if (auto checked = members.check(); !checked) return tl::unexpected(checked.error());

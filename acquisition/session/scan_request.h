@@ -36,12 +36,13 @@ Expected<void> check(const ScanRequest& request);
 // All that another process needs to go on with the scan. Written once, never changed.
 struct ScanRecord {
   ScanRequest request;
-  std::string created;      // 2026-11-23T08:00:00Z
-  std::string scanner;      // its name
-  std::string camera;       // serial
-  CameraSettings settings;  // as used
-  std::string board;        // dialect and serial
-  int calibration = 0;      // number
+  std::string created;             // 2026-11-23T08:00:00Z
+  std::string scanner;             // its name
+  std::string camera;              // serial
+  CameraSettings settings;         // as used
+  std::string board;               // dialect and serial
+  int calibration = 0;             // number
+  std::string calibration_digest;  // digest_of(); empty: not known
 };
 
 inline double angle_of(const ScanRequest& request, int step) {

@@ -9,6 +9,7 @@
 
 #include "acquisition/calibration/calibration_store.h"
 #include "acquisition/session/first_look.h"
+#include "acquisition/session/scan_calibration.h"
 
 namespace vitrine {
 namespace {
@@ -30,14 +31,18 @@ Expected<void> same_camera(const ScanRecord& record, const LiveScanner& scanner)
                           record.camera, scanner.camera().serial));
 }
 
+Error stuck(const Error& error) {
+  return {error.code, "the table does not turn: " + error.message};
+}
+
 }  // namespace
 
-tl::unexpected<ScanRun::Setback> ScanRun::of_device(const Error& error) {
-  return tl::unexpected(Setback{error, error.code == ErrorCode::kIo});
+tl::unexpected<ScanRun::Setback> ScanRun::of_device(const Error& error, Cause cause) {
+  return tl::unexpected(Setback{error, error.code == ErrorCode::kIo ? cause : Cause::kScan});
 }
 
 tl::unexpected<ScanRun::Setback> ScanRun::of_scan(const Error& error) {
-  return tl::unexpected(Setback{error, false});
+  return tl::unexpected(Setback{error, Cause::kScan});
 }
 
 Expected<void> ScanRun::open_folder() {
@@ -47,11 +52,14 @@ Expected<void> ScanRun::open_folder() {
   journal_ = std::move(*journal);
   profiles_ = std::move(contents.profiles);
   stands_at_ = contents.stands_at.value_or(0);
+  const bool is_lost =
+      !profiles_.empty() && !shows_stripe({.frames = 1, .rows = profiles_.back().points.size()});
+  lost_.emplace(means_.request.steps, is_lost);
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
   if (!record_) return {};
-  auto calibration = CalibrationStore(means_.scanner.calibrations).load(record_->calibration);
+  auto calibration = calibration_of(*record_, means_.scanner.calibrations);
   if (!calibration) return tl::unexpected(calibration.error());
   calibration_ = std::move(*calibration);
   return {};
@@ -59,19 +67,28 @@ Expected<void> ScanRun::open_folder() {
 
 Expected<void> ScanRun::run() {
   if (auto opened = open_folder(); !opened) return opened;
-  int tries = 0;
+  Tries tries;
   while (steps_done() < means_.request.steps && !means_.watch.is_interrupted()) {
     const int before = steps_done();
     Outcome outcome = scan_on();
     if (auto settled = settle(); !settled) outcome = of_scan(settled.error());
     if (outcome) continue;
-    tries = steps_done() > before ? 1 : tries + 1;
-    const int most = is_checked_ ? means_.patience.tries : means_.patience.first_tries;
-    if (!outcome.error().is_device || tries > most) return tl::unexpected(outcome.error().error);
-    means_.watch.waits_for(outcome.error().error);
+    const auto& [error, cause] = outcome.error();
+    if (steps_done() > before) tries = {};
+    ++tries.all;
+    if (cause == Cause::kMotion) ++tries.turns;
+    if (!is_worth_a_try(cause, tries))
+      return tl::unexpected(cause == Cause::kMotion ? stuck(error) : error);
+    means_.watch.waits_for(error);
     means_.watch.sleep(means_.patience.between);
   }
   return {};
+}
+
+bool ScanRun::is_worth_a_try(Cause cause, const Tries& tries) const {
+  const auto& [most, at_first, turns, between] = means_.patience;
+  if (cause == Cause::kScan || tries.all > (is_checked_ ? most : at_first)) return false;
+  return cause != Cause::kMotion || tries.turns < turns;
 }
 
 ScanRun::Outcome ScanRun::scan_on() {
@@ -98,7 +115,7 @@ CameraSettings ScanRun::settings() const {
 ScanRun::Outcome ScanRun::prepare(LiveScanner& scanner) {
   if (auto known = identify(scanner); !known) return of_scan(known.error());
   if (auto found = scanner.find_position(angle_of(means_.request, stands_at_)); !found)
-    return of_device(found.error());
+    return of_device(found.error(), Cause::kMotion);
   if (!is_checked_) {
     if (auto seen = look(scanner); !seen) return seen;
     if (auto begun = begin(scanner); !begun) return of_scan(begun.error());
@@ -143,7 +160,8 @@ Expected<void> ScanRun::begin(const LiveScanner& scanner) {
                     .camera = scanner.camera().serial,
                     .settings = settings(),
                     .board = board_name(scanner.board()),
-                    .calibration = calibration_.number};
+                    .calibration = calibration_.number,
+                    .calibration_digest = digest_of(calibration_)};
   record.settings.region = scanner.region();
   if (auto written = means_.folder.write_record(record); !written) return written;
   record_ = std::move(record);
@@ -152,7 +170,7 @@ Expected<void> ScanRun::begin(const LiveScanner& scanner) {
 
 tl::expected<FramePair, ScanRun::Setback> ScanRun::take(LiveScanner& scanner, int step) {
   if (auto turned = scanner.turn_to(angle_of(means_.request, step)); !turned)
-    return of_device(turned.error());
+    return of_device(turned.error(), Cause::kMotion);
   if (auto noted = journal_->note_turn(step); !noted) return of_scan(noted.error());
   stands_at_ = step;
   auto frames = scanner.capture_pair();
@@ -168,16 +186,16 @@ void ScanRun::measure(int step, FramePair frames) {
 
 Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
   const ScanRequest& request = means_.request;
-  auto profile =
+  auto measured =
       measure_profile(frames, calibration_, request.processing.stripe, angle_of(request, step));
-  if (!profile) return tl::unexpected(profile.error());
+  if (!measured) return tl::unexpected(measured.error());
   if (request.keep_frames) {
     if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
   }
-  if (auto stored = journal_->append(*profile); !stored) return stored;
+  if (auto stored = journal_->append(measured->profile); !stored) return stored;
   means_.preview.show(frames.lit);
-  means_.preview.add(*profile);
-  fresh_ = std::move(*profile);
+  means_.preview.add(measured->profile);
+  fresh_ = std::move(*measured);
   return {};
 }
 
@@ -185,9 +203,9 @@ Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
 Expected<void> ScanRun::settle() {
   if (!pending_.valid()) return {};
   if (auto stored = pending_.get(); !stored) return stored;
-  profiles_.push_back(std::move(fresh_));
+  profiles_.push_back(std::move(fresh_.profile));
   means_.watch.step_done(steps_done());
-  return {};
+  return lost_->add(fresh_.stripe, steps_done());
 }
 
 }  // namespace vitrine

@@ -13,6 +13,7 @@
 
 #include "acquisition/calibration/calibration.h"
 #include "acquisition/session/live_preview.h"
+#include "acquisition/session/lost_stripe.h"
 #include "acquisition/session/profile_journal.h"
 #include "acquisition/session/scan_folder.h"
 #include "acquisition/session/scanner.h"
@@ -24,6 +25,9 @@ struct Patience {
   int tries = 60;  // to go on, without a step done in between
   // To begin: a device may still be held by a process that was killed.
   int first_tries = 10;
+  // To turn a table that does not turn, in all: what jams it stays, and with each try the place of
+  // the table is less certain.
+  int turns = 2;
   std::chrono::milliseconds between{500};
 };
 
@@ -63,16 +67,23 @@ class ScanRun {
   const Calibration& calibration() const { return calibration_; }
 
  private:
-  // An error, and whether opening the devices anew may help.
+  // Opening the devices anew helps where one was lost, and hardly where the table does not turn.
+  enum class Cause { kScan, kDevice, kMotion };
   struct Setback {
     Error error;
-    bool is_device = false;
+    Cause cause = Cause::kScan;
   };
   using Outcome = tl::expected<void, Setback>;
 
-  static tl::unexpected<Setback> of_device(const Error& error);
+  // Setbacks since the last step that was done.
+  struct Tries {
+    int all = 0, turns = 0;
+  };
+
+  static tl::unexpected<Setback> of_device(const Error& error, Cause cause = Cause::kDevice);
   static tl::unexpected<Setback> of_scan(const Error& error);
 
+  bool is_worth_a_try(Cause cause, const Tries& tries) const;
   Outcome scan_on();
   Outcome prepare(LiveScanner& scanner);
   Expected<void> identify(const LiveScanner& scanner);
@@ -92,7 +103,8 @@ class ScanRun {
   Calibration calibration_;
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
-  Profile fresh_;  // of step profiles_.size(); the other thread's until pending_ is there
+  std::optional<LostStripe> lost_;
+  Measured fresh_;  // of step profiles_.size(); the other thread's until pending_ is there
   std::future<Expected<void>> pending_;
   int stands_at_ = 0;  // the step that the table was turned to last
   bool is_checked_ = false;

@@ -8,10 +8,14 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <ostream>
+#include <sstream>
 #include <thread>
 
 #include "acquisition/rig/usb_rig.h"
+#include "support/temporary_folder.h"
 
 namespace vitrine {
 namespace {
@@ -292,6 +296,83 @@ TEST(Board, IsFoundBySerialNumberAndByPort) {
             std::string::npos);
   selector.port = "1-2";
   EXPECT_TRUE(open_board(selector, quick()));
+}
+
+// A guardian that writes down what it is told: which board, and the word that dismisses it.
+class WritingGuardian {
+ public:
+  WritingGuardian() {
+    std::ofstream(program()) << "#!/bin/sh\nexec 3<&0\necho \"$@\" >$0.board\n"
+                                "{ head -c 1 <&3 >$0.word; mv $0.word $0.end; } &\n";
+    std::filesystem::permissions(program(), std::filesystem::perms::owner_all);
+  }
+  std::filesystem::path program() const { return folder_.path() / "guardian"; }
+  std::string board() const { return text_of("guardian.board"); }
+  // Waits until it has been let go.
+  std::string last_word() const {
+    while (!std::filesystem::exists(folder_.path() / "guardian.end"))
+      std::this_thread::sleep_for(milliseconds(1));
+    return text_of("guardian.end");
+  }
+
+ private:
+  std::string text_of(const char* name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_.path() / name).rdbuf();
+    return text.str();
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST(Guardian, IsDismissedOnceTheBoardHasSaidThatItIsOff) {
+  const UsbRig rig;
+  const WritingGuardian guardian;
+  ASSERT_EQ(rig.ask("plug horus cdc"), "ok");
+  ASSERT_TRUE(open_board(selector_of("horus", "cdc"), {.guardian = guardian.program()}));
+  EXPECT_EQ(guardian.last_word(), "d");
+}
+
+TEST(Guardian, IsNotDismissedWhereNobodyKnowsThatTheLaserIsOff) {
+  const UsbRig rig;
+  for (const bool unplugged : {false, true}) {
+    const WritingGuardian guardian;
+    ASSERT_EQ(rig.ask("plug horus cdc"), "ok");
+    auto board = open_board(selector_of("horus", "cdc"), {.guardian = guardian.program()});
+    ASSERT_TRUE(board) << board.error().message;
+    ASSERT_TRUE((*board)->laser(true));
+    if (unplugged) {
+      ASSERT_EQ(rig.ask("unplug"), "ok");
+    } else {
+      (*board)->emergency_stop();
+    }
+    EXPECT_FALSE((*board)->laser(true));
+    board->reset();
+    EXPECT_EQ(guardian.last_word(), "");
+  }
+}
+
+TEST(Guardian, IsToldWhichBoardWasOpened) {
+  const UsbRig rig;
+  const WritingGuardian guardian;
+  ASSERT_EQ(rig.ask("plug horus cdc"), "ok");
+  BoardSelector any = selector_of("horus", "cdc");
+  any.serial.clear();
+  ASSERT_TRUE(open_board(any, {.guardian = guardian.program()}));
+  EXPECT_EQ(guardian.board(), "horus 9025 67 RIG0001 1-2\n");
+}
+
+TEST(Guardian, LeavesNoLaserUnguardedWhenItDies) {
+  const UsbRig rig;
+  ASSERT_EQ(rig.ask("plug horus cdc"), "ok");
+  auto board = open_board(selector_of("horus", "cdc"), {.guardian = "/bin/true"});
+  ASSERT_TRUE(board) << board.error().message;
+  const auto lit = (*board)->laser(true);
+  ASSERT_FALSE(lit);
+  EXPECT_NE(lit.error().message.find("the process that guards its laser has ended"),
+            std::string::npos)
+      << lit.error().message;
+  EXPECT_EQ(rig.ask("laser"), "off");
 }
 
 TEST(Board, IsNotOpenedWithoutItsGuardian) {

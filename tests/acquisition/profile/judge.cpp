@@ -8,6 +8,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 std::string verdict(const Expected<void>& judged) {
@@ -38,6 +39,16 @@ TEST(Judge, NoStripeNamesWhatToDo) {
               AllOf(StartsWith("no stripe: 0 rows of 2 pictures"), HasSubstr("laser is on"),
                     HasSubstr("raise the exposure")));
   EXPECT_THAT(verdict(judge(StripeCount{})), StartsWith("no stripe"));
+}
+
+TEST(Judge, OverExposedPicturesAreNotToBeExposedMore) {
+  const Frame full{10, 10, std::vector<std::uint8_t>(100, 255)};
+  const Frame dark{10, 10, std::vector<std::uint8_t>(100, 12)};
+  EXPECT_THAT(verdict(judge(count({}) + count_full(full) + count_full(dark))),
+              AllOf(StartsWith("over-exposed: 50 % of all pixels"), HasSubstr("lower the exposure"),
+                    Not(HasSubstr("raise"))));
+  EXPECT_THAT(verdict(judge(count({}) + count_full(dark) + count_full(dark))),
+              StartsWith("no stripe"));
 }
 
 TEST(Judge, AllSaturatedNamesWhatToDo) {

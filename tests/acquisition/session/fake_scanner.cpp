@@ -64,6 +64,7 @@ class FakeCamera : public Camera {
 
  private:
   double light(int u, int v) const {
+    if (world_.object == FakeObject::kOverExposed) return 255;
     if (!world_.laser || world_.object == FakeObject::kNothing) return 0;
     if (world_.object == FakeObject::kEmptyTable && v < kFakeHeight - 3) return 0;
     const double centre = kFakeWidth / 2.0 + fake_radius(world_.degrees) / kFakePixel;

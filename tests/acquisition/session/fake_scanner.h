@@ -19,7 +19,15 @@ inline constexpr double kFakePixel = 0.25;                // mm
 inline constexpr int kFakeOtherRow = 12;  // from here on kTwoSurfaces shows a surface behind
 inline constexpr const char* kFakeSerial = "fake-1";
 
-enum class FakeObject { kColumn, kNothing, kEmptyTable, kSaturated, kTwoStripes, kTwoSurfaces };
+enum class FakeObject {
+  kColumn,
+  kNothing,
+  kEmptyTable,
+  kSaturated,
+  kTwoStripes,
+  kTwoSurfaces,
+  kOverExposed
+};
 
 // What the devices share. `fault` is asked at each call of a device ("open camera", "capture",
 // "turn", "laser on", …) with how often it has been made, from 1; true: the device is lost.

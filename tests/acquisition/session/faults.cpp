@@ -110,6 +110,23 @@ TEST_F(ScanTest, a_camera_that_stays_away_is_an_error_and_its_return_is_enough) 
   EXPECT_EQ(mesh_text(*scan), undisturbed());
 }
 
+TEST_F(ScanTest, a_table_that_does_not_turn_ends_the_scan_at_the_second_try) {
+  auto made = Scan::create(scanner(), request(), path(), impatient(60));
+  Scan& scan = **made;
+  bool is_stuck = false;
+  world_.fault = [&](const std::string& call, int count) {
+    is_stuck = is_stuck || (call == "turn" && count == 5);
+    return is_stuck && call == "turn";
+  };
+  EXPECT_EQ(run(scan), ScanState::kFailed);
+  EXPECT_THAT(scan.status().error->message, HasSubstr("the table does not turn: the board"));
+  EXPECT_EQ(world_.calls["turn"], 6);
+  EXPECT_EQ(world_.calls["open board"], 2);
+  world_.fault = {};
+  EXPECT_EQ(run(scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(scan), undisturbed());
+}
+
 TEST_F(ScanTest, a_camera_that_a_killed_process_still_holds_is_waited_for) {
   auto made = Scan::create(
       scanner(), request(), path(),

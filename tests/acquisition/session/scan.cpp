@@ -8,6 +8,7 @@
 #include <future>
 #include <numbers>
 
+#include "acquisition/session/reprocess.h"
 #include "scan_test.h"
 
 namespace vitrine::test {
@@ -230,6 +231,34 @@ TEST_F(ScanTest, a_newer_calibration_does_not_touch_a_scan_that_has_begun) {
   EXPECT_EQ(mesh_text(*scan), expected);
 }
 
+TEST_F(ScanTest, it_goes_on_with_no_other_calibration_of_that_number) {
+  auto scan = this->scan();
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call == "turn" && count == 4) {
+      EXPECT_TRUE(scan->pause());
+    }
+  };
+  ASSERT_EQ(run(*scan), ScanState::kPaused);
+  const std::filesystem::path theirs = calibrations_.string() + "-theirs";
+  std::filesystem::rename(calibrations_, theirs);
+  Calibration camera = fake_calibration(), region = fake_calibration(), axis = fake_calibration();
+  camera.camera = "another";
+  region.region.x = 8;
+  axis.axis.a = 3;
+  for (const Calibration& other : {camera, region, axis}) {
+    std::filesystem::remove_all(calibrations_);
+    ASSERT_EQ(CalibrationStore(calibrations_).add(other)->number, 1);
+    ASSERT_EQ(run(*scan), ScanState::kFailed);
+    EXPECT_THAT(scan->status().error->message,
+                HasSubstr("is not the one that the scan was begun with; bring that one back"));
+    EXPECT_FALSE(reprocess(scan->folder(), calibrations_, {}));
+  }
+  std::filesystem::remove_all(calibrations_);
+  std::filesystem::rename(theirs, calibrations_);
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), undisturbed());
+}
+
 TEST_F(ScanTest, it_goes_on_with_no_other_camera) {
   {
     auto scan = this->scan();
@@ -260,6 +289,35 @@ TEST_F(ScanTest, what_the_first_frames_lack_is_named_with_what_to_do) {
   refused(FakeObject::kEmptyTable, "empty turntable");
   refused(FakeObject::kSaturated, "all saturated");
   refused(FakeObject::kTwoStripes, "two stripes");
+  refused(FakeObject::kOverExposed, "over-exposed");
+}
+
+TEST_F(ScanTest, a_stripe_that_is_lost_on_the_way_stops_the_scan_once) {
+  constexpr int kSecondLook = 18;
+  auto scan = this->scan("scan", {.steps = 40});
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call != "turn") return;
+    const bool is_lost = count >= 12 && count < 30 && count != kSecondLook;
+    const std::lock_guard lock(world_.mutex);
+    world_.object = is_lost ? FakeObject::kNothing : FakeObject::kColumn;
+  };
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  // The first turn is that of the first look.
+  EXPECT_THAT(scan->status().error->message,
+              HasSubstr("the stripe is lost since step 11 of the scan, no stripe: 0 rows of 5"));
+  EXPECT_EQ(scan->status().steps_done, 15);
+  expect_dark(world_);
+  EXPECT_EQ(run(*scan), ScanState::kDone) << "the operator went on";
+}
+
+TEST_F(ScanTest, a_few_steps_without_stripe_are_the_object_s_shape) {
+  auto scan = this->scan("scan", {.steps = 40});
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call != "turn") return;
+    const std::lock_guard lock(world_.mutex);
+    world_.object = count % 5 == 1 ? FakeObject::kColumn : FakeObject::kNothing;
+  };
+  EXPECT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
 }
 
 TEST_F(ScanTest, an_object_put_on_the_table_after_a_refusal_is_scanned) {

@@ -22,6 +22,7 @@ ScanRecord example() {
   record.settings = {.exposure_us = 1234.5, .gain_db = -3, .region = {1, 2, 300, 400}};
   record.board = "horus 123";
   record.calibration = 17;
+  record.calibration_digest = "0123abcd";
   return record;
 }
 
@@ -34,6 +35,7 @@ TEST(ScanRecord, what_is_written_is_read_again) {
   EXPECT_EQ(record->request.processing.surface.largest_hole, 0.1);
   EXPECT_EQ(record->settings, example().settings);
   EXPECT_EQ(record->calibration, 17);
+  EXPECT_EQ(record->calibration_digest, "0123abcd");
 }
 
 TEST(ScanRecord, a_fault_names_file_and_key) {
