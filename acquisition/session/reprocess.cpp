@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/reprocess.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "acquisition/calibration/calibration_store.h"
 #include "acquisition/session/scan_calibration.h"
 
