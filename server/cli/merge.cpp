@@ -65,9 +65,11 @@ std::string as_text(const json& r) {
   std::string text =
       fmt::format("{}: {} vertices, {} faces", r["out"].get<std::string>(),
                   r["vertices"].get<std::uint64_t>(), r["faces"].get<std::uint64_t>());
-  for (const json& scan : r["scans"])
+  for (std::size_t k = 1; k < r["scans"].size(); ++k) {
+    const json& scan = r["scans"][k];
     text += fmt::format("\n{}: rms {:.4f} mm to those before it", scan["file"].get<std::string>(),
                         scan["rms"].get<double>());
+  }
   return text;
 }
 
