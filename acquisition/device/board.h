@@ -74,7 +74,7 @@ class Board {
 };
 
 // Fails with kIo where the board is absent, not accessible or held by another program for more than
-// three seconds, and with kBadInput where it is not unique or does not speak that dialect. An
+// five seconds, and with kBadInput where it is not unique or does not speak that dialect. An
 // Arduino restarts when it is opened for the first time after it was plugged in, and only then.
 Expected<std::unique_ptr<Board>> open_board(const BoardSelector& selector,
                                             const BoardOptions& options = {});

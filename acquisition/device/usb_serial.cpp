@@ -16,7 +16,7 @@ namespace vitrine {
 namespace {
 
 constexpr std::size_t kMostUnread = 1 << 20;
-constexpr std::chrono::seconds kClaimPatience{3};
+constexpr std::chrono::seconds kClaimPatience{5};
 
 struct TransferDeleter {
   void operator()(libusb_transfer* transfer) const { libusb_free_transfer(transfer); }

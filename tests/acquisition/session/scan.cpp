@@ -315,7 +315,7 @@ TEST_F(ScanTest, a_few_steps_without_stripe_are_the_object_s_shape) {
   world_.meanwhile = [&](const std::string& call, int count) {
     if (call != "turn") return;
     const std::lock_guard lock(world_.mutex);
-    world_.object = count % 5 == 1 ? FakeObject::kColumn : FakeObject::kNothing;
+    world_.object = count % 10 < 6 ? FakeObject::kColumn : FakeObject::kNothing;
   };
   EXPECT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
 }
