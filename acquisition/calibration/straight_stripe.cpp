@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSigmas = 6;
 constexpr double kStripeWidth = 2.5;  // pixels
-constexpr std::size_t kLeastPoints = 10;
+constexpr std::size_t kLeastOnLine = 10;
 
 struct Line {
   cv::Point2f through, across;
@@ -80,7 +80,7 @@ Line refined(std::span<const cv::Point2f> points, const Line& around) {
 
 // The points of one picture that are on its line; none where no line is clear.
 std::vector<LaserPoint> on_line(std::span<const LaserPoint> picture, const CameraModel& camera) {
-  if (picture.size() < kLeastPoints) return {};
+  if (picture.size() < kLeastOnLine) return {};
   const std::vector<cv::Point2f> points = undistorted(picture, camera);
   const Line line = refined(points, first_line(points));
   const double near = reach(points, line);
@@ -88,7 +88,7 @@ std::vector<LaserPoint> on_line(std::span<const LaserPoint> picture, const Camer
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (line.distance(points[i]) <= near) kept.push_back(picture[i]);
   }
-  if (kept.size() < kLeastPoints || 3 * kept.size() < 2 * picture.size()) return {};
+  if (kept.size() < kLeastOnLine || 3 * kept.size() < 2 * picture.size()) return {};
   return kept;
 }
 

@@ -8,9 +8,9 @@
 namespace vitrine {
 namespace {
 
-constexpr int kLeastRows = 5;    // of a line
-constexpr int kMostSlant = 10;   // pixels from row to row
-constexpr double kMostLit = .1;  // of the weaker peak, between two surfaces
+constexpr int kShortestLine = 5;  // of a line
+constexpr int kMostSlant = 10;    // pixels from row to row
+constexpr double kMostLit = .1;   // of the weaker peak, between two surfaces
 
 using Lengths = std::array<int, 2>;  // rows of the line up to each of a row's peaks
 
@@ -46,7 +46,7 @@ std::vector<int> second_peaks(std::span<const RowPeaks> rows, std::span<const in
     if (!are_two_surfaces(rows[v])) continue;
     const int other = 1 - chosen[v];
     const auto k = static_cast<std::size_t>(other);
-    if (from_above[v][k] + from_below[k] > kLeastRows) second[v] = other;
+    if (from_above[v][k] + from_below[k] > kShortestLine) second[v] = other;
   }
   return second;
 }

@@ -19,6 +19,8 @@
 #include <thread>
 #include <utility>
 
+#include "acquisition/rig/bus_users.h"
+
 namespace vitrine::rig {
 namespace {
 
@@ -30,6 +32,7 @@ constexpr double kHold = 0.0015;  // seconds
 // FTDI chips send their status without data, too.
 constexpr double kFtdiIdle = 0.016;
 constexpr std::size_t kMostUnread = 4096;
+constexpr std::chrono::seconds kGuardians(15);  // longer than they try
 
 constexpr char kPath[] = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-2";
 constexpr char kPreload[] = "libumockdev-preload.so.0";
@@ -80,6 +83,7 @@ class UsbBoard::Impl {
   explicit Impl(UsbBoardEvents events);
   ~Impl();
 
+  std::string bus() const;  // NAME=value
   std::vector<std::string> environment() const;
   Expected<void> plug(const UsbBoardSettings& settings);
   void unplug();
@@ -194,6 +198,8 @@ UsbBoard::Impl::Impl(UsbBoardEvents events)
 }
 
 UsbBoard::Impl::~Impl() {
+  // A guardian may have to switch the board off yet, and the bus cannot be removed while it looks.
+  wait_for_users_of(bus(), kGuardians);
   unplug();
   {
     const std::lock_guard lock(mutex_);
@@ -204,10 +210,14 @@ UsbBoard::Impl::~Impl() {
   g_signal_handlers_disconnect_by_data(calls_.get(), this);
 }
 
-std::vector<std::string> UsbBoard::Impl::environment() const {
+std::string UsbBoard::Impl::bus() const {
   const std::unique_ptr<char, decltype(&g_free)> root(umockdev_testbed_get_root_dir(testbed_.get()),
                                                       &g_free);
-  return {fmt::format("UMOCKDEV_DIR={}", root.get()), fmt::format("LD_PRELOAD={}", kPreload)};
+  return fmt::format("UMOCKDEV_DIR={}", root.get());
+}
+
+std::vector<std::string> UsbBoard::Impl::environment() const {
+  return {bus(), fmt::format("LD_PRELOAD={}", kPreload)};
 }
 
 Expected<void> UsbBoard::Impl::plug(const UsbBoardSettings& settings) {
