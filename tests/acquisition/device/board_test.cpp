@@ -170,9 +170,9 @@ TEST_P(EveryBoard, IsHaltedInTheMiddleOfAMotionByAnEmergencyStop) {
 }
 
 TEST_P(EveryBoard, StaysOffWhenACallBeginsAsItIsStopped) {
+  ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
   for (int i = 0; i < 10; ++i) {
-    ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
-    auto board = open();
+    auto board = open();  // once the guardian of the one before has switched it off
     ASSERT_TRUE(board) << board.error().message;
     std::thread turning([&] { (void)(*board)->turn_to(3600); });
     (*board)->emergency_stop();
