@@ -32,6 +32,14 @@ class Scans : public testing::Test {
   void settle() {
     service_->jobs().lane(world_.name).run([] {});
   }
+  // The daemon is told to stop while a scan is held at a step.
+  void stop_while(HeldAtStep& held) {
+    std::thread stopper([this] { service_->stop(); });
+    while (service_->scan(order_, {}).error().message.find("stopping") == std::string::npos)
+      std::this_thread::yield();
+    held.open();
+    stopper.join();
+  }
   ScanInfo info(const ScanId& id) { return **service_->find(id); }
   ScanStarted begin(const ScanOrder& order) {
     const auto started = service_->scan(order, std::nullopt);
@@ -267,11 +275,7 @@ TEST_F(Scans, what_scans_when_the_daemon_stops_goes_on_at_the_next_start) {
   HeldAtStep held(world_, 7);
   const auto started = begin(order_);
   held.await();
-  std::thread stopper([this] { service_->stop(); });
-  while (service_->scan(order_, {}).error().message.find("stopping") == std::string::npos)
-    std::this_thread::yield();
-  held.open();
-  stopper.join();
+  stop_while(held);
   EXPECT_FALSE(world_.laser);
   EXPECT_FALSE(world_.open);
   EXPECT_EQ(world_.steps, 7);
@@ -287,11 +291,7 @@ TEST_F(Scans, progress_does_not_go_back_when_the_daemon_was_killed) {
   HeldAtStep held(world_, 7);
   const auto started = begin(order_);
   held.await();
-  std::thread stopper([this] { service_->stop(); });
-  while (service_->scan(order_, {}).error().message.find("stopping") == std::string::npos)
-    std::this_thread::yield();
-  held.open();
-  stopper.join();
+  stop_while(held);
   service_.reset();
   ScanEntry entry = *installation_.jobs->find_scan(started.scan).value();
   JobRecord job = *installation_.jobs->find_job(started.job).value();
