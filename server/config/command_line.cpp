@@ -115,8 +115,8 @@ Expected<void> read_config(const std::string& path, const ReadFile& read_file, D
   return {};
 }
 
-constexpr std::array<std::string_view, 3> kOfTests{"VITRINE_MODELS", "VITRINE_FUZZ_SECONDS",
-                                                   "VITRINE_CHROMIUM"};
+constexpr std::array<std::string_view, 4> kOfTests{"VITRINE_MODELS", "VITRINE_FUZZ_SECONDS",
+                                                   "VITRINE_CHROMIUM", "VITRINE_NO_SKIPS"};
 
 // Names with our prefix that others set: Kubernetes describes a service called "vitrine" so.
 bool is_foreign(std::string_view name, std::string_view value) {

@@ -67,7 +67,8 @@ TEST(CommandLine, VariablesThatKubernetesSetsForAServiceOfThisNameAreIgnored) {
 }
 
 TEST(CommandLine, VariablesOfTheTestsAreIgnored) {
-  EXPECT_TRUE(parse({}, {"VITRINE_MODELS=/m", "VITRINE_FUZZ_SECONDS=9", "VITRINE_CHROMIUM=/c"}));
+  EXPECT_TRUE(parse({}, {"VITRINE_MODELS=/m", "VITRINE_FUZZ_SECONDS=9", "VITRINE_CHROMIUM=/c",
+                         "VITRINE_NO_SKIPS=1"}));
 }
 
 TEST(CommandLine, RefusesValuesOutOfRangeAndSaysWhereTheyCameFrom) {
