@@ -110,6 +110,21 @@ TEST_P(EveryBoard, StandsAsToldAfterSetPosition) {
   EXPECT_NEAR(rig_.table() - before, 45, 1e-3);
 }
 
+TEST_P(EveryBoard, GoesOnWithinHalfAMotorStepHoweverOftenItIsOpenedAnew) {
+  ASSERT_EQ(rig_.ask("plug " + name()), "ok");
+  double at = 0;
+  for (const double next : {0.5, 1.0, 1.5}) {  // 4.4, 8.9 and 13.3 motor steps of a FabScan
+    auto board = open();
+    ASSERT_TRUE(board) << board.error().message;
+    if (!*(*board)->position()) {
+      ASSERT_TRUE((*board)->set_position(at));
+    }
+    ASSERT_TRUE((*board)->turn_to(next));
+    at = next;
+  }
+  EXPECT_NEAR(rig_.table(), at, 180.0 / 3200);
+}
+
 TEST_P(EveryBoard, IsGoneWhenUnpluggedAmidAMotionAndServesAnewWhenItIsBack) {
   ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
   {
