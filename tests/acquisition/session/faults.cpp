@@ -167,6 +167,25 @@ TEST_F(ScanTest, a_camera_that_repeats_one_frame_is_an_error_that_says_so) {
   EXPECT_EQ(mesh_text(*scan), undisturbed());
 }
 
+TEST_F(ScanTest, what_is_thrown_ends_the_scan_and_nothing_else) {
+  const std::string expected = undisturbed();
+  for (const char* moment : {"open camera", "turn", "capture", "laser on"}) {
+    auto scan = this->scan(moment);
+    world_.degrees = 0;
+    world_.calls.clear();
+    world_.meanwhile = [&](const std::string& call, int count) {
+      if (call == moment && (count == 7 || call == "open camera")) throw std::bad_alloc();
+    };
+    EXPECT_EQ(run(*scan), ScanState::kFailed);
+    EXPECT_THAT(scan->status().error.value_or(Error{}).message,
+                HasSubstr("the scan cannot go on: std::bad_alloc; free memory and resume it"));
+    expect_dark(world_);
+    world_.meanwhile = {};
+    EXPECT_EQ(run(*scan), ScanState::kDone);
+    EXPECT_EQ(mesh_text(*scan), expected) << moment;
+  }
+}
+
 TEST_F(ScanTest, while_it_waits_for_a_device_it_says_so_and_can_be_paused) {
   auto made =
       Scan::create(scanner(), request(), path(),
