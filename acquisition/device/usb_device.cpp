@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
@@ -147,24 +148,33 @@ Error usb_error(const std::string& name, const char* doing, int code) {
   }
 }
 
+Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
+                           const BoardSelector& selector) {
+  const auto is_meant = [&](const Expected<UsbDevice>& device) {
+    return device && (selector.serial.empty() || selector.serial == device->serial);
+  };
+  const auto could_be = [&](const Expected<UsbDevice>& device) {
+    return is_meant(device) || (!device && selector.serial.empty());
+  };
+  const auto count = std::ranges::count_if(candidates, could_be);
+  if (count > 1)
+    return fail(ErrorCode::kBadInput,
+                fmt::format("there are {} of {}; name one by its serial number or port", count,
+                            wanted(selector)));
+  const auto found = std::ranges::find_if(candidates, is_meant);
+  if (found != candidates.end()) return std::move(*found);
+  const auto closed =
+      std::ranges::find_if(candidates, [](const Expected<UsbDevice>& device) { return !device; });
+  if (closed != candidates.end()) return std::move(*closed);
+  return fail(ErrorCode::kIo, wanted(selector) + " is not there; check its cable and power");
+}
+
 Expected<UsbDevice> open_usb_device(libusb_context* context, const BoardSelector& selector) {
   const DeviceList list(context);
-  const std::string name = usb_name(selector);
-  std::vector<UsbDevice> found;
-  for (libusb_device* device : list.devices()) {
-    if (!may_be(device, selector)) continue;
-    Expected<UsbDevice> opened = open_one(device, name);
-    if (!opened) return Unexpected(std::move(opened).error());
-    if (selector.serial.empty() || selector.serial == opened->serial)
-      found.push_back(std::move(*opened));
-  }
-  if (found.empty())
-    return fail(ErrorCode::kIo, wanted(selector) + " is not there; check its cable and power");
-  if (found.size() > 1)
-    return fail(ErrorCode::kBadInput,
-                fmt::format("there are {} of {}; name one by its serial number or port",
-                            found.size(), wanted(selector)));
-  return std::move(found.front());
+  std::vector<Expected<UsbDevice>> candidates;
+  for (libusb_device* device : list.devices())
+    if (may_be(device, selector)) candidates.push_back(open_one(device, usb_name(selector)));
+  return choose(std::move(candidates), selector);
 }
 
 Expected<SerialEndpoints> find_serial_line(libusb_device* device, const BoardSelector& selector) {

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "acquisition/device/board.h"
 #include "acquisition/device/serial_chip.h"
@@ -36,6 +37,12 @@ struct UsbDevice {
 };
 Expected<UsbDevice> open_usb_device(libusb_context* context, const BoardSelector& selector);
 
+
+// The device that `selector` means, of all with its numbers and port. One that could not be opened
+// has a serial number that nobody knows; where the one meant is not among the others, it is the
+// fault.
+Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
+                           const BoardSelector& selector);
 // Where a device's serial line is.
 struct SerialEndpoints {
   SerialChip chip = SerialChip::kCdcAcm;
