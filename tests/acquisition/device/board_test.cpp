@@ -125,6 +125,17 @@ TEST_P(EveryBoard, GoesOnWithinHalfAMotorStepHoweverOftenItIsOpenedAnew) {
   EXPECT_NEAR(rig_.table(), at, 180.0 / 3200);
 }
 
+TEST_P(EveryBoard, TellsItsFirmwareEachTimeItIsOpened) {
+  ASSERT_EQ(rig_.ask("plug " + name()), "ok");
+  const std::string banner = GetParam().dialect == "horus" ? "Horus 0.2" : "FabScan v.20160506";
+  for (int i = 0; i < 2; ++i) {
+    auto board = open();
+    ASSERT_TRUE(board) << board.error().message;
+    EXPECT_EQ((*board)->identity().firmware, banner);
+    ASSERT_TRUE((*board)->set_position(0));  // a Horus is not restarted any more
+  }
+}
+
 TEST_P(EveryBoard, IsGoneWhenUnpluggedAmidAMotionAndServesAnewWhenItIsBack) {
   ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
   {
