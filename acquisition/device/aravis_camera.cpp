@@ -239,10 +239,16 @@ std::optional<Frame> AravisCamera::frame_in(ArvBuffer& buffer) {
     missing_ = "frames with packets missing";
     return std::nullopt;
   }
+  if (arv_buffer_get_payload_type(&buffer) != ARV_BUFFER_PAYLOAD_TYPE_IMAGE ||
+      arv_buffer_get_image_pixel_format(&buffer) != ARV_PIXEL_FORMAT_MONO_8) {
+    missing_ = "frames of another format than Mono8";
+    return std::nullopt;
+  }
   std::size_t size = 0;
   const auto* bytes = static_cast<const std::uint8_t*>(arv_buffer_get_data(&buffer, &size));
   const auto pixels = static_cast<std::size_t>(region_.width) * region_.height;
-  if (bytes == nullptr || size < pixels) {
+  if (bytes == nullptr || size < pixels || arv_buffer_get_image_width(&buffer) != region_.width ||
+      arv_buffer_get_image_height(&buffer) != region_.height) {
     missing_ = "frames of another size";
     return std::nullopt;
   }
