@@ -14,9 +14,6 @@
 namespace vitrine {
 namespace {
 
-constexpr int kTries = 3;
-constexpr std::uint64_t kPatience = 500'000;  // microseconds beyond the exposure
-constexpr std::uint64_t kStart = 100'000;     // the same, for what a camera sends unasked
 // Aravis asks anew after half a second without an answer, and the camera may obey both.
 constexpr std::chrono::milliseconds kAskedAgain{450};
 constexpr int kBuffers = 4;
@@ -242,10 +239,16 @@ std::optional<Frame> AravisCamera::frame_in(ArvBuffer& buffer) {
     missing_ = "frames with packets missing";
     return std::nullopt;
   }
+  if (arv_buffer_get_payload_type(&buffer) != ARV_BUFFER_PAYLOAD_TYPE_IMAGE ||
+      arv_buffer_get_image_pixel_format(&buffer) != ARV_PIXEL_FORMAT_MONO_8) {
+    missing_ = "frames of another format than Mono8";
+    return std::nullopt;
+  }
   std::size_t size = 0;
   const auto* bytes = static_cast<const std::uint8_t*>(arv_buffer_get_data(&buffer, &size));
   const auto pixels = static_cast<std::size_t>(region_.width) * region_.height;
-  if (bytes == nullptr || size < pixels) {
+  if (bytes == nullptr || size < pixels || arv_buffer_get_image_width(&buffer) != region_.width ||
+      arv_buffer_get_image_height(&buffer) != region_.height) {
     missing_ = "frames of another size";
     return std::nullopt;
   }
@@ -257,7 +260,7 @@ std::optional<Frame> AravisCamera::frame_in(ArvBuffer& buffer) {
 Expected<void> AravisCamera::start_afresh() {
   if (auto stopped = stop(); !stopped) return stopped;
   if (auto started = run(); !started) return started;
-  const auto patience = static_cast<std::uint64_t>(exposure_us_) + kStart;
+  const auto patience = static_cast<std::uint64_t>(exposure_us_ + kStrayPatience);
   if (ArvBuffer* stray = arv_stream_timeout_pop_buffer(stream_.get(), patience))
     arv_stream_push_buffer(stream_.get(), stray);
   return {};
@@ -277,7 +280,7 @@ Expected<std::optional<Frame>> AravisCamera::shoot() {
     if (auto fresh = start_afresh(); !fresh) return Unexpected(fresh.error());
     return std::nullopt;
   }
-  const auto patience = static_cast<std::uint64_t>(exposure_us_) + kPatience;
+  const auto patience = static_cast<std::uint64_t>(exposure_us_ + kFramePatience);
   ArvBuffer* buffer = arv_stream_timeout_pop_buffer(stream_.get(), patience);
   if (buffer != nullptr) {
     auto frame = frame_in(*buffer);
@@ -291,7 +294,7 @@ Expected<std::optional<Frame>> AravisCamera::shoot() {
 }
 
 Expected<Frame> AravisCamera::capture() {
-  for (int i = 0; i < kTries && !lost_ && running_; ++i) {
+  for (int i = 0; i < kFrameTries && !lost_ && running_; ++i) {
     auto frame = shoot();
     if (!frame) return Unexpected(std::move(frame).error());
     if (*frame) return std::move(**frame);
@@ -301,7 +304,7 @@ Expected<Frame> AravisCamera::capture() {
   return fail(ErrorCode::kIo,
               fmt::format("{}: {} of {} triggers gave {}; check its cable, the network's MTU and "
                           "its load",
-                          name_, kTries, kTries, missing_));
+                          name_, kFrameTries, kFrameTries, missing_));
 }
 
 // The identifier that Aravis knows the camera with that serial number by.

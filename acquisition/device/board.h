@@ -28,8 +28,10 @@ struct BoardSelector {
   int steps_per_turn = 3200;              // motor steps (FabScan only; Horus boards know theirs)
 };
 
+inline constexpr std::chrono::milliseconds kWatchdog{10'000};
+
 struct BoardOptions {
-  std::chrono::milliseconds watchdog{10'000};
+  std::chrono::milliseconds watchdog = kWatchdog;
   std::chrono::milliseconds patience{2'000};  // for an answer, beyond the time a motion takes
   // The program that switches the board off when this process dies; empty: `vitrine-guardian`
   // beside the running program.

@@ -22,6 +22,16 @@ struct CameraSettings {
   bool operator==(const CameraSettings&) const = default;
 };
 
+// How often capture() asks for a frame, how long it waits for each beyond the exposure, and, before
+// it asks anew, for one that is under way; microseconds.
+inline constexpr int kFrameTries = 3;
+inline constexpr double kFramePatience = 500'000, kStrayPatience = 100'000;
+
+// Microseconds, with a camera that answers.
+constexpr double longest_capture(double exposure_us) {
+  return kFrameTries * (exposure_us + kFramePatience + exposure_us + kStrayPatience);
+}
+
 // Owned and called by one thread. An error of any call (kIo) means that the camera is to be closed
 // (by destroying this) and opened anew by its serial; errors name the camera and what to check.
 class Camera {

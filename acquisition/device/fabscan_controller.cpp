@@ -35,13 +35,13 @@ class FabScanController final : public Controller {
   Expected<std::string> command(const std::string& line, milliseconds patience);
   Expected<void> obey(const std::string& line);
   Expected<void> step(long steps);
+  long step_at(double degrees) const { return std::lround(degrees * steps_per_degree_); }
 
   Conversation talk_;
   std::string name_;
   milliseconds patience_;
   double steps_per_degree_;
-  long steps_ = 0;  // since the origin
-  double origin_ = 0;
+  long steps_ = 0;  // from 0 degrees; an angle between two is that of the nearer one
   bool known_ = false, motor_ = false;
 };
 
@@ -91,12 +91,13 @@ Expected<std::string> FabScanController::greet() {
 
 Expected<std::optional<double>> FabScanController::position() {
   if (!known_) return std::nullopt;
-  return origin_ + static_cast<double>(steps_) / steps_per_degree_;
+  return static_cast<double>(steps_) / steps_per_degree_;
 }
 
+// The same motor step that a turn to there ends at, so that going on from there adds up to what one
+// run would have made.
 Expected<void> FabScanController::set_position(double degrees) {
-  origin_ = degrees;
-  steps_ = 0;
+  steps_ = step_at(degrees);
   known_ = true;
   return {};
 }
@@ -114,7 +115,7 @@ Expected<void> FabScanController::turn_to(double degrees) {
     if (auto on = obey(fabscan::kMotorOn); !on) return on;
     motor_ = true;
   }
-  const long target = std::lround((degrees - origin_) * steps_per_degree_);
+  const long target = step_at(degrees);
   while (steps_ != target) {
     const long part = std::clamp<long>(target - steps_, -fabscan::kMostSteps, fabscan::kMostSteps);
     if (auto done = step(part); !done) return done;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -30,6 +31,9 @@ Reply parse_brackets(std::string_view line) {
   if (line.starts_with("[G")) {
     if (const auto feed = number_after(line, " F")) return {Kind::kModes, text, *feed};
   }
+  const std::size_t end = line.find(':');
+  if (std::isdigit(static_cast<unsigned char>(line[1])) != 0 && end != std::string_view::npos)
+    return {.kind = Kind::kVersion, .text = text.substr(1, end - 1)};
   return {.kind = Kind::kRemark, .text = text};
 }
 

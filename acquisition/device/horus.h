@@ -12,7 +12,8 @@ inline constexpr int kBaud = 115200;
 inline constexpr char kReset = 0x18;     // obeyed at once: halts, laser and motor off, then banner
 inline constexpr char kAskStatus = '?';  // answered at once, without `ok`
 inline constexpr char kAskModes[] = "$G";  // answered by the feed rate, among others
-inline constexpr char kUnlock[] = "$X";    // after a reset amid a motion
+inline constexpr char kAskVersion[] = "$I";
+inline constexpr char kUnlock[] = "$X";  // after a reset amid a motion
 inline constexpr char kZeroHere[] = "G50";
 inline constexpr char kMotorOn[] = "M17", kMotorOff[] = "M18";
 
@@ -29,6 +30,7 @@ struct Reply {
     kOk,
     kRefusal,  // text: why
     kBanner,   // text: name and version
+    kVersion,  // text: the version
     kModes,    // value: the feed rate, degrees a minute; 0 since the last restart
     kStatus,   // value: where it stands, degrees
     kAlarm,    // locked or stopped

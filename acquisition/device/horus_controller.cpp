@@ -32,6 +32,7 @@ class HorusController final : public Controller {
   // Waits for a reply of that kind, past remarks and confirmations.
   Expected<std::optional<horus::Reply>> await(Kind kind, milliseconds patience);
   Expected<std::optional<horus::Reply>> ask_modes();
+  Expected<std::string> ask_version();
   Expected<std::string> restart();
   Expected<void> command(const std::string& line, milliseconds patience);
   Expected<double> counter();
@@ -82,7 +83,8 @@ Expected<void> HorusController::command(const std::string& line, milliseconds pa
     if (!*heard) return no_answer(line);
     const horus::Reply reply = horus::parse(**heard);
     if (reply.kind == Kind::kOk) return {};
-    if (reply.kind != Kind::kRemark && reply.kind != Kind::kModes) return refused(line, reply);
+    if (reply.kind != Kind::kRemark && reply.kind != Kind::kModes && reply.kind != Kind::kVersion)
+      return refused(line, reply);
   }
 }
 
@@ -110,6 +112,15 @@ Expected<std::optional<horus::Reply>> HorusController::ask_modes() {
   return std::nullopt;
 }
 
+// What the banner says, of a board that is not to say it; without the version where it does not
+// know the question.
+Expected<std::string> HorusController::ask_version() {
+  if (auto said = talk_.say(horus::kAskVersion); !said) return Unexpected(said.error());
+  const auto version = await(Kind::kVersion, kAskAgain);
+  if (!version) return Unexpected(version.error());
+  return *version ? "Horus " + (*version)->text : "Horus";
+}
+
 Expected<std::string> HorusController::restart() {
   if (auto sent = talk_.port().write({&horus::kReset, 1}); !sent) return Unexpected(sent.error());
   const auto banner = await(Kind::kBanner, patience_);
@@ -128,8 +139,7 @@ Expected<std::string> HorusController::greet() {
   const auto modes = ask_modes();
   if (!modes) return Unexpected(modes.error());
   counted_ = *modes && (*modes)->value == horus::kCountedSpeed * 60;
-  Expected<std::string> firmware = "Horus";
-  if (!counted_) firmware = restart();
+  const Expected<std::string> firmware = counted_ ? ask_version() : restart();
   if (!firmware) return firmware;
   if (auto ignored = talk_.ignore_all(kQuiet); !ignored) return Unexpected(ignored.error());
   if (auto unlocked = command(horus::kUnlock, patience_); !unlocked)

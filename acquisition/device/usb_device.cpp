@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "acquisition/device/udev_rule.h"
 
 namespace vitrine {
 namespace {
@@ -59,10 +62,12 @@ std::string serial_of(libusb_device_handle* handle) {
   return length > 0 ? std::string(text.begin(), text.begin() + length) : std::string();
 }
 
-Expected<UsbDevice> open_one(libusb_device* device, const std::string& name) {
+Expected<UsbDevice> open_one(libusb_device* device, const BoardSelector& selector) {
   libusb_device_handle* handle = nullptr;
-  if (const int code = libusb_open(device, &handle); code != LIBUSB_SUCCESS)
-    return Unexpected(usb_error(name, "cannot be opened", code));
+  const int code = libusb_open(device, &handle);
+  if (code == LIBUSB_ERROR_ACCESS) return Unexpected(no_access(selector));
+  if (code != LIBUSB_SUCCESS)
+    return Unexpected(usb_error(usb_name(selector), "cannot be opened", code));
   UsbHandle owned(handle);
   return UsbDevice{
       .handle = std::move(owned), .serial = serial_of(handle), .port = port_of(device)};
@@ -130,12 +135,18 @@ std::string usb_name(const BoardSelector& selector) {
   return fmt::format("USB board {:04x}:{:04x}", selector.vendor, selector.product);
 }
 
+Error no_access(const BoardSelector& selector) {
+  const std::string cause = usb_name(selector) + " may not be used by this user; ";
+  if (has_udev_rule(selector.vendor, selector.product))
+    return {ErrorCode::kIo, cause + "install deploy/60-vitrine.rules and plug the board in anew"};
+  return {ErrorCode::kIo,
+          fmt::format("{}add this line to deploy/60-vitrine.rules, install that and plug the board "
+                      "in anew: {}",
+                      cause, udev_rule(selector.vendor, selector.product))};
+}
+
 Error usb_error(const std::string& name, const char* doing, int code) {
   switch (code) {
-    case LIBUSB_ERROR_ACCESS:
-      return {ErrorCode::kIo, name +
-                                  " may not be used by this user; install "
-                                  "deploy/60-vitrine.rules and plug the board in anew"};
     case LIBUSB_ERROR_NO_DEVICE:
     case LIBUSB_ERROR_NOT_FOUND:
       return {ErrorCode::kIo, name + " is gone; check its cable and power"};
@@ -147,24 +158,33 @@ Error usb_error(const std::string& name, const char* doing, int code) {
   }
 }
 
+Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
+                           const BoardSelector& selector) {
+  const auto is_meant = [&](const Expected<UsbDevice>& device) {
+    return device && (selector.serial.empty() || selector.serial == device->serial);
+  };
+  const auto could_be = [&](const Expected<UsbDevice>& device) {
+    return is_meant(device) || (!device && selector.serial.empty());
+  };
+  const auto count = std::ranges::count_if(candidates, could_be);
+  if (count > 1)
+    return fail(ErrorCode::kBadInput,
+                fmt::format("there are {} of {}; name one by its serial number or port", count,
+                            wanted(selector)));
+  const auto found = std::ranges::find_if(candidates, is_meant);
+  if (found != candidates.end()) return std::move(*found);
+  const auto closed =
+      std::ranges::find_if(candidates, [](const Expected<UsbDevice>& device) { return !device; });
+  if (closed != candidates.end()) return std::move(*closed);
+  return fail(ErrorCode::kIo, wanted(selector) + " is not there; check its cable and power");
+}
+
 Expected<UsbDevice> open_usb_device(libusb_context* context, const BoardSelector& selector) {
   const DeviceList list(context);
-  const std::string name = usb_name(selector);
-  std::vector<UsbDevice> found;
-  for (libusb_device* device : list.devices()) {
-    if (!may_be(device, selector)) continue;
-    Expected<UsbDevice> opened = open_one(device, name);
-    if (!opened) return Unexpected(std::move(opened).error());
-    if (selector.serial.empty() || selector.serial == opened->serial)
-      found.push_back(std::move(*opened));
-  }
-  if (found.empty())
-    return fail(ErrorCode::kIo, wanted(selector) + " is not there; check its cable and power");
-  if (found.size() > 1)
-    return fail(ErrorCode::kBadInput,
-                fmt::format("there are {} of {}; name one by its serial number or port",
-                            found.size(), wanted(selector)));
-  return std::move(found.front());
+  std::vector<Expected<UsbDevice>> candidates;
+  for (libusb_device* device : list.devices())
+    if (may_be(device, selector)) candidates.push_back(open_one(device, selector));
+  return choose(std::move(candidates), selector);
 }
 
 Expected<SerialEndpoints> find_serial_line(libusb_device* device, const BoardSelector& selector) {

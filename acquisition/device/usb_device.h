@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "acquisition/device/board.h"
 #include "acquisition/device/serial_chip.h"
@@ -26,7 +27,9 @@ Expected<UsbContext> open_usb();
 
 // "USB board 2341:0043".
 std::string usb_name(const BoardSelector& selector);
-// The fault in words with the next step.
+// That this user may not open it, and what lets them.
+Error no_access(const BoardSelector& selector);
+// Any other fault in words with the next step.
 Error usb_error(const std::string& name, const char* doing, int code);
 
 struct UsbDevice {
@@ -34,6 +37,12 @@ struct UsbDevice {
   std::string serial;  // empty where it has none
   std::string port;    // as of BoardSelector
 };
+
+// The device that `selector` means, of all with its numbers and port. One that could not be opened
+// has a serial number that nobody knows; where the one meant is not among the others, it is the
+// fault.
+Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
+                           const BoardSelector& selector);
 Expected<UsbDevice> open_usb_device(libusb_context* context, const BoardSelector& selector);
 
 // Where a device's serial line is.

@@ -20,7 +20,7 @@ inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{4} << 30;
 
 struct JournalContents {
   std::vector<Profile> profiles;  // of the steps 0, 1, 2, …
-  std::optional<int> stands_at;   // the step that the table was turned to last
+  std::optional<int> stands_at;   // the step of the last note_turn()
   std::size_t bytes = 0;          // of whole records; what follows is torn
 };
 
@@ -36,8 +36,8 @@ class ProfileJournal {
   // must be opened anew.
   Expected<void> append(const Profile& profile);
 
-  // That the table has been turned to `step`. Survives the end of this process, and of the
-  // computer together with the next profile.
+  // That the table stands at `step`, or soon will: a motion that has begun is completed when this
+  // process has ended. Survives that, and the end of the computer together with the next profile.
   Expected<void> note_turn(int step);
 
  private:

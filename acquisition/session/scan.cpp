@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace vitrine {
@@ -19,6 +20,13 @@ double steady_seconds() {
 Unexpected not_now(const char* what, ScanState state) {
   return fail(ErrorCode::kState, fmt::format("cannot {} a scan that is {}; look at its state first",
                                              what, name_of(state)));
+}
+
+Error error_of(const std::exception& fault) {
+  std::string words = fault.what();
+  std::ranges::replace(words, '\n', ' ');  // OpenCV's have several lines
+  return {ErrorCode::kIo,
+          fmt::format("the scan cannot go on: {}; free memory and resume it", words)};
 }
 
 }  // namespace
@@ -68,21 +76,20 @@ Scan::~Scan() {
   if (thread_.joinable()) thread_.join();
 }
 
-Expected<void> Scan::resume() {
-  const std::lock_guard one(start_);
-  {
-    const std::lock_guard lock(mutex_);
-    if (is_running(status_.state)) return not_now("start", status_.state);
-    if (status_.state == ScanState::kCancelled) return not_now("resume", status_.state);
-    wish_ = Wish::kRun;
-    stop_.release(stop_.presses());
-    status_.error.reset();
-    surface_.reset();
-    enter(ScanState::kChecking);
-  }
+Expected<void> Scan::resume() try {
+  const std::lock_guard lock(mutex_);
+  if (is_running(status_.state)) return not_now("start", status_.state);
+  if (status_.state == ScanState::kCancelled) return not_now("resume", status_.state);
+  wish_ = Wish::kRun;
+  stop_.release(stop_.presses());
   if (thread_.joinable()) thread_.join();  // it has ended: its last word was the state
   thread_ = std::jthread([this] { work(); });
+  status_.error.reset();
+  surface_.reset();
+  enter(ScanState::kChecking);
   return {};
+} catch (const std::exception& fault) {  // no thread
+  return tl::unexpected(error_of(fault));
 }
 
 Expected<void> Scan::pause() {
@@ -192,8 +199,9 @@ void Scan::work() {
   enter(end.state);
 }
 
-// Nothing where it was interrupted.
-Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() {
+// Nothing where it was interrupted. What is thrown, here or by the thread that measures, ends this
+// scan alone.
+Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() try {
   ScanRun run({.scanner = scanner_,
                .request = request_,
                .folder = folder_,
@@ -210,6 +218,8 @@ Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() {
   auto surface = mesh_of(run.take_profiles(), run.calibration(), request_.processing);
   if (!surface) return tl::unexpected(surface.error());
   return std::make_shared<const ScannedSurface>(std::move(*surface));
+} catch (const std::exception& fault) {
+  return tl::unexpected(error_of(fault));
 }
 
 }  // namespace vitrine

@@ -32,7 +32,8 @@ class Scan : private ScanWatch {
   ~Scan() override;  // pauses a scan that runs
 
   // Starts an idle scan, goes on with one that is paused or failed, meshes a done one anew: each
-  // returns at once. kState where the scan's state does not allow it.
+  // returns at once. kState where the scan's state does not allow it, kIo where no thread can be
+  // had.
   Expected<void> resume();
   Expected<void> pause();   // takes effect after the present step
   Expected<void> cancel();  // what has been measured stays in the folder
@@ -80,7 +81,6 @@ class Scan : private ScanWatch {
   int steps_before_ = 0;  // this run
   std::shared_ptr<const ScannedSurface> surface_;
 
-  std::mutex start_;  // one resume() at a time
   std::jthread thread_;
 };
 

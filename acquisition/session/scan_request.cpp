@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "acquisition/device/board.h"
 #include "acquisition/session/json_members.h"
 #include "acquisition/session/region_json.h"
 
@@ -14,6 +16,10 @@ namespace vitrine {
 namespace {
 
 using nlohmann::json;
+
+// A frame that is asked for again and again is no caller that is stuck.
+static_assert(std::chrono::duration<double, std::micro>(longest_capture(kMostExposure)) <
+              kWatchdog);
 
 template <class Method>
 std::string_view name_in(std::span<const std::string_view> names, Method method) {

@@ -13,7 +13,7 @@
 namespace vitrine {
 
 inline constexpr int kLeastSteps = 8, kMostSteps = 36'000;
-inline constexpr double kMostExposure = 10e6;                // microseconds
+inline constexpr double kMostExposure = 1e6;                 // microseconds
 inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // degrees, mm
 
 // In the order of SamplingMethod and StripeMethod.

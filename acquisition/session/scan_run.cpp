@@ -168,11 +168,21 @@ Expected<void> ScanRun::begin(const LiveScanner& scanner) {
   return {};
 }
 
-tl::expected<FramePair, ScanRun::Setback> ScanRun::take(LiveScanner& scanner, int step) {
-  if (auto turned = scanner.turn_to(angle_of(means_.request, step)); !turned)
-    return of_device(turned.error(), Cause::kMotion);
+// Noted first: whoever kills this process does not stop the table. A turn that fails here has not
+// been made, or nobody knows how far; the place before it is the best guess.
+ScanRun::Outcome ScanRun::turn(LiveScanner& scanner, int step) {
   if (auto noted = journal_->note_turn(step); !noted) return of_scan(noted.error());
+  const auto turned = scanner.turn_to(angle_of(means_.request, step));
+  if (!turned) {
+    if (auto noted = journal_->note_turn(stands_at_); !noted) return of_scan(noted.error());
+    return of_device(turned.error(), Cause::kMotion);
+  }
   stands_at_ = step;
+  return {};
+}
+
+tl::expected<FramePair, ScanRun::Setback> ScanRun::take(LiveScanner& scanner, int step) {
+  if (auto turned = turn(scanner, step); !turned) return tl::unexpected(turned.error());
   auto frames = scanner.capture_pair();
   if (!frames) return of_device(frames.error());
   return std::move(*frames);

@@ -89,6 +89,7 @@ class ScanRun {
   Expected<void> identify(const LiveScanner& scanner);
   Outcome look(LiveScanner& scanner);
   Expected<void> begin(const LiveScanner& scanner);
+  Outcome turn(LiveScanner& scanner, int step);
   tl::expected<FramePair, Setback> take(LiveScanner& scanner, int step);
   void measure(int step, FramePair frames);
   Expected<void> measure_and_store(int step, const FramePair& frames);
@@ -106,7 +107,7 @@ class ScanRun {
   std::optional<LostStripe> lost_;
   Measured fresh_;  // of step profiles_.size(); the other thread's until pending_ is there
   std::future<Expected<void>> pending_;
-  int stands_at_ = 0;  // the step that the table was turned to last
+  int stands_at_ = 0;  // the step that the table was turned to last, as the journal says, too
   bool is_checked_ = false;
 };
 

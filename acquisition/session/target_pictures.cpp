@@ -108,9 +108,12 @@ Expected<CalibrationInput> picture_target(const Scanner& scanner, const Target& 
     const auto placed = place(number);
     if (!placed) return tl::unexpected(placed.error());
     if (!*placed) break;
+    const std::size_t before = photographer.pictures().size();
     if (auto taken = photographer.take_place(number); !taken) return tl::unexpected(taken.error());
+    const std::size_t pictures = photographer.pictures().size();
     if (options.progress)
-      options.progress(number + 1, static_cast<int>(photographer.pictures().size()));
+      options.progress(number + 1, static_cast<int>(pictures),
+                       pictures > before ? "" : photographer.why_unseen()->message);
   }
   if (photographer.pictures().empty()) {
     const auto& why = photographer.why_unseen();

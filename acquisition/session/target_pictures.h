@@ -17,8 +17,8 @@ using PlaceTarget = std::function<Expected<bool>(int number)>;
 
 struct TargetPictureOptions {
   double largest_angle = 50, angle_step = 5;  // degrees, of the table, either way
-  // Called after each place.
-  std::function<void(int places, int pictures)> progress = {};
+  // Called after each place; `unseen`: why no picture shows the target there, empty where one does.
+  std::function<void(int places, int pictures, const std::string& unseen)> progress = {};
 };
 
 // Fails with a device's error, or (kBadInput) where no picture shows the target ("target never

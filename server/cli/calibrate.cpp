@@ -77,8 +77,9 @@ Expected<CalibrationInput> take_pictures(const ScannerConfig& config) {
   const Scanner scanner = open_scanner(config);
   TargetPictureOptions options;
   if (config.rig.empty()) {
-    options.progress = [](int places, int pictures) {
-      print_note(fmt::format("{} places, {} pictures that show the target", places, pictures));
+    options.progress = [](int places, int pictures, const std::string& unseen) {
+      print_note(fmt::format("{} places, {} pictures that show the target{}{}", places, pictures,
+                             unseen.empty() ? "" : "; not at this place: ", unseen));
     };
     EmergencyStop stop;
     return picture_target(scanner, config.target, ask_operator, stop, options);

@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/scanner_station.h"
 
+#include <fmt/format.h>
+
+#include <exception>
+
 namespace vitrine {
 namespace {
 
 constexpr std::chrono::seconds kPatience{3};  // with a scanner that is looked for
+
+// What is thrown ends this task, not the lane that others wait in.
+template <class Task>
+auto caught(Task task) -> decltype(task()) try {
+  return task();
+} catch (const std::exception& fault) {
+  return fail(ErrorCode::kIo, fmt::format("the scanner cannot be used: {}; free memory and try "
+                                          "again",
+                                          fault.what()));
+}
 
 }  // namespace
 
@@ -21,7 +35,7 @@ void ScannerStation::look_for_it() {
 }
 
 void ScannerStation::look() {
-  remember(backend_.identify());
+  remember(caught([this] { return backend_.identify(); }));
   backend_.close();
 }
 
@@ -64,7 +78,7 @@ ScannerStatus ScannerStation::status() {
 template <class Task>
 auto ScannerStation::in_lane(Task task) -> decltype(task()) {
   std::promise<decltype(task())> done;
-  const auto posted = jobs_.post_command(name(), [&] { done.set_value(task()); });
+  const auto posted = jobs_.post_command(name(), [&] { done.set_value(caught(task)); });
   if (!posted) return Unexpected(posted.error());
   return done.get_future().get();
 }

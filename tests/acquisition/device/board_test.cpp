@@ -110,6 +110,32 @@ TEST_P(EveryBoard, StandsAsToldAfterSetPosition) {
   EXPECT_NEAR(rig_.table() - before, 45, 1e-3);
 }
 
+TEST_P(EveryBoard, GoesOnWithinHalfAMotorStepHoweverOftenItIsOpenedAnew) {
+  ASSERT_EQ(rig_.ask("plug " + name()), "ok");
+  double at = 0;
+  for (const double next : {0.5, 1.0, 1.5}) {  // 4.4, 8.9 and 13.3 motor steps of a FabScan
+    auto board = open();
+    ASSERT_TRUE(board) << board.error().message;
+    if (!*(*board)->position()) {
+      ASSERT_TRUE((*board)->set_position(at));
+    }
+    ASSERT_TRUE((*board)->turn_to(next));
+    at = next;
+  }
+  EXPECT_NEAR(rig_.table(), at, 180.0 / 3200);
+}
+
+TEST_P(EveryBoard, TellsItsFirmwareEachTimeItIsOpened) {
+  ASSERT_EQ(rig_.ask("plug " + name()), "ok");
+  const std::string banner = GetParam().dialect == "horus" ? "Horus 0.2" : "FabScan v.20160506";
+  for (int i = 0; i < 2; ++i) {
+    auto board = open();
+    ASSERT_TRUE(board) << board.error().message;
+    EXPECT_EQ((*board)->identity().firmware, banner);
+    ASSERT_TRUE((*board)->set_position(0));  // a Horus is not restarted any more
+  }
+}
+
 TEST_P(EveryBoard, IsGoneWhenUnpluggedAmidAMotionAndServesAnewWhenItIsBack) {
   ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
   {

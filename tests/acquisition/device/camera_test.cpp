@@ -39,6 +39,10 @@ class SimulatedCamera {
 
   bool runs() const { return arv_gv_fake_camera_is_running(camera_) != FALSE; }
   std::uint8_t frames() const { return count_; }
+  void write(guint64 address, guint32 value) {
+    ArvFakeCamera* fake = arv_gv_fake_camera_get_fake_camera(camera_);
+    EXPECT_TRUE(arv_fake_camera_write_register(fake, static_cast<guint32>(address), value));
+  }
   // The same packets in each run; none is sent again.
   void lose_packets(double part) {
     g_random_set_seed(1);
@@ -101,6 +105,27 @@ TEST_F(CameraTest, WhoseFramesAllLosePacketsIsAnError) {
   const auto frame = (*camera)->capture();
   ASSERT_FALSE(frame);
   EXPECT_NE(frame.error().message.find("3 of 3 triggers gave"), std::string::npos)
+      << frame.error().message;
+}
+
+// What others change at the camera meanwhile: as many bytes, which are no longer the picture.
+TEST_F(CameraTest, WhoseFramesHaveAnotherShapeOrFormatIsAnError) {
+  SimulatedCamera simulated(kAddress);
+  auto camera = open_camera({.address = kAddress});
+  ASSERT_TRUE(camera) << camera.error().message;
+  ASSERT_TRUE((*camera)->configure({.exposure_us = 1000, .region = {0, 0, 320, 200}}));
+  simulated.write(ARV_FAKE_CAMERA_REGISTER_WIDTH, 200);
+  simulated.write(ARV_FAKE_CAMERA_REGISTER_HEIGHT, 320);
+  auto frame = (*camera)->capture();
+  ASSERT_FALSE(frame);
+  EXPECT_NE(frame.error().message.find("frames of another size"), std::string::npos)
+      << frame.error().message;
+  simulated.write(ARV_FAKE_CAMERA_REGISTER_WIDTH, 320);
+  simulated.write(ARV_FAKE_CAMERA_REGISTER_HEIGHT, 200);
+  simulated.write(ARV_FAKE_CAMERA_REGISTER_PIXEL_FORMAT, ARV_PIXEL_FORMAT_BAYER_GR_8);
+  frame = (*camera)->capture();
+  ASSERT_FALSE(frame);
+  EXPECT_NE(frame.error().message.find("another format than Mono8"), std::string::npos)
       << frame.error().message;
 }
 

@@ -24,6 +24,8 @@ TEST(Horus, TellsRepliesApart) {
   EXPECT_EQ(parse("Horus 0.2 ['$' for help]").text, "Horus 0.2");
   EXPECT_EQ(parse("Grbl 0.9j ['$' for help]").text, "Grbl 0.9j");
   EXPECT_EQ(parse("[G1 G54 T0 F12000.]").value, 12000);
+  EXPECT_EQ(parse("[0.2:]").kind, Kind::kVersion);
+  EXPECT_EQ(parse("[0.9g.20140905:my board]").text, "0.9g.20140905");
   const Reply status = parse("<Run,MPos:-12.375,0.000>");
   EXPECT_EQ(status.kind, Kind::kStatus);
   EXPECT_EQ(status.value, -12.375);

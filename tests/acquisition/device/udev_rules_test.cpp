@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "acquisition/device/serial_chip.h"
+#include "acquisition/device/udev_rule.h"
+#include "acquisition/device/usb_device.h"
 #include "acquisition/rig/usb_wire.h"
 
 namespace vitrine {
@@ -43,12 +45,15 @@ std::vector<int> ids_in(const std::string& line, const std::string& key) {
   return ids;
 }
 
+Rule rule_of(const std::string& line) {
+  return {line, ids_in(line, "idVendor"), ids_in(line, "idProduct")};
+}
+
 std::vector<Rule> rules() {
   std::ifstream file(VITRINE_SOURCE_DIR "/deploy/60-vitrine.rules");
   std::vector<Rule> all;
   for (std::string line; std::getline(file, line);)
-    if (!line.empty() && line.front() != '#')
-      all.push_back({line, ids_in(line, "idVendor"), ids_in(line, "idProduct")});
+    if (!line.empty() && line.front() != '#') all.push_back(rule_of(line));
   return all;
 }
 
@@ -71,6 +76,46 @@ TEST(UdevRules, NameEachCh34xThatTheCodeKnowsAndNoOther) {
     EXPECT_EQ(allowed(all, kVendor, product),
               chip_by_id(kVendor, static_cast<std::uint16_t>(product)).has_value())
         << fmt::format("{:04x}:{:04x}", kVendor, product);
+}
+
+TEST(UdevRules, AreTheOnesThatTheCodeKnowsOf) {
+  const std::vector<Rule> all = rules();
+  const auto expect_same = [&](int vendor, int product) {
+    EXPECT_EQ(
+        has_udev_rule(static_cast<std::uint16_t>(vendor), static_cast<std::uint16_t>(product)),
+        allowed(all, vendor, product))
+        << fmt::format("{:04x}:{:04x}", vendor, product);
+  };
+  for (int vendor = 0; vendor <= 0xffff; ++vendor)
+    expect_same(vendor, 0x0043);
+  for (const Rule& one : all)
+    for (const Rule& other : all)
+      for (const int vendor : one.vendor)
+        for (const int product : other.products)
+          expect_same(vendor, product);
+}
+
+TEST(UdevRules, KeepModemManagerFromBoards) {
+  for (const Rule& rule : rules())
+    EXPECT_NE(rule.vendor.empty(),
+              rule.text.find(R"(, ENV{ID_MM_DEVICE_IGNORE}="1", )") != std::string::npos)
+        << rule.text;
+}
+
+TEST(UdevRules, LackALineForOtherBoardsWhichTheErrorTells) {
+  const BoardSelector other{.vendor = 0x1d50, .product = 0x6018};
+  const std::string message = no_access(other).message;
+  const auto begin = message.find("SUBSYSTEM");
+  ASSERT_NE(begin, std::string::npos) << message;
+  const Rule rule = rule_of(message.substr(begin));
+  EXPECT_TRUE(rule.allows(0x1d50, 0x6018));
+  EXPECT_FALSE(rule.allows(0x1d50, 0x6019));
+  const Rule like = rules().front();
+  EXPECT_EQ(rule.text.substr(rule.text.find(", ENV{ID_MM")),
+            like.text.substr(like.text.find(", ENV{ID_MM")));
+  EXPECT_TRUE(rule.text.starts_with(like.text.substr(0, like.text.find("2341"))));
+  EXPECT_EQ(no_access({.vendor = 0x2341, .product = 0x43}).message.find("SUBSYSTEM"),
+            std::string::npos);
 }
 
 TEST(UdevRules, LetCamerasBeUsedByTheirClass) {

@@ -47,7 +47,8 @@ TEST_F(ScanTest, a_device_unplugged_at_any_call_is_opened_anew_and_nothing_is_lo
   }
 }
 
-// What a process leaves that is killed at that moment: the folder, and a table somewhere.
+// What a process leaves that is killed at that moment: the folder, and a table that completes the
+// motion under way.
 TEST_F(ScanTest, a_process_killed_at_any_step_loses_nothing) {
   const std::string expected = undisturbed();
   for (const bool forgets : {false, true}) {
@@ -56,18 +57,18 @@ TEST_F(ScanTest, a_process_killed_at_any_step_loses_nothing) {
         const std::string name = fmt::format("killed-{}-{}-{}", moment, count, forgets);
         world_.calls.clear();
         world_.degrees = 0, world_.position_known = true, world_.forgets_position = false;
-        double stood_at = 0;
+        std::optional<double> stood_at;
         bool killed = false;
         world_.meanwhile = [&](const std::string& call, int n) {
+          if (killed && !stood_at) stood_at = world_.degrees;
           if (call != moment || n != count) return;
           std::filesystem::copy(path(name), path(name + "-left"));
-          stood_at = world_.degrees;
           killed = true;
         };
         run(*scan(name));
         world_.meanwhile = {};
         if (!killed) break;  // there are no more of these calls
-        world_.degrees = stood_at, world_.forgets_position = forgets;
+        world_.degrees = *stood_at, world_.forgets_position = forgets;
         auto opened = Scan::reopen(scanner(), path(name + "-left"), impatient());
         if (!opened) continue;  // before the first checks had passed: nothing to go on with
         EXPECT_EQ(run(**opened), ScanState::kDone);
@@ -123,6 +124,7 @@ TEST_F(ScanTest, a_table_that_does_not_turn_ends_the_scan_at_the_second_try) {
   EXPECT_EQ(world_.calls["turn"], 6);
   EXPECT_EQ(world_.calls["open board"], 2);
   world_.fault = {};
+  world_.forgets_position = true;  // the table stands where the last turn that was made ended
   EXPECT_EQ(run(scan), ScanState::kDone);
   EXPECT_EQ(mesh_text(scan), undisturbed());
 }
@@ -163,6 +165,25 @@ TEST_F(ScanTest, a_camera_that_repeats_one_frame_is_an_error_that_says_so) {
   world_.repeats = {};
   EXPECT_EQ(run(*scan), ScanState::kDone);
   EXPECT_EQ(mesh_text(*scan), undisturbed());
+}
+
+TEST_F(ScanTest, what_is_thrown_ends_the_scan_and_nothing_else) {
+  const std::string expected = undisturbed();
+  for (const char* moment : {"open camera", "turn", "capture", "laser on"}) {
+    auto scan = this->scan(moment);
+    world_.degrees = 0;
+    world_.calls.clear();
+    world_.meanwhile = [&](const std::string& call, int count) {
+      if (call == moment && (count == 7 || call == "open camera")) throw std::bad_alloc();
+    };
+    EXPECT_EQ(run(*scan), ScanState::kFailed);
+    EXPECT_THAT(scan->status().error.value_or(Error{}).message,
+                HasSubstr("the scan cannot go on: std::bad_alloc; free memory and resume it"));
+    expect_dark(world_);
+    world_.meanwhile = {};
+    EXPECT_EQ(run(*scan), ScanState::kDone);
+    EXPECT_EQ(mesh_text(*scan), expected) << moment;
+  }
 }
 
 TEST_F(ScanTest, while_it_waits_for_a_device_it_says_so_and_can_be_paused) {

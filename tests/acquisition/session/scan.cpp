@@ -166,6 +166,7 @@ TEST_F(ScanTest, requests_beyond_bounds_are_refused) {
   refused({.steps = 7}, "7 steps");
   refused({.steps = 36'001}, "36001 steps");
   refused({.exposure_us = 0}, "exposure of 0");
+  refused({.exposure_us = 1'000'001}, "choose up to 1000000");
   refused({.processing = {.sampling = {.window = 7}}}, "length of 7 points");
 }
 

@@ -22,6 +22,21 @@ TEST_F(ScanTest, a_target_that_is_never_seen_is_named) {
   EXPECT_THAT(none.error().message, HasSubstr("target never seen: "));
 }
 
+TEST_F(ScanTest, a_place_where_the_target_is_not_seen_says_why_at_once) {
+  EmergencyStop stop;
+  std::vector<std::string> told;
+  TargetPictureOptions options;
+  options.progress = [&](int places, int pictures, const std::string& unseen) {
+    EXPECT_EQ(places, told.size() + 1);
+    EXPECT_EQ(pictures, 0);
+    told.push_back(unseen);
+  };
+  const auto none = picture_target(scanner(), kTarget, places(2), stop, options);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_THAT(told.front(), Not(testing::IsEmpty()));
+  EXPECT_EQ(none.error().message, "target never seen: " + told.back());
+}
+
 TEST_F(ScanTest, an_operator_who_places_no_target_is_told) {
   EmergencyStop stop;
   EXPECT_THAT(picture_target(scanner(), kTarget, places(0), stop).error().message,

@@ -59,6 +59,13 @@ class ScanAtRig : public VitrineCommand {
   static std::string scan_to(const std::string& out, const std::string& more = "") {
     return "\"$vitrine\" scan --config rig.json -o " + out + " " + more;
   }
+  // The signal comes when some steps are on disk.
+  static std::string stopped_amid(const std::string& signal, const std::string& out) {
+    return scan_to(out) + " & scan=$!; " + "until [ -e " + out + " ] || [ \"$(stat -c %s " + out +
+           ".scan/profiles 2>/dev/null || echo 0)\" -gt 20000 ]; "
+           "do sleep 0.02; done; kill -" +
+           signal + " $scan; wait $scan; test ! -e " + out;
+  }
   // The mesh of a scan that nothing disturbs.
   std::string undisturbed() {
     const ProgramResult result = at_rig(scan_to("calm.ply", "--json > scan.json"));
@@ -121,16 +128,29 @@ TEST_F(ScanAtRig, killed_or_interrupted_and_resumed_it_is_the_same_mesh) {
   const std::string expected = undisturbed();
   for (const std::string signal : {"KILL", "INT"}) {
     const std::string out = signal + ".ply";
-    const std::string script =
-        scan_to(out) + " & scan=$!; " + "until [ -e " + out + " ] || [ \"$(stat -c %s " + out +
-        ".scan/profiles 2>/dev/null || echo 0)\" -gt 20000 ]; "
-        "do sleep 0.02; done; kill -" +
-        signal + " $scan; wait $scan; test ! -e " + out + " && { " +
-        scan_to("other.ply", "--resume") + "; test $? = 1; } && " + scan_to(out, "--resume");
+    const std::string script = stopped_amid(signal, out) + " && { " +
+                               scan_to("other.ply", "--resume") + "; test $? = 1; } && " +
+                               scan_to(out, "--resume");
     const ProgramResult result = at_rig(script);
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_TRUE(read(out) == expected) << signal;
   }
+}
+
+// Its table stands at motor steps, of which 53.3 are a step of the scan.
+TEST_F(ScanAtRig, a_board_that_does_not_count_goes_on_at_the_very_motor_step) {
+  calibrate();
+  const std::vector<std::string> fabscan = {"--dialect", "fabscan"};
+  ProgramResult result = at_rig(scan_to("expected.ply"), fabscan);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  result =
+      at_rig(scan_to("unplugged.ply"), {"--dialect", "fabscan", "--fault", "camera-unplug@20"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(read("unplugged.ply") == read("expected.ply"));
+  result = at_rig(stopped_amid("INT", "stopped.ply") + " && " + scan_to("stopped.ply", "--resume"),
+                  fabscan);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(read("stopped.ply") == read("expected.ply"));
 }
 
 TEST_F(ScanAtRig, an_uncalibrated_scanner_does_not_scan) {

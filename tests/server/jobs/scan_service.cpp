@@ -271,6 +271,20 @@ TEST_F(Scans, what_is_ordered_after_a_stop_does_not_let_what_was_stopped_go_on) 
   EXPECT_EQ(world_.steps, 12);
 }
 
+TEST_F(Scans, what_a_command_throws_is_its_error_and_the_daemon_goes_on) {
+  settle();
+  world_.while_opening = [] { throw std::bad_alloc(); };
+  const auto jogged = station().jog(90);
+  ASSERT_FALSE(jogged);
+  EXPECT_NE(jogged.error().message.find("std::bad_alloc; free memory"), std::string::npos)
+      << jogged.error().message;
+  EXPECT_EQ(station().status().state, ScannerState::kUnreachable) << "and it is looked for anew";
+  settle();
+  world_.while_opening = {};
+  EXPECT_TRUE(station().jog(90));
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
+}
+
 TEST_F(Scans, what_scans_when_the_daemon_stops_goes_on_at_the_next_start) {
   HeldAtStep held(world_, 7);
   const auto started = begin(order_);
