@@ -8,15 +8,18 @@
 namespace vitrine {
 
 // models.cpp
-Response list_models(const Request& request, Services& services);  // ?q= &limit= &cursor=
+Response list_models(const Request& request, Services& services);  // ?q= &limit= &cursor= &drafts=
 Response show_model(const Request& request, Services& services);
 Response show_manifest(const Request& request, Services& services);
 Response show_head(const Request& request, Services& services);
 Response show_file(const Request& request, Services& services);
+Response publish_model(const Request& request, Services& services);
+Response unpublish_model(const Request& request, Services& services);  // a draft again
 
 // chunks.cpp
 Response show_chunk(const Request& request, Services& services);
 std::optional<Response> show_held_chunk(const Request& request, Services& services);
+Response show_model_chunk(const Request& request, Services& services);
 
 // exports.cpp
 Response export_model(const Request& request,

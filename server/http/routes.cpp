@@ -12,12 +12,16 @@ using enum Place;
 constexpr Route kPublic[] = {
     {kGet, "/api/v1/chunks/{sha256}", show_chunk, kWorker, Role::kNone, show_held_chunk},
     {kGet, "/api/v1/models", list_models, kWorker},
+    // A token shows drafts, too; the handlers know.
     {kGet, "/api/v1/models/{id}", show_model, kWorker},
     {kGet, "/api/v1/models/{id}/manifest", show_manifest, kWorker},
     {kGet, "/api/v1/models/{id}/head", show_head, kWorker},
     {kGet, "/api/v1/models/{id}/file.pmesh", show_file, kWorker},
+    {kGet, "/api/v1/models/{id}/chunks/{sha256}", show_model_chunk, kWorker},
     {kGet, "/api/v1/models/{id}/stream", open_stream, kWorker},
     {kGet, "/api/v1/models/{id}/export.{format}", export_model, kExport},
+    {kPost, "/api/v1/models/{id}/publish", publish_model, kWorker, Role::kOperator},
+    {kPost, "/api/v1/models/{id}/unpublish", unpublish_model, kWorker, Role::kOperator},
     {kGet, "/api/v1/scanners", list_scanners, kDevice, Role::kViewer},
     {kGet, "/api/v1/scanners/{name}", show_scanner, kDevice, Role::kViewer},
     {kPost, "/api/v1/scanners/{name}/jog", jog_scanner, kDevice, Role::kOperator},

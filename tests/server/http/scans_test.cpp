@@ -203,7 +203,11 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   EXPECT_EQ(scan["state"], "done") << scan;
   EXPECT_EQ(scan["progress"], 1);
   ASSERT_TRUE(scan["model"].is_string());
-  EXPECT_EQ(get("/models/" + scan["model"].get<std::string>()).status, 404);  // a draft
+  const std::string model = "/models/" + scan["model"].get<std::string>();
+  EXPECT_EQ(ask("GET", model + "/export.ply", "").status, 404);
+  const HttpAnswer exported = get(model + "/export.ply?level=lowest");
+  EXPECT_EQ(exported.status, 200) << exported.body;
+  EXPECT_EQ(exported.field("cache-control"), "private, no-store");
   EXPECT_EQ(get(scan_path(started) + "/points").body.size(), 12 * 10 * 12u);
 }
 
