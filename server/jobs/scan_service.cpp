@@ -43,13 +43,13 @@ ScanEntry new_scan(ScanOrder order) {
   scan.is_public = order.publish;
   scan.title = order.metadata.title;
   scan.parameters = to_json_text(order);
-  scan.steps = order.steps;
+  scan.steps = order.request.steps;
   return scan;
 }
 
 Expected<ScanOrder> stored_order(const std::string& parameters) {
   const auto json = nlohmann::json::parse(parameters, nullptr, /*allow_exceptions=*/false);
-  auto order = parse_scan_order(json.is_object() ? json : nlohmann::json::object());
+  auto order = parse_kept_order(json.is_object() ? json : nlohmann::json::object());
   if (order) return *order;
   return fail(ErrorCode::kState, fmt::format("the scan's parameters are damaged at {}; scan again",
                                              order.error().front().field));

@@ -20,22 +20,6 @@ namespace {
 constexpr std::chrono::milliseconds kTick{100};  // how often a scan is asked how far it is
 constexpr std::uint64_t kMaxReport = 16 << 20;   // bytes
 
-Processing processing_of(const ScanOrder& order) {
-  constexpr SamplingMethod kMethods[] = {SamplingMethod::kEquidistant, SamplingMethod::kPaper,
-                                         SamplingMethod::kAdaptive};
-  Processing processing;
-  processing.sampling.method = kMethods[static_cast<std::size_t>(order.sampling)];
-  processing.sampling.window = order.length;
-  return processing;
-}
-
-ScanRequest request_of(const ScanOrder& order) {
-  return {.steps = order.steps,
-          .exposure_us = order.exposure,
-          .keep_frames = order.keep_frames,
-          .processing = processing_of(order)};
-}
-
 bool is_under_way(ScanState state) {
   return state == ScanState::kChecking || state == ScanState::kScanning ||
          state == ScanState::kMeshing;
@@ -192,7 +176,7 @@ Expected<std::shared_ptr<Scan>> SessionBackend::open_scan(const ScanOrder& order
   std::error_code error;
   const bool is_begun = std::filesystem::exists(folder / "scan.json", error);
   auto scan =
-      is_begun ? Scan::reopen(scanner_, folder) : Scan::create(scanner_, request_of(order), folder);
+      is_begun ? Scan::reopen(scanner_, folder) : Scan::create(scanner_, order.request, folder);
   if (!scan) return Unexpected(scan.error());
   return std::shared_ptr<Scan>(std::move(*scan));
 }
@@ -258,7 +242,9 @@ Expected<TriangleMesh> SessionBackend::mesh_anew(const ScanOrder& order,
                                                  const std::filesystem::path& folder) {
   const auto scan = ScanFolder::open(folder);
   if (!scan) return Unexpected(scan.error());
-  auto surface = reprocess(*scan, config_.calibrations, {.processing = processing_of(order)});
+  auto surface =
+      reprocess(*scan, config_.calibrations,
+                {.processing = order.request.processing, .calibration = order.calibration});
   if (!surface) return Unexpected(surface.error());
   return std::move(surface->mesh);
 }

@@ -276,9 +276,17 @@ TEST_F(ScanRoutes, AScanIsPausedResumedCancelledAndReprocessed) {
   const json scan = json::parse(get(scan_path(started)).body);
   EXPECT_EQ(scan["state"], "cancelled");
   EXPECT_EQ(scan["step"], 6);
-  const HttpAnswer reprocessed = post(scan_path(started) + "/reprocess", {{"length", 5}});
+  EXPECT_EQ(fault_of(post(scan_path(started) + "/reprocess", {{"length", 7}})), "length");
+  const HttpAnswer reprocessed =
+      post(scan_path(started) + "/reprocess",
+           {{"length", 20}, {"stripe", "blais-rioux"}, {"largest_hole", 9}, {"calibration", 1}});
   EXPECT_EQ(reprocessed.status, 202) << reprocessed.body;
   settle("");
+  const auto& [stripe, sampling, surface] = world_.anew.request.processing;
+  EXPECT_EQ(stripe.method, StripeMethod::kBlaisRioux);
+  EXPECT_EQ(sampling.window, 20);
+  EXPECT_EQ(surface.largest_hole, 9);
+  EXPECT_EQ(world_.anew.calibration, 1);
   EXPECT_TRUE(json::parse(get(scan_path(started)).body)["model"].is_string());
 }
 

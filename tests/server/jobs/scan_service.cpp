@@ -48,7 +48,8 @@ class Scans : public testing::Test {
   }
   ScannerStation& station() { return *service_->scanner(world_.name); }
 
-  const ScanOrder order_{.scanner = "rig", .steps = 12, .metadata = {.title = "A ring"}};
+  const ScanOrder order_{
+      .scanner = "rig", .request = {.steps = 12}, .metadata = {.title = "A ring"}};
   FakeScanner world_;
   test::TemporaryFolder folder_;
   Installation installation_ = open_installation(folder_.path()).value();
