@@ -38,7 +38,7 @@ Response show_preview(const Request& request, Services& services);  // PNG
 
 // calibrations.cpp
 Response list_calibrations(const Request& request, Services& services);
-Response start_calibration(const Request& request, Services& services);  // 202: a job
+Response start_calibration(const Request& request, Services& services);  // {"poses": n}; 202: a job
 Response show_calibration(const Request& request, Services& services);
 Response show_residuals(const Request& request, Services& services);  // SVG
 
@@ -56,6 +56,7 @@ Response reprocess_scan(const Request& request, Services& services);  // 202: a 
 Response list_jobs(const Request& request, Services& services);  // ?limit= &cursor=
 Response show_job(const Request& request, Services& services);
 Response cancel_job(const Request& request, Services& services);
+Response resume_job(const Request& request, Services& services);
 Response show_job_events(const Request& request, Services& services);
 
 // pages.cpp

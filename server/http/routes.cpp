@@ -47,6 +47,7 @@ constexpr Route kPublic[] = {
     {kGet, "/api/v1/jobs", list_jobs, kWorker, Role::kViewer},
     {kGet, "/api/v1/jobs/{id}", show_job, kWorker},
     {kDelete, "/api/v1/jobs/{id}", cancel_job, kWorker, Role::kOperator},
+    {kPost, "/api/v1/jobs/{id}/resume", resume_job, kWorker, Role::kOperator},
     {kGet, "/api/v1/jobs/{id}/events", show_job_events, kWorker},
     {kGet, "/", show_gallery, kInline},
     {kGet, "/models/{id}", show_viewer, kWorker},

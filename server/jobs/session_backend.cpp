@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "acquisition/calibration/calibrate.h"
 #include "acquisition/calibration/calibration_store.h"
 #include "acquisition/calibration/keep_calibration.h"
 #include "acquisition/session/reprocess.h"
@@ -211,31 +210,57 @@ void SessionBackend::emergency_stop() noexcept {
   if (scan_) scan_->emergency_stop();
 }
 
-Expected<std::optional<int>> SessionBackend::calibrate(ScanListener& listener) {
-  close();
-  if (config_.rig.empty()) {
-    return fail(ErrorCode::kState,
-                "somebody must place the target; stop the daemon and run vitrine calibrate there");
-  }
+Expected<CalibrationInput> SessionBackend::picture_at_rig(CalibrationListener& listener) {
   auto rig = RigLink::connect(config_.rig);
   if (!rig) return Unexpected(rig.error());
   const auto poses = rig->poses();
   if (!poses) return Unexpected(poses.error());
   const PlaceTarget place = [&](int number) -> Expected<bool> {
-    if (listener.is_interrupted()) return fail(ErrorCode::kState, "the calibration was stopped");
-    listener.told({.stage = "calibrating", .progress = static_cast<double>(number) / *poses});
+    listener.told({.progress = static_cast<double>(number) / *poses});
     if (number >= *poses) return false;
     return rig->place_target(number).map([] { return true; });
   };
-  const auto pictures = picture_target(scanner_, config_.target, place, stop_);
+  const TargetPictureOptions options{.is_interrupted = [&] { return listener.is_interrupted(); }};
+  auto pictures = picture_target(scanner_, config_.target, place, stop_, options);
   const auto restored = rig->place_object();
+  if (pictures && !restored) return Unexpected(restored.error());
+  return pictures;
+}
+
+// Laser and motor are off whenever somebody is asked to come near.
+Expected<CalibrationInput> SessionBackend::picture_by_hand(int poses,
+                                                           CalibrationListener& listener) {
+  CalibrationTold told;
+  const PlaceTarget place = [&](int number) -> Expected<bool> {
+    told.progress = static_cast<double>(number) / poses;
+    told.stage = fmt::format("place the target, pose {} of {}", number + 1, poses);
+    if (number < poses && !listener.await_operator(told))
+      return fail(ErrorCode::kState, "the calibration was interrupted; start it again");
+    told.stage = CalibrationTold{}.stage;
+    listener.told(told);
+    return number < poses;
+  };
+  const TargetPictureOptions options{
+      .progress =
+          [&](int places, int pictures) {
+            told.note =
+                fmt::format("{} places, {} pictures that show the target", places, pictures);
+          },
+      .is_interrupted = [&] { return listener.is_interrupted(); }};
+  return picture_target(scanner_, config_.target, place, stop_, options);
+}
+
+Expected<int> SessionBackend::calibrate(const CalibrationOrder& order,
+                                        CalibrationListener& listener) {
+  close();
+  const auto pictures =
+      config_.rig.empty() ? picture_by_hand(order.poses, listener) : picture_at_rig(listener);
   if (!pictures) return Unexpected(pictures.error());
-  if (!restored) return Unexpected(restored.error());
   const auto calibrated = vitrine::calibrate(*pictures, {});
   if (!calibrated) return Unexpected(calibrated.error());
-  const auto stored = keep_calibration(config_.calibrations, *calibrated);
-  if (!stored) return Unexpected(stored.error());
-  return stored->number;
+  return keep_calibration(config_.calibrations, *calibrated).map([](const Calibration& stored) {
+    return stored.number;
+  });
 }
 
 Expected<TriangleMesh> SessionBackend::mesh_anew(const ScanOrder& order,

@@ -129,11 +129,15 @@ class FakeBackend final : public ScannerBackend {
     return torus(40, 20);
   }
 
-  Expected<std::optional<int>> calibrate(ScanListener& listener) override {
+  Expected<int> calibrate(const CalibrationOrder& order, CalibrationListener& listener) override {
     if (world_.before_step) {
       if (const auto error = world_.before_step(0)) return Unexpected(*error);
     }
-    if (listener.is_interrupted()) return std::nullopt;
+    for (int pose = 0; world_.by_hand && pose < order.poses; ++pose) {
+      const auto asked = "place the target, pose " + std::to_string(pose + 1);
+      if (!listener.await_operator({.stage = asked, .note = "so far it is seen"})) break;
+    }
+    if (listener.is_interrupted()) return fail(ErrorCode::kState, "interrupted; start it again");
     return ++world_.calibrations;
   }
 

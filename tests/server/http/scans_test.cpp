@@ -158,6 +158,24 @@ TEST_F(ScanRoutes, CalibrationsAreListedShownAndMadeByAJob) {
             "image/svg+xml");
 }
 
+TEST_F(ScanRoutes, ACalibrationByHandWaitsForWhoPlacesTheTarget) {
+  world_.by_hand = true;
+  const json started = json::parse(post("/scanners/rig/calibrations", {{"poses", 3}}).body);
+  for (int pose = 1; pose <= 3; ++pose) {
+    const std::string stage = "place the target, pose " + std::to_string(pose);
+    json job;
+    do
+      job = json::parse(get(job_path(started)).body);
+    while (job["stage"] != stage || job["state"] != "paused");
+    EXPECT_EQ(job["note"], "so far it is seen");
+    EXPECT_EQ(ask("POST", job_path(started) + "/resume", viewer_).status, 403);
+    EXPECT_EQ(post(job_path(started) + "/resume").status, 202);
+  }
+  settle();
+  EXPECT_EQ(json::parse(get(job_path(started)).body)["state"], "done");
+  EXPECT_EQ(post(job_path(started) + "/resume").status, 409);
+}
+
 TEST_F(ScanRoutes, ADamagedCalibrationIsNamedBesideTheOthers) {
   world_.damaged = 9;
   const json answer = json::parse(get("/scanners/rig/calibrations").body);
