@@ -57,6 +57,8 @@ class Photographer {
  private:
   // Whether the target is seen there.
   Expected<bool> take(int placement, double angle) {
+    if (options_.is_interrupted && options_.is_interrupted())
+      return fail(ErrorCode::kState, "the calibration was interrupted; start it again");
     if (auto turned = scanner_.turn_to(angle); !turned) return tl::unexpected(turned.error());
     const auto frames = scanner_.capture_pair();
     if (!frames) return tl::unexpected(frames.error());

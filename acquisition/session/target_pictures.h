@@ -19,10 +19,12 @@ struct TargetPictureOptions {
   double largest_angle = 50, angle_step = 5;  // degrees, of the table, either way
   // Called after each place; `unseen`: why no picture shows the target there, empty where one does.
   std::function<void(int places, int pictures, const std::string& unseen)> progress = {};
+  // Asked before each picture; may be empty.
+  std::function<bool()> is_interrupted = {};
 };
 
-// Fails with a device's error, or (kBadInput) where no picture shows the target ("target never
-// seen"). Laser and motor are off on return.
+// Fails with a device's error, where it is interrupted (kState), or (kBadInput) where no picture
+// shows the target ("target never seen"). Laser and motor are off on return.
 Expected<CalibrationInput> picture_target(const Scanner& scanner, const Target& target,
                                           const PlaceTarget& place, EmergencyStop& stop,
                                           const TargetPictureOptions& options = {});

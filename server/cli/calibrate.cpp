@@ -76,6 +76,7 @@ Expected<CalibrationInput> take_pictures(const ScannerConfig& config) {
   const StopSignals signals;
   const Scanner scanner = open_scanner(config);
   TargetPictureOptions options;
+  options.is_interrupted = StopSignals::arrived;
   if (config.rig.empty()) {
     options.progress = [](int places, int pictures, const std::string& unseen) {
       print_note(fmt::format("{} places, {} pictures that show the target{}{}", places, pictures,

@@ -55,13 +55,11 @@ Response list_calibrations(const Request& request, Services& services) {
 
 Response start_calibration(const Request& request, Services& services) {
   return with_scanner(request, services, [&](ScannerStation& scanner) {
-    if (!request.body.empty()) {
-      return problem(422, "a calibration takes no parameters", request.id,
-                     {{request.body.begin().key(), "unknown here"}});
-    }
+    const auto order = parse_calibration_order(request.body);
+    if (!order) return invalid(order.error(), request);
     const auto once = once_key(request);
     if (!once) return once.error();
-    const auto job = services.scans.calibrate(scanner, *once);
+    const auto job = services.scans.calibrate(scanner, *order, *once);
     if (!job) return refused(job.error(), request, services);
     Response response = json_answer({{"job", job->id.to_string()}}, 202);
     response.fields = {{"Location", "/api/v1/jobs/" + job->id.to_string()}};

@@ -8,15 +8,18 @@
 namespace vitrine {
 
 // models.cpp
-Response list_models(const Request& request, Services& services);  // ?q= &limit= &cursor=
+Response list_models(const Request& request, Services& services);  // ?q= &limit= &cursor= &drafts=
 Response show_model(const Request& request, Services& services);
 Response show_manifest(const Request& request, Services& services);
 Response show_head(const Request& request, Services& services);
 Response show_file(const Request& request, Services& services);
+Response publish_model(const Request& request, Services& services);
+Response unpublish_model(const Request& request, Services& services);  // a draft again
 
 // chunks.cpp
 Response show_chunk(const Request& request, Services& services);
 std::optional<Response> show_held_chunk(const Request& request, Services& services);
+Response show_model_chunk(const Request& request, Services& services);
 
 // exports.cpp
 Response export_model(const Request& request,
@@ -35,7 +38,7 @@ Response show_preview(const Request& request, Services& services);  // PNG
 
 // calibrations.cpp
 Response list_calibrations(const Request& request, Services& services);
-Response start_calibration(const Request& request, Services& services);  // 202: a job
+Response start_calibration(const Request& request, Services& services);  // {"poses": n}; 202: a job
 Response show_calibration(const Request& request, Services& services);
 Response show_residuals(const Request& request, Services& services);  // SVG
 
@@ -53,6 +56,7 @@ Response reprocess_scan(const Request& request, Services& services);  // 202: a 
 Response list_jobs(const Request& request, Services& services);  // ?limit= &cursor=
 Response show_job(const Request& request, Services& services);
 Response cancel_job(const Request& request, Services& services);
+Response resume_job(const Request& request, Services& services);
 Response show_job_events(const Request& request, Services& services);
 
 // pages.cpp

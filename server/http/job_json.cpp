@@ -120,6 +120,14 @@ Response refused(const Error& error, const Request& request, Services& services)
   return internal_error(error, request, services);
 }
 
+Response invalid(const FieldFaults& faults, const Request& request) {
+  std::vector<ParameterFault> errors;
+  for (const FieldFault& fault : faults)
+    errors.push_back({fault.field, fault.detail});
+  return problem(422, "a field of the body is missing, unknown or out of range", request.id,
+                 errors);
+}
+
 tl::expected<std::optional<OnceKey>, Response> once_key(const Request& request) {
   const auto found = request.header.find("Idempotency-Key");
   if (found == request.header.end()) return std::nullopt;

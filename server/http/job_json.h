@@ -21,6 +21,9 @@ Response json_answer(const nlohmann::ordered_json& json, unsigned status = 200);
 // 409 for kState, 422 for kBadInput, 500 with the reason in the log for all else.
 Response refused(const Error& error, const Request& request, Services& services);
 
+// 422: what is wrong with the body.
+Response invalid(const FieldFaults& faults, const Request& request);
+
 // The request's Idempotency-Key, of its caller alone, and what it is about; nothing without one.
 // The error is the answer.
 tl::expected<std::optional<OnceKey>, Response> once_key(const Request& request);

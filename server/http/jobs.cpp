@@ -79,6 +79,14 @@ Response cancel_job(const Request& request, Services& services) {
   });
 }
 
+Response resume_job(const Request& request, Services& services) {
+  return with_job(request, services, [&](const JobStatus& job) {
+    const auto resumed = services.scans.resume(job.record);
+    if (!resumed) return refused(resumed.error(), request, services);
+    return json_answer(job_json(*resumed), 202);
+  });
+}
+
 Response show_job_events(const Request& request, Services& services) {
   return with_job(request, services, [&](const JobStatus& job) {
     Response response;

@@ -26,6 +26,7 @@ std::string timestamp(std::int64_t milliseconds) {
 Json model(const ModelRecord& record) {
   const std::string self = "/api/v1/models/" + record.id.to_string();
   return {{"id", record.id.to_string()},
+          {"state", record.state == ModelState::kPublished ? "published" : "draft"},
           {"title", record.title},
           {"creator", record.creator},
           {"rights", record.rights},

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "server/http/handlers.h"
+#include "server/http/job_json.h"
 #include "server/http/model_json.h"
 #include "server/http/published.h"
 #include "server/http/query.h"
@@ -53,7 +54,28 @@ ModelQuery read_query(const Query& query, Faults& faults) {
     out.after = ModelId::parse(*cursor);
     if (!out.after) faults.push_back({"cursor", "the 'next' of the page before"});
   }
+  if (const auto drafts = query.get("drafts")) {
+    out.drafts = *drafts == "true";
+    if (!out.drafts && *drafts != "false") faults.push_back({"drafts", "true or false"});
+  }
   return out;
+}
+
+// The model as it is then. Who asks for what is so already changes nothing.
+Response in_state(ModelState state, const Request& request, Services& services) {
+  auto model = services.catalogue.find(request.parameters.id);
+  if (!model) return internal_error(model.error(), request, services);
+  if (!*model) return problem(404, "there is no such model", request.id);
+  if ((*model)->state != state) {
+    const auto done = services.catalogue.set_state((*model)->id, state);
+    if (!done) return refused(done.error(), request, services);
+    services.models.refresh();
+    (*model)->state = state;
+  }
+  Response response;
+  response.type = "application/json";
+  response.body = model_json(**model);
+  return response;
 }
 
 }  // namespace
@@ -64,9 +86,12 @@ Response list_models(const Request& request, Services& services) {
   Faults faults;
   const ModelQuery wanted = read_query(*query, faults);
   if (!faults.empty()) return problem(400, "a parameter is out of range", request.id, faults);
+  if (wanted.drafts && !request.caller) return token_needed(request);
   const auto page = services.catalogue.search(wanted);
   if (!page) return internal_error(page.error(), request, services);
-  return json_response(model_page_json(*page));
+  Response response = json_response(model_page_json(*page));
+  if (wanted.drafts) response.caching = Caching::kPrivate;
+  return response;
 }
 
 Response show_model(const Request& request, Services& services) {
@@ -87,6 +112,14 @@ Response show_head(const Request& request, Services& services) {
 Response show_file(const Request& request, Services& services) {
   return with_model(request, services,
                     [](const auto& model) { return stored(model, model->whole(), ""); });
+}
+
+Response publish_model(const Request& request, Services& services) {
+  return in_state(ModelState::kPublished, request, services);
+}
+
+Response unpublish_model(const Request& request, Services& services) {
+  return in_state(ModelState::kDraft, request, services);
 }
 
 }  // namespace vitrine

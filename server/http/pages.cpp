@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/handlers.h"
-#include "server/http/problem.h"
-#include "server/http/services.h"
+#include "server/http/published.h"
 
 namespace vitrine {
 namespace {
@@ -24,9 +23,8 @@ Response show_gallery(const Request& request, Services& services) {
 }
 
 Response show_viewer(const Request& request, Services& services) {
-  const auto model = services.models.find(request.parameters.id);
-  if (model && *model == nullptr) return problem(404, "there is no such model", request.id);
-  return page("/model.html", request, services);
+  return with_model(request, services,
+                    [&](const auto&) { return page("/model.html", request, services); });
 }
 
 // For every id: which scans there are is for the API to tell, and whom.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the handlers of published models share.
+// What the handlers of models share.
 #pragma once
 
 #include "server/http/problem.h"
@@ -19,13 +19,33 @@ inline Response internal_error(const Error& error, const Request& request, Servi
   return problem(500, "", request.id);
 }
 
-// Calls `answer(model)` with the published model of the request's {id}, or answers 404 or 500.
+using FoundModel = Expected<std::shared_ptr<const PublishedModel>>;  // null: there is none
+
+// Calls `answer(model)`, or answers 404 or 500.
 template <class Answer>
-Response with_model(const Request& request, Services& services, Answer&& answer) {
-  auto model = services.models.find(request.parameters.id);
+Response with_found(const FoundModel& model, const Request& request, Services& services,
+                    Answer&& answer) {
   if (!model) return internal_error(model.error(), request, services);
   if (!*model) return problem(404, "there is no such model", request.id);
   return answer(*model);
+}
+
+// With the published model of the request's {id}.
+template <class Answer>
+Response with_published(const Request& request, Services& services, Answer&& answer) {
+  return with_found(services.models.find(request.parameters.id), request, services, answer);
+}
+
+// With that or, where the caller has a token, a draft: what is told of one is for nobody to keep.
+template <class Answer>
+Response with_model(const Request& request, Services& services, Answer&& answer) {
+  const FoundModel published = services.models.find(request.parameters.id);
+  if (!request.caller || !published || *published)
+    return with_found(published, request, services, answer);
+  Response response =
+      with_found(services.models.open_draft(request.parameters.id), request, services, answer);
+  response.caching = Caching::kPrivate;
+  return response;
 }
 
 }  // namespace vitrine

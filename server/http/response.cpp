@@ -16,6 +16,8 @@ std::string_view cache_control(Caching caching) {
   switch (caching) {
     case Caching::kNever:
       return "no-store";
+    case Caching::kPrivate:
+      return "private, no-store";
     case Caching::kRevalidate:
       return "no-cache";
     case Caching::kImmutable:

@@ -14,6 +14,7 @@ namespace vitrine {
 
 enum class Caching {
   kNever,       // no-store
+  kPrivate,     // private, no-store: for this caller alone, and for no page of another origin
   kRevalidate,  // no-cache: kept, but asked about each time
   kImmutable,   // for a year without asking: the URL names the content
 };

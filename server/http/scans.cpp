@@ -12,14 +12,6 @@ namespace {
 
 constexpr std::size_t kMaxPoints = 250'000;  // of one answer
 
-Response invalid(const FieldFaults& faults, const Request& request) {
-  std::vector<ParameterFault> errors;
-  for (const FieldFault& fault : faults)
-    errors.push_back({fault.field, fault.detail});
-  return problem(422, "a field of the body is missing, unknown or out of range", request.id,
-                 errors);
-}
-
 // Calls `answer(scan)` with the request's scan, or answers 401, 404 or 500.
 template <class Answer>
 Response with_scan(const Request& request, Services& services, Answer&& answer) {

@@ -327,8 +327,8 @@ class Session {
     if (connection_->draining) exchange.keep_alive = false;
     Response& response = exchange.response;
     if (response.events) exchange.keep_alive = false;  // their end is the connection's
-    const HeadOptions options{exchange.id, exchange.keep_alive, exchange.public_read,
-                              request.version()};
+    const bool public_read = exchange.public_read && response.caching != Caching::kPrivate;
+    const HeadOptions options{exchange.id, exchange.keep_alive, public_read, request.version()};
     std::string head = response_head(response, options);
     const unsigned status = response.status;
     const bool with_body = request.method() != verb::head;

@@ -27,7 +27,7 @@ Response open_stream(const Request& request, Services& services) {
   if (!offers_protocol(request.header)) {
     return problem(400, "offer the subprotocol pmesh.v1", request.id);
   }
-  return with_model(request, services, [](const auto&) { return Response{.status = 101}; });
+  return with_published(request, services, [](const auto&) { return Response{.status = 101}; });
 }
 
 }  // namespace vitrine

@@ -50,10 +50,44 @@ void JobRun::when_asked(std::function<void()> react) {
 
 void JobRun::ask(JobWish wish) {
   const std::scoped_lock lock(mutex_);
+  if (waits_ && wish == JobWish::kStop) wish = JobWish::kPause;
   // Nothing takes a cancellation back, and what is paused stays so when the daemon ends.
   if (wish_ == JobWish::kCancel || (wish_ == JobWish::kPause && wish == JobWish::kStop)) return;
   wish_ = wish;
+  changed_.notify_all();
   if (react_ && wish != JobWish::kNone) react_();
+}
+
+bool JobRun::await_resume(std::string_view stage, double progress, std::string_view note) {
+  JobStatus paused = status();
+  paused.record.state = JobState::kPaused;
+  paused.record.stage = stage;
+  paused.record.progress = std::max(paused.record.progress, progress);
+  paused.eta.reset();
+  paused.note = note;
+  entered_stage_(paused.record);  // before anybody can resume it
+  std::unique_lock lock(mutex_);
+  if (wish_ != JobWish::kNone) return false;
+  status_ = std::move(paused);
+  waits_ = true;
+  changed_.wait(lock, [this] { return !waits_ || wish_ != JobWish::kNone; });
+  waits_ = false;
+  status_.record.state = JobState::kRunning;
+  return wish_ == JobWish::kNone;
+}
+
+bool JobRun::go_on() {
+  const std::scoped_lock lock(mutex_);
+  if (!waits_) return false;
+  waits_ = false;
+  status_.record.state = JobState::kRunning;
+  changed_.notify_all();
+  return true;
+}
+
+bool JobRun::is_at_work() const {
+  const std::scoped_lock lock(mutex_);
+  return waits_ || status_.record.state == JobState::kRunning;
 }
 
 void JobRun::report(std::string_view stage, double progress, std::optional<double> eta,
@@ -227,7 +261,11 @@ Expected<JobStatus> JobQueue::resume(const JobId& id, std::uint64_t stops) {
     const std::scoped_lock inner((*run)->mutex_);
     (*run)->stops_known_ = stops;
   }
-  post(*run);
+  if ((*run)->go_on()) {
+    store((*run)->job());
+  } else {
+    post(*run);
+  }
   return (*run)->status();
 }
 
@@ -235,7 +273,7 @@ Expected<JobStatus> JobQueue::cancel(const JobId& id) {
   const std::scoped_lock lock(mutex_);
   const auto run = unfinished(id);
   if (!run) return Unexpected(run.error());
-  if ((*run)->job().state == JobState::kRunning) {
+  if ((*run)->is_at_work()) {
     (*run)->ask(JobWish::kCancel);
   } else {
     set_state(*run, JobState::kCancelled);

@@ -4,6 +4,7 @@
 // that died goes on where it was.
 #pragma once
 
+#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
@@ -55,13 +56,21 @@ class JobRun {
               std::string_view note = {});
   void made(const ModelId& model);
 
+  // Tells what somebody is to do, and waits as a paused job until it is resumed; false where a wish
+  // comes instead. A daemon that ends leaves the job paused: its task starts anew.
+  bool await_resume(std::string_view stage, double progress, std::string_view note);
+
  private:
   friend class JobQueue;
   void ask(JobWish wish);
+  bool go_on();             // false where it does not wait
+  bool is_at_work() const;  // its task has not returned
 
   mutable std::mutex mutex_;  // guards what follows
   JobStatus status_;
   JobWish wish_ = JobWish::kNone;
+  bool waits_ = false;  // in await_resume()
+  std::condition_variable changed_;
   std::uint64_t stops_known_ = 0;
   std::function<void()> react_;
 

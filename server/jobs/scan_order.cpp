@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 
 constexpr double kLeastExposure = 1;  // microseconds
 constexpr std::size_t kMaxTextBytes = 4096;
-constexpr std::string_view kSamplings[] = {"equidistant", "paper", "adaptive"};
+constexpr int kMostCalibration = 1'000'000'000;
 constexpr std::string_view kPlacements[] = {"midpoint", "pyramid"};
 
 std::string joined(std::span<const std::string_view> names) {
@@ -61,7 +61,8 @@ class Fields {
     value = found->get<int>();
   }
 
-  void real(const char* name, double low, double high, std::optional<double>& value) {
+  // double or std::optional<double>
+  void real(const char* name, double low, double high, auto& value) {
     const auto found = object_.find(name);
     if (found == object_.end() || found->is_null()) return;
     if (!found->is_number() || !(*found >= low && *found <= high)) {
@@ -137,16 +138,51 @@ void read_metadata(Fields& fields, const Json& body, ModelMetadata& metadata, Fi
   texts.text("licence", metadata.licence);
 }
 
+void read_processing(Fields& fields, const Json& body, Processing& processing) {
+  auto& [stripe, sampling, surface] = processing;
+  fields.choice("stripe", kStripeNames, stripe.method);
+  fields.choice("sampling", kSamplingNames, sampling.method);
+  read_length(fields, body, sampling.window);
+  fields.real("largest_angle", 0, kMostAngle, surface.largest_angle);
+  fields.real("largest_hole", 0, kMostHole, surface.largest_hole);
+}
+
 void read_model(Fields& fields, const Json& body, ScanOrder& order, FieldFaults& faults) {
-  fields.choice("sampling", kSamplings, order.sampling);
-  read_length(fields, body, order.length);
+  read_processing(fields, body, order.request.processing);
   read_bits(fields, body, order.bits);
   fields.choice("placement", kPlacements, order.placement);
   read_metadata(fields, body, order.metadata, faults);
   fields.flag("publish", order.publish);
 }
 
-tl::expected<ScanOrder, FieldFaults> result(ScanOrder order, FieldFaults faults) {
+void read_scan(Fields& fields, const Json& body, ScanOrder& order) {
+  fields.text("scanner", order.scanner);
+  if (!body.contains("scanner")) fields.fault("scanner", "the name of one of /api/v1/scanners");
+  fields.whole("steps", kLeastSteps, kMostSteps, order.request.steps);
+  fields.real("exposure", kLeastExposure, kMostExposure, order.request.exposure_us);
+  fields.flag("keep_frames", order.request.keep_frames);
+}
+
+void read_calibration(Fields& fields, int& number) {
+  fields.whole("calibration", 1, kMostCalibration, number);
+}
+
+// What may be said, by whom.
+constexpr std::string_view kOfScan[] = {"scanner", "steps", "exposure", "keep_frames"};
+constexpr std::string_view kOfReprocessing[] = {"calibration"};
+constexpr std::string_view kOfModel[] = {"stripe",        "sampling",     "length",
+                                         "largest_angle", "largest_hole", "bits",
+                                         "placement",     "metadata",     "publish"};
+
+std::vector<std::string_view> names(std::initializer_list<std::span<const std::string_view>> sets) {
+  std::vector<std::string_view> all;
+  for (const auto set : sets)
+    all.insert(all.end(), set.begin(), set.end());
+  return all;
+}
+
+template <class Order>
+tl::expected<Order, FieldFaults> result(Order order, FieldFaults faults) {
   if (!faults.empty()) return tl::unexpected(std::move(faults));
   return order;
 }
@@ -154,41 +190,62 @@ tl::expected<ScanOrder, FieldFaults> result(ScanOrder order, FieldFaults faults)
 }  // namespace
 
 tl::expected<ScanOrder, FieldFaults> parse_scan_order(const Json& body) {
-  constexpr std::string_view kKnown[] = {"scanner", "steps",      "exposure",  "sampling",
-                                         "length",  "bits",       "placement", "metadata",
-                                         "publish", "keep_frames"};
   FieldFaults faults;
   Fields fields(body, "", faults);
   ScanOrder order;
-  fields.only(kKnown);
-  fields.text("scanner", order.scanner);
-  if (!body.contains("scanner")) fields.fault("scanner", "the name of one of /api/v1/scanners");
-  fields.whole("steps", kLeastSteps, kMostSteps, order.steps);
-  fields.real("exposure", kLeastExposure, kMostExposure, order.exposure);
-  fields.flag("keep_frames", order.keep_frames);
+  fields.only(names({kOfScan, kOfModel}));
+  read_scan(fields, body, order);
   read_model(fields, body, order, faults);
   return result(std::move(order), std::move(faults));
 }
 
 tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const Json& body,
                                                            const ScanOrder& scan) {
-  constexpr std::string_view kKnown[] = {"sampling",  "length",   "bits",
-                                         "placement", "metadata", "publish"};
   FieldFaults faults;
   Fields fields(body, "", faults);
   ScanOrder order = scan;
-  fields.only(kKnown);
+  fields.only(names({kOfReprocessing, kOfModel}));
+  read_calibration(fields, order.calibration);
   read_model(fields, body, order, faults);
+  return result(std::move(order), std::move(faults));
+}
+
+tl::expected<CalibrationOrder, FieldFaults> parse_calibration_order(const Json& body) {
+  constexpr std::string_view kKnown[] = {"poses"};
+  FieldFaults faults;
+  Fields fields(body, "", faults);
+  CalibrationOrder order;
+  fields.only(kKnown);
+  fields.whole("poses", kLeastPoses, kMostPoses, order.poses);
+  return result(order, std::move(faults));
+}
+
+std::string to_json_text(const CalibrationOrder& order) {
+  return Json{{"poses", order.poses}}.dump();
+}
+
+tl::expected<ScanOrder, FieldFaults> parse_kept_order(const Json& kept) {
+  FieldFaults faults;
+  Fields fields(kept, "", faults);
+  ScanOrder order;
+  fields.only(names({kOfScan, kOfReprocessing, kOfModel}));
+  read_scan(fields, kept, order);
+  read_calibration(fields, order.calibration);
+  read_model(fields, kept, order, faults);
   return result(std::move(order), std::move(faults));
 }
 
 std::string to_json_text(const ScanOrder& order) {
   const ModelMetadata& texts = order.metadata;
+  const auto& [stripe, sampling, surface] = order.request.processing;
   Json json = {{"scanner", order.scanner},
-               {"steps", order.steps},
-               {"keep_frames", order.keep_frames},
-               {"sampling", kSamplings[static_cast<std::size_t>(order.sampling)]},
-               {"length", order.length},
+               {"steps", order.request.steps},
+               {"keep_frames", order.request.keep_frames},
+               {"stripe", kStripeNames[static_cast<std::size_t>(stripe.method)]},
+               {"sampling", kSamplingNames[static_cast<std::size_t>(sampling.method)]},
+               {"length", sampling.window},
+               {"largest_angle", surface.largest_angle},
+               {"largest_hole", surface.largest_hole},
                {"bits", order.bits},
                {"placement", kPlacements[static_cast<std::size_t>(order.placement)]},
                {"metadata",
@@ -197,7 +254,8 @@ std::string to_json_text(const ScanOrder& order) {
                  {"rights", texts.rights},
                  {"licence", texts.licence}}},
                {"publish", order.publish}};
-  if (order.exposure) json["exposure"] = *order.exposure;
+  if (order.request.exposure_us) json["exposure"] = *order.request.exposure_us;
+  if (order.calibration > 0) json["calibration"] = order.calibration;
   return json.dump();
 }
 

@@ -8,26 +8,28 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "acquisition/session/scan_request.h"
 #include "codec/simplify/simplify.h"
 #include "server/store/publish.h"
 
 namespace vitrine {
 
-enum class Sampling : std::uint8_t { kEquidistant, kPaper, kAdaptive };
-
 struct ScanOrder {
-  std::string scanner;             // its name
-  int steps = 720;                 // of a turn
-  std::optional<double> exposure;  // microseconds; nothing: the scanner's
-  bool keep_frames = false;
+  std::string scanner;  // its name
+  ScanRequest request;
+  int calibration = 0;  // its number, of a scan that is made anew; 0: the scan's own
 
-  Sampling sampling = Sampling::kAdaptive;
-  int length = 10;  // L, in points
-  int bits = 0;     // as in BuildOptions
+  int bits = 0;  // as in BuildOptions
   Placement placement = Placement::kMidpoint;
 
   ModelMetadata metadata;
   bool publish = false;  // else a draft comes of it
+};
+
+inline constexpr int kLeastPoses = 3, kMostPoses = 200;
+
+struct CalibrationOrder {
+  int poses = 20;  // of the target, that somebody places by hand
 };
 
 struct FieldFault {
@@ -43,6 +45,12 @@ tl::expected<ScanOrder, FieldFaults> parse_scan_order(const nlohmann::json& body
 tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const nlohmann::json& body,
                                                            const ScanOrder& scan);
 
-std::string to_json_text(const ScanOrder& order);  // parse_scan_order reads it
+// Also what was kept.
+tl::expected<CalibrationOrder, FieldFaults> parse_calibration_order(const nlohmann::json& body);
+std::string to_json_text(const CalibrationOrder& order);
+
+// An order of either kind of scan as it is kept until it is carried out, and what was kept.
+std::string to_json_text(const ScanOrder& order);
+tl::expected<ScanOrder, FieldFaults> parse_kept_order(const nlohmann::json& kept);
 
 }  // namespace vitrine

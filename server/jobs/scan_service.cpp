@@ -43,16 +43,23 @@ ScanEntry new_scan(ScanOrder order) {
   scan.is_public = order.publish;
   scan.title = order.metadata.title;
   scan.parameters = to_json_text(order);
-  scan.steps = order.steps;
+  scan.steps = order.request.steps;
   return scan;
 }
 
 Expected<ScanOrder> stored_order(const std::string& parameters) {
   const auto json = nlohmann::json::parse(parameters, nullptr, /*allow_exceptions=*/false);
-  auto order = parse_scan_order(json.is_object() ? json : nlohmann::json::object());
+  auto order = parse_kept_order(json.is_object() ? json : nlohmann::json::object());
   if (order) return *order;
   return fail(ErrorCode::kState, fmt::format("the scan's parameters are damaged at {}; scan again",
                                              order.error().front().field));
+}
+
+// One that an earlier version has left has no parameters.
+CalibrationOrder calibration_order(const JobRecord& job) {
+  const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
+  return parse_calibration_order(json.is_object() ? json : nlohmann::json::object())
+      .value_or(CalibrationOrder{});
 }
 
 }  // namespace
@@ -181,10 +188,11 @@ Expected<Frame> ScanService::picture(ScannerStation& scanner) {
   return fail(ErrorCode::kState, "the scan has taken no picture yet; ask again in a second");
 }
 
-Expected<JobRecord> ScanService::calibrate(ScannerStation& scanner,
+Expected<JobRecord> ScanService::calibrate(ScannerStation& scanner, const CalibrationOrder& order,
                                            const std::optional<OnceKey>& once) {
-  return queue_.add(new_job(JobKind::kCalibrate, scanner.name()), std::nullopt, once,
-                    scanner.backend().stops());
+  JobRecord job = new_job(JobKind::kCalibrate, scanner.name());
+  job.parameters = to_json_text(order);
+  return queue_.add(job, std::nullopt, once, scanner.backend().stops());
 }
 
 Expected<ScanStarted> ScanService::add(JobRecord job, ScanEntry scan,
@@ -238,6 +246,10 @@ Expected<void> ScanService::resume(const ScanEntry& scan) {
   }
   const auto resumed = queue_.resume(scan.job, stops_of(scan.scanner));
   return resumed ? Expected<void>{} : Unexpected(resumed.error());
+}
+
+Expected<JobStatus> ScanService::resume(const JobRecord& job) {
+  return queue_.resume(job.id, stops_of(job.scanner));
 }
 
 Expected<ScanInfo> ScanService::with_job(ScanEntry entry) {
@@ -355,24 +367,24 @@ Expected<JobEnd> ScanService::reprocess(JobRun& run, ScannerStation& station) {
 }
 
 Expected<JobEnd> ScanService::calibrate(JobRun& run, ScannerStation& station) {
-  class Progress final : public ScanListener {
+  class Progress final : public CalibrationListener {
    public:
     explicit Progress(JobRun& r) : run_(r) {}
-    void begins(std::shared_ptr<const ScanView>) override {}
-    void told(const ScanTold& told) override {
-      run_.report("calibrating", told.progress, told.eta);
+    void told(const CalibrationTold& told) override {
+      run_.report(told.stage, told.progress, std::nullopt, told.note);
+    }
+    bool await_operator(const CalibrationTold& told) override {
+      return run_.await_resume(told.stage, told.progress, told.note);
     }
     bool is_interrupted() const override { return run_.wish() != JobWish::kNone; }
-    bool is_cancelled() const override { return run_.wish() == JobWish::kCancel; }
 
    private:
     JobRun& run_;
   };
   Progress progress(run);
-  run.report("calibrating", 0);
-  const auto number = station.backend().calibrate(progress);
-  if (!number) return Unexpected(number.error());
-  return *number ? JobEnd::kDone : JobEnd::kPutAside;
+  progress.told({});
+  const auto number = station.backend().calibrate(calibration_order(run.job()), progress);
+  return number ? Expected<JobEnd>(JobEnd::kDone) : Unexpected(number.error());
 }
 
 // The model has the job's id, so that a job which is interrupted after this makes no second one.

@@ -54,7 +54,8 @@ class ScanService {
   ScannerStation* scanner(std::string_view name);  // null where there is none of that name
   // A fresh picture, the latest of the scan while there is one.
   Expected<Frame> picture(ScannerStation& scanner);
-  Expected<JobRecord> calibrate(ScannerStation& scanner, const std::optional<OnceKey>& once);
+  Expected<JobRecord> calibrate(ScannerStation& scanner, const CalibrationOrder& order,
+                                const std::optional<OnceKey>& once);
 
   // `order.scanner` is that of a station.
   Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<OnceKey>& once);
@@ -64,6 +65,8 @@ class ScanService {
   Expected<void> pause(const ScanEntry& scan);
   // Goes on with one that is paused, or, as a new job, that failed.
   Expected<void> resume(const ScanEntry& scan);
+  // One of any kind that is paused, or that waits for somebody.
+  Expected<JobStatus> resume(const JobRecord& job);
 
   Expected<std::optional<ScanInfo>> find(const ScanId& id);
   Expected<std::vector<ScanInfo>> list(const PageOf& page);

@@ -45,7 +45,7 @@ class ScanView {
   virtual std::vector<std::array<float, 3>> points_from(std::size_t first) const = 0;
 };
 
-// Who is told about a scan or a calibration, from the thread that does it, and may put it aside.
+// Who is told about a scan, from the thread that does it, and may put it aside.
 class ScanListener {
  public:
   virtual ~ScanListener() = default;
@@ -54,6 +54,23 @@ class ScanListener {
   virtual void told(const ScanTold& told) = 0;
   virtual bool is_interrupted() const = 0;
   virtual bool is_cancelled() const = 0;  // is_interrupted(), and not to be gone on with
+};
+
+struct CalibrationTold {
+  std::string stage = "calibrating";  // or what somebody is asked to do
+  double progress = 0;                // 0..1
+  std::string note;                   // what has come of it so far
+};
+
+// Who is told about a calibration, from the thread that does it, and may end it.
+class CalibrationListener {
+ public:
+  virtual ~CalibrationListener() = default;
+
+  virtual void told(const CalibrationTold& told) = 0;
+  // Until somebody has done what the stage says; false where it is interrupted.
+  virtual bool await_operator(const CalibrationTold& told) = 0;
+  virtual bool is_interrupted() const = 0;
 };
 
 struct CalibrationSummary {
@@ -82,8 +99,9 @@ class ScannerBackend {
   virtual Expected<std::optional<TriangleMesh>> scan(const ScanOrder& order,
                                                      const std::filesystem::path& folder,
                                                      ScanListener& listener) = 0;
-  // The new calibration's number; nothing where it was interrupted.
-  virtual Expected<std::optional<int>> calibrate(ScanListener& listener) = 0;
+  // The new calibration's number. Whoever is there places the target; the simulated rig does that
+  // itself, in poses of its own.
+  virtual Expected<int> calibrate(const CalibrationOrder& order, CalibrationListener& listener) = 0;
 
   virtual void close() = 0;
 

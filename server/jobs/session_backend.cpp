@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "acquisition/calibration/calibrate.h"
 #include "acquisition/calibration/calibration_store.h"
 #include "acquisition/calibration/keep_calibration.h"
 #include "acquisition/session/reprocess.h"
@@ -19,22 +18,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{100};  // how often a scan is asked how far it is
 constexpr std::uint64_t kMaxReport = 16 << 20;   // bytes
-
-Processing processing_of(const ScanOrder& order) {
-  constexpr SamplingMethod kMethods[] = {SamplingMethod::kEquidistant, SamplingMethod::kPaper,
-                                         SamplingMethod::kAdaptive};
-  Processing processing;
-  processing.sampling.method = kMethods[static_cast<std::size_t>(order.sampling)];
-  processing.sampling.window = order.length;
-  return processing;
-}
-
-ScanRequest request_of(const ScanOrder& order) {
-  return {.steps = order.steps,
-          .exposure_us = order.exposure,
-          .keep_frames = order.keep_frames,
-          .processing = processing_of(order)};
-}
 
 bool is_under_way(ScanState state) {
   return state == ScanState::kChecking || state == ScanState::kScanning ||
@@ -192,7 +175,7 @@ Expected<std::shared_ptr<Scan>> SessionBackend::open_scan(const ScanOrder& order
   std::error_code error;
   const bool is_begun = std::filesystem::exists(folder / "scan.json", error);
   auto scan =
-      is_begun ? Scan::reopen(scanner_, folder) : Scan::create(scanner_, request_of(order), folder);
+      is_begun ? Scan::reopen(scanner_, folder) : Scan::create(scanner_, order.request, folder);
   if (!scan) return Unexpected(scan.error());
   return std::shared_ptr<Scan>(std::move(*scan));
 }
@@ -227,38 +210,66 @@ void SessionBackend::emergency_stop() noexcept {
   if (scan_) scan_->emergency_stop();
 }
 
-Expected<std::optional<int>> SessionBackend::calibrate(ScanListener& listener) {
-  close();
-  if (config_.rig.empty()) {
-    return fail(ErrorCode::kState,
-                "somebody must place the target; stop the daemon and run vitrine calibrate there");
-  }
+Expected<CalibrationInput> SessionBackend::picture_at_rig(CalibrationListener& listener) {
   auto rig = RigLink::connect(config_.rig);
   if (!rig) return Unexpected(rig.error());
   const auto poses = rig->poses();
   if (!poses) return Unexpected(poses.error());
   const PlaceTarget place = [&](int number) -> Expected<bool> {
-    if (listener.is_interrupted()) return fail(ErrorCode::kState, "the calibration was stopped");
-    listener.told({.stage = "calibrating", .progress = static_cast<double>(number) / *poses});
+    listener.told({.progress = static_cast<double>(number) / *poses});
     if (number >= *poses) return false;
     return rig->place_target(number).map([] { return true; });
   };
-  const auto pictures = picture_target(scanner_, config_.target, place, stop_);
+  const TargetPictureOptions options{.is_interrupted = [&] { return listener.is_interrupted(); }};
+  auto pictures = picture_target(scanner_, config_.target, place, stop_, options);
   const auto restored = rig->place_object();
+  if (pictures && !restored) return Unexpected(restored.error());
+  return pictures;
+}
+
+// Laser and motor are off whenever somebody is asked to come near.
+Expected<CalibrationInput> SessionBackend::picture_by_hand(int poses,
+                                                           CalibrationListener& listener) {
+  CalibrationTold told;
+  const PlaceTarget place = [&](int number) -> Expected<bool> {
+    told.progress = static_cast<double>(number) / poses;
+    told.stage = fmt::format("place the target, pose {} of {}", number + 1, poses);
+    if (number < poses && !listener.await_operator(told))
+      return fail(ErrorCode::kState, "the calibration was interrupted; start it again");
+    told.stage = CalibrationTold{}.stage;
+    listener.told(told);
+    return number < poses;
+  };
+  const TargetPictureOptions options{
+      .progress =
+          [&](int places, int pictures) {
+            told.note =
+                fmt::format("{} places, {} pictures that show the target", places, pictures);
+          },
+      .is_interrupted = [&] { return listener.is_interrupted(); }};
+  return picture_target(scanner_, config_.target, place, stop_, options);
+}
+
+Expected<int> SessionBackend::calibrate(const CalibrationOrder& order,
+                                        CalibrationListener& listener) {
+  close();
+  const auto pictures =
+      config_.rig.empty() ? picture_by_hand(order.poses, listener) : picture_at_rig(listener);
   if (!pictures) return Unexpected(pictures.error());
-  if (!restored) return Unexpected(restored.error());
   const auto calibrated = vitrine::calibrate(*pictures, {});
   if (!calibrated) return Unexpected(calibrated.error());
-  const auto stored = keep_calibration(config_.calibrations, *calibrated);
-  if (!stored) return Unexpected(stored.error());
-  return stored->number;
+  return keep_calibration(config_.calibrations, *calibrated).map([](const Calibration& stored) {
+    return stored.number;
+  });
 }
 
 Expected<TriangleMesh> SessionBackend::mesh_anew(const ScanOrder& order,
                                                  const std::filesystem::path& folder) {
   const auto scan = ScanFolder::open(folder);
   if (!scan) return Unexpected(scan.error());
-  auto surface = reprocess(*scan, config_.calibrations, {.processing = processing_of(order)});
+  auto surface =
+      reprocess(*scan, config_.calibrations,
+                {.processing = order.request.processing, .calibration = order.calibration});
   if (!surface) return Unexpected(surface.error());
   return std::move(surface->mesh);
 }

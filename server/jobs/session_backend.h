@@ -4,6 +4,7 @@
 
 #include <mutex>
 
+#include "acquisition/calibration/calibrate.h"
 #include "acquisition/session/emergency_stop.h"
 #include "acquisition/session/scan.h"
 #include "acquisition/session/scanner_config.h"
@@ -24,7 +25,7 @@ class SessionBackend final : public ScannerBackend {
   Expected<std::optional<TriangleMesh>> scan(const ScanOrder& order,
                                              const std::filesystem::path& folder,
                                              ScanListener& listener) override;
-  Expected<std::optional<int>> calibrate(ScanListener& listener) override;
+  Expected<int> calibrate(const CalibrationOrder& order, CalibrationListener& listener) override;
   void close() override;
 
   const std::string& name() const override { return config_.name; }
@@ -48,6 +49,8 @@ class SessionBackend final : public ScannerBackend {
   Expected<std::shared_ptr<Scan>> open_scan(const ScanOrder& order,
                                             const std::filesystem::path& folder);
   void drive(const std::shared_ptr<Scan>& scan);
+  Expected<CalibrationInput> picture_at_rig(CalibrationListener& listener);
+  Expected<CalibrationInput> picture_by_hand(int poses, CalibrationListener& listener);
 
   const ScannerConfig config_;
   const Scanner scanner_;

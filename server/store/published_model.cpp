@@ -119,6 +119,18 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const Mode
   return load(id);
 }
 
+Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_draft(const ModelId& id) {
+  auto record = catalogue_.find(id);
+  if (!record) return tl::unexpected(record.error());
+  if (!*record || (*record)->state != ModelState::kDraft) return nullptr;
+  return PublishedModel::open(store_, std::move(**record));
+}
+
+void PublishedModels::refresh() {
+  const std::unique_lock lock(mutex_);
+  checked_ = {};
+}
+
 std::optional<PublishedChunk> PublishedModels::held_chunk(const Sha256& sha256) {
   const std::shared_lock lock(mutex_);
   if (!is_fresh(Clock::now())) return std::nullopt;

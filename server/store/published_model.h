@@ -63,6 +63,12 @@ class PublishedModels {
   // Null where there is no such model or it is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
 
+  // A draft, for those who may see it: opened anew each time. Null where there is none.
+  Expected<std::shared_ptr<const PublishedModel>> open_draft(const ModelId& id);
+
+  // What this process has published or hidden is so from the next call on.
+  void refresh();
+
   // The chunk where it is in memory and known to be current. Waits for neither catalogue nor disk.
   std::optional<PublishedChunk> held_chunk(const Sha256& sha256);
 

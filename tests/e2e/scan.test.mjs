@@ -65,9 +65,11 @@ test("points grow, then the base mesh stands in their place, then the whole mode
   const held = [];
   await visitor.page.context().route("**/api/v1/models/*/stream", (route) => route.abort());
   await visitor.page.context().route("**/api/v1/chunks/*", (route) => void held.push(route));
+  const words = wordsWhenModelled(visitor.page);
   fake.tell({ state: "done", progress: 1, eta: null, model });
   await visitor.page.locator("main.modelled").waitFor();
-  await visitor.page.locator("#growth").waitFor({ state: "hidden" });
+  assert.deepEqual(await words, ["hidden", "hidden"], "words over the viewer's own");
+  await visitor.page.locator("#growth[hidden]").waitFor({ state: "hidden" });
   await visitor.shoot("base");
   await visitor.page.context().unroute("**/api/v1/chunks/*");
   await Promise.all(held.map((route) => route.continue()));
@@ -162,6 +164,15 @@ test("a scan that is not for everybody is not on display", async () => {
   assert.equal(fake.questions, 1);
   await visitor.close();
 });
+
+/** Whether the scan's bar and words are seen from the moment on at which the model is. */
+function wordsWhenModelled(page) {
+  return page.evaluate(() => new Promise((done) => {
+    const main = document.querySelector("main");
+    const seen = (id) => getComputedStyle(document.getElementById(id)).visibility;
+    new MutationObserver(() => done(["progress", "status"].map(seen))).observe(main, { attributeFilter: ["class"] });
+  }));
+}
 
 /** Two frames: what was asked for before is drawn. */
 function frames(page) {

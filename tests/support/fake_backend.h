@@ -26,7 +26,9 @@ struct FakeScanner {
 
   bool stopped() const { return stops > allowed; }
 
-  std::string note;  // told at each step
+  bool by_hand = false;  // somebody places the target
+  std::string note;      // told at each step
+  ScanOrder anew;        // the newest that was to be meshed anew
 
   std::atomic<bool> reachable{true}, jams{false}, laser{false}, open{false};
   std::atomic<std::uint64_t> stops{0}, allowed{0};
@@ -101,17 +103,17 @@ class FakeBackend final : public ScannerBackend {
                                              const std::filesystem::path& folder,
                                              ScanListener& listener) override {
     std::filesystem::create_directories(folder);
-    std::ofstream(folder / "of") << order.steps;
-    const auto view = std::make_shared<FakeView>(order.steps);
+    std::ofstream(folder / "of") << order.request.steps;
+    const auto view = std::make_shared<FakeView>(order.request.steps);
     int step = 0;
     for (const int stored = steps_in(folder); step < stored; ++step)
       view->add_step(step);
     listener.begins(view);
     world_.laser = true;
     const LightsOff off{world_};
-    for (; step < order.steps; ++step) {
+    for (; step < order.request.steps; ++step) {
       listener.told({.step = step,
-                     .progress = 0.9 * step / order.steps,
+                     .progress = 0.9 * step / order.request.steps,
                      .calibration = 1,
                      .note = world_.note});
       if (world_.before_step) {
@@ -127,11 +129,15 @@ class FakeBackend final : public ScannerBackend {
     return torus(40, 20);
   }
 
-  Expected<std::optional<int>> calibrate(ScanListener& listener) override {
+  Expected<int> calibrate(const CalibrationOrder& order, CalibrationListener& listener) override {
     if (world_.before_step) {
       if (const auto error = world_.before_step(0)) return Unexpected(*error);
     }
-    if (listener.is_interrupted()) return std::nullopt;
+    for (int pose = 0; world_.by_hand && pose < order.poses; ++pose) {
+      const auto asked = "place the target, pose " + std::to_string(pose + 1);
+      if (!listener.await_operator({.stage = asked, .note = "so far it is seen"})) break;
+    }
+    if (listener.is_interrupted()) return fail(ErrorCode::kState, "interrupted; start it again");
     return ++world_.calibrations;
   }
 
@@ -147,7 +153,8 @@ class FakeBackend final : public ScannerBackend {
   }
 
   Expected<TriangleMesh> mesh_anew(const ScanOrder& order, const std::filesystem::path&) override {
-    return torus(static_cast<std::uint32_t>(30 + order.length), 20);
+    world_.anew = order;
+    return torus(40, 20);
   }
   Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override {
     int steps = 1;

@@ -41,6 +41,7 @@ class LocalServer {
   ScanService& scans() { return scans_; }
   const std::filesystem::path& data() const { return folder_.path(); }
   Catalogue& catalogue() { return *installation_.catalogue; }
+  ObjectStore& store() { return *installation_.store; }
   const Metrics& metrics() const { return metrics_; }
 
   // "Authorization: Bearer ...\r\n" of a new token.
@@ -60,13 +61,15 @@ class LocalServer {
   }
 
  private:
+  static constexpr WebAsset kPages[] = {{"/model.html", "text/html; charset=utf-8", {}}};
+
   TemporaryFolder folder_;
   Installation installation_ = open_installation(folder_.path()).value();
   Log log_ = Log::open("").value();
   ScanService scans_;
   PublishedModels models_{*installation_.store, *installation_.catalogue};
   ExportCache exports_{0};
-  WebPages pages_{{}};
+  WebPages pages_{kPages};
   Metrics metrics_;
   Authenticator tokens_{*installation_.catalogue};
   Log events_ = Log::open(folder_.path() / "events.log").value();

@@ -158,6 +158,24 @@ TEST_F(ScanRoutes, CalibrationsAreListedShownAndMadeByAJob) {
             "image/svg+xml");
 }
 
+TEST_F(ScanRoutes, ACalibrationByHandWaitsForWhoPlacesTheTarget) {
+  world_.by_hand = true;
+  const json started = json::parse(post("/scanners/rig/calibrations", {{"poses", 3}}).body);
+  for (int pose = 1; pose <= 3; ++pose) {
+    const std::string stage = "place the target, pose " + std::to_string(pose);
+    json job;
+    do
+      job = json::parse(get(job_path(started)).body);
+    while (job["stage"] != stage || job["state"] != "paused");
+    EXPECT_EQ(job["note"], "so far it is seen");
+    EXPECT_EQ(ask("POST", job_path(started) + "/resume", viewer_).status, 403);
+    EXPECT_EQ(post(job_path(started) + "/resume").status, 202);
+  }
+  settle();
+  EXPECT_EQ(json::parse(get(job_path(started)).body)["state"], "done");
+  EXPECT_EQ(post(job_path(started) + "/resume").status, 409);
+}
+
 TEST_F(ScanRoutes, ADamagedCalibrationIsNamedBesideTheOthers) {
   world_.damaged = 9;
   const json answer = json::parse(get("/scanners/rig/calibrations").body);
@@ -203,7 +221,11 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   EXPECT_EQ(scan["state"], "done") << scan;
   EXPECT_EQ(scan["progress"], 1);
   ASSERT_TRUE(scan["model"].is_string());
-  EXPECT_EQ(get("/models/" + scan["model"].get<std::string>()).status, 404);  // a draft
+  const std::string model = "/models/" + scan["model"].get<std::string>();
+  EXPECT_EQ(ask("GET", model + "/export.ply", "").status, 404);
+  const HttpAnswer exported = get(model + "/export.ply?level=lowest");
+  EXPECT_EQ(exported.status, 200) << exported.body;
+  EXPECT_EQ(exported.field("cache-control"), "private, no-store");
   EXPECT_EQ(get(scan_path(started) + "/points").body.size(), 12 * 10 * 12u);
 }
 
@@ -272,9 +294,17 @@ TEST_F(ScanRoutes, AScanIsPausedResumedCancelledAndReprocessed) {
   const json scan = json::parse(get(scan_path(started)).body);
   EXPECT_EQ(scan["state"], "cancelled");
   EXPECT_EQ(scan["step"], 6);
-  const HttpAnswer reprocessed = post(scan_path(started) + "/reprocess", {{"length", 5}});
+  EXPECT_EQ(fault_of(post(scan_path(started) + "/reprocess", {{"length", 7}})), "length");
+  const HttpAnswer reprocessed =
+      post(scan_path(started) + "/reprocess",
+           {{"length", 20}, {"stripe", "blais-rioux"}, {"largest_hole", 9}, {"calibration", 1}});
   EXPECT_EQ(reprocessed.status, 202) << reprocessed.body;
   settle("");
+  const auto& [stripe, sampling, surface] = world_.anew.request.processing;
+  EXPECT_EQ(stripe.method, StripeMethod::kBlaisRioux);
+  EXPECT_EQ(sampling.window, 20);
+  EXPECT_EQ(surface.largest_hole, 9);
+  EXPECT_EQ(world_.anew.calibration, 1);
   EXPECT_TRUE(json::parse(get(scan_path(started)).body)["model"].is_string());
 }
 

@@ -249,6 +249,67 @@ TEST_F(Jobs, a_job_that_was_being_paused_stays_paused_when_the_daemon_stops) {
   EXPECT_EQ(stored(job), JobState::kPaused);
 }
 
+// Of a job that waits for somebody: its task.
+Expected<JobEnd> wait_twice(JobRun& run) {
+  for (const char* stage : {"first", "second"}) {
+    if (!run.await_resume(stage, 0.5, "so far")) return JobEnd::kPutAside;
+    EXPECT_EQ(run.job().state, JobState::kRunning);
+  }
+  return JobEnd::kDone;
+}
+
+void await_pause(JobQueue& queue, const JobRecord& job, std::string_view stage) {
+  for (const auto run = queue.run(job.id);
+       run->job().state != JobState::kPaused || run->job().stage != stage;) {
+    std::this_thread::yield();
+  }
+}
+
+TEST_F(Jobs, a_job_that_waits_for_somebody_is_paused_and_goes_on_where_it_is) {
+  const auto queue = queue_of(wait_twice);
+  const JobRecord job = job_for("a");
+  ASSERT_TRUE(queue->add(job, {}, {}));
+  await_pause(*queue, job, "first");
+  EXPECT_EQ(stored(job), JobState::kPaused);
+  EXPECT_EQ(catalogue_->find_job(job.id).value()->stage, "first");
+  EXPECT_EQ(queue->find(job.id).value()->note, "so far");
+  EXPECT_FALSE(queue->pause(job.id));
+  EXPECT_FALSE(queue->add(job_for("a"), {}, {}));
+  ASSERT_TRUE(queue->resume(job.id));
+  await_pause(*queue, job, "second");
+  ASSERT_TRUE(queue->resume(job.id));
+  settle(*queue);
+  EXPECT_EQ(stored(job), JobState::kDone);
+}
+
+TEST_F(Jobs, a_job_that_waits_for_somebody_can_be_cancelled) {
+  const auto queue = queue_of(wait_twice);
+  const JobRecord job = job_for("a");
+  ASSERT_TRUE(queue->add(job, {}, {}));
+  await_pause(*queue, job, "first");
+  ASSERT_TRUE(queue->cancel(job.id));
+  settle(*queue);
+  EXPECT_EQ(stored(job), JobState::kCancelled);
+  EXPECT_TRUE(queue->add(job_for("a"), {}, {}));
+}
+
+TEST_F(Jobs, a_job_that_waits_for_somebody_does_so_after_the_daemon_has_stopped) {
+  const JobRecord job = job_for("a");
+  {
+    const auto queue = queue_of(wait_twice);
+    ASSERT_TRUE(queue->add(job, {}, {}));
+    await_pause(*queue, job, "first");
+    queue->stop();
+  }
+  EXPECT_EQ(stored(job), JobState::kPaused);
+  const auto queue = queue_of(wait_twice);
+  ASSERT_TRUE(queue->start());
+  settle(*queue);
+  EXPECT_EQ(stored(job), JobState::kPaused);
+  ASSERT_TRUE(queue->resume(job.id));
+  await_pause(*queue, job, "first");
+}
+
 TEST_F(Jobs, who_watches_a_job_sees_its_end) {
   const auto queue = gated();
   const JobRecord job = job_for("a");

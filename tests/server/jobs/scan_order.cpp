@@ -20,9 +20,11 @@ std::string fault_in(const Json& body) {
 TEST(ScanOrder, a_scanner_is_enough) {
   const auto order = parse_scan_order({{"scanner", "rig"}});
   ASSERT_TRUE(order);
-  EXPECT_EQ(order->steps, 720);
-  EXPECT_EQ(order->length, 10);
-  EXPECT_EQ(order->sampling, Sampling::kAdaptive);
+  EXPECT_EQ(order->request.steps, 720);
+  const Processing otherwise;  // as at the command line
+  EXPECT_EQ(order->request.processing.stripe, otherwise.stripe);
+  EXPECT_EQ(order->request.processing.sampling.window, otherwise.sampling.window);
+  EXPECT_EQ(order->request.processing.sampling.method, otherwise.sampling.method);
   EXPECT_FALSE(order->publish);
 }
 
@@ -32,8 +34,11 @@ TEST(ScanOrder, what_was_ordered_is_read_back_from_its_text) {
       {"steps", 90},
       {"exposure", 2500.5},
       {"keep_frames", true},
+      {"stripe", "blais-rioux"},
       {"sampling", "paper"},
       {"length", 15},
+      {"largest_angle", 62.5},
+      {"largest_hole", 0},
       {"bits", 14},
       {"placement", "pyramid"},
       {"publish", true},
@@ -41,6 +46,12 @@ TEST(ScanOrder, what_was_ordered_is_read_back_from_its_text) {
   const auto order = parse_scan_order(body);
   ASSERT_TRUE(order);
   EXPECT_EQ(Json::parse(to_json_text(*order)), body);
+  const auto anew = parse_reprocess_order({{"calibration", 3}}, *order);
+  ASSERT_TRUE(anew);
+  const auto kept = parse_kept_order(Json::parse(to_json_text(*anew)));
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->calibration, 3);
+  EXPECT_EQ(kept->request.processing.stripe.method, StripeMethod::kBlaisRioux);
 }
 
 TEST(ScanOrder, each_fault_names_its_field) {
@@ -49,8 +60,12 @@ TEST(ScanOrder, each_fault_names_its_field) {
       {"scanner", {1, "two\nlines"}},
       {"steps", {7, 36'001, 12.5, "720", nullptr, 1e300}},
       {"exposure", {0, -1, 1e9, "fast"}},
+      {"stripe", {"peak", 0}},
       {"sampling", {"random", 1}},
       {"length", {0, 1, 6, 25, 10.0, "ten"}},
+      {"largest_angle", {-1, 91, "steep"}},
+      {"largest_hole", {-0.5, 1001, true}},
+      {"calibration", {1}},
       {"bits", {9, 17, 12.5, "many"}},
       {"placement", {"anywhere", 2}},
       {"keep_frames", {1, "yes"}},
@@ -69,6 +84,16 @@ TEST(ScanOrder, each_fault_names_its_field) {
   EXPECT_EQ(fault_in({{"scanner", "rig"}, {"metadata", {{"date", "1"}}}}), "metadata.date");
 }
 
+TEST(CalibrationOrder, says_how_many_poses_there_will_be) {
+  const auto order = parse_calibration_order({{"poses", 7}});
+  ASSERT_TRUE(order);
+  EXPECT_EQ(order->poses, 7);
+  EXPECT_EQ(parse_calibration_order(Json::parse(to_json_text(*order)))->poses, 7);
+  EXPECT_TRUE(parse_calibration_order(Json::object()));
+  for (const Json& wrong : {Json{{"poses", 2}}, Json{{"poses", "many"}}, Json{{"places", 7}}})
+    EXPECT_FALSE(parse_calibration_order(wrong)) << wrong;
+}
+
 TEST(ScanOrder, all_faults_are_told_at_once) {
   const auto order = parse_scan_order({{"steps", 0}, {"bits", 1}});
   ASSERT_FALSE(order);
@@ -76,16 +101,23 @@ TEST(ScanOrder, all_faults_are_told_at_once) {
 }
 
 TEST(ScanOrder, another_model_of_a_scan_keeps_what_is_not_said_and_what_concerns_the_scanner) {
-  const auto scan = parse_scan_order({{"scanner", "rig"}, {"steps", 90}, {"length", 5}});
-  const auto order = parse_reprocess_order({{"sampling", "paper"}, {"bits", 12}}, *scan);
+  const auto scan = parse_scan_order({{"scanner", "rig"}, {"steps", 90}, {"length", 15}});
+  const auto order = parse_reprocess_order(
+      {{"sampling", "paper"}, {"stripe", "centre-of-mass"}, {"calibration", 2}, {"bits", 12}},
+      *scan);
   ASSERT_TRUE(order);
-  EXPECT_EQ(order->steps, 90);
-  EXPECT_EQ(order->length, 5);
-  EXPECT_EQ(order->sampling, Sampling::kPaper);
+  const auto& [stripe, sampling, surface] = order->request.processing;
+  EXPECT_EQ(order->request.steps, 90);
+  EXPECT_EQ(sampling.window, 15);
+  EXPECT_EQ(sampling.method, SamplingMethod::kPaper);
+  EXPECT_EQ(stripe.method, StripeMethod::kCentreOfMass);
+  EXPECT_EQ(order->calibration, 2);
   EXPECT_EQ(order->bits, 12);
-  const auto other = parse_reprocess_order({{"steps", 100}}, *scan);
-  ASSERT_FALSE(other);
-  EXPECT_EQ(other.error().front().field, "steps");
+  for (const Json& wrong : {Json{{"steps", 100}}, Json{{"calibration", 0}}}) {
+    const auto other = parse_reprocess_order(wrong, *scan);
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().front().field, wrong.begin().key());
+  }
 }
 
 }  // namespace

@@ -48,7 +48,8 @@ class Scans : public testing::Test {
   }
   ScannerStation& station() { return *service_->scanner(world_.name); }
 
-  const ScanOrder order_{.scanner = "rig", .steps = 12, .metadata = {.title = "A ring"}};
+  const ScanOrder order_{
+      .scanner = "rig", .request = {.steps = 12}, .metadata = {.title = "A ring"}};
   FakeScanner world_;
   test::TemporaryFolder folder_;
   Installation installation_ = open_installation(folder_.path()).value();
@@ -110,7 +111,7 @@ TEST_F(Scans, while_one_scans_another_scan_a_calibration_jog_and_laser_are_refus
   begin(order_);
   held.await();
   EXPECT_EQ(service_->scan(order_, {}).error().code, ErrorCode::kState);
-  EXPECT_EQ(service_->calibrate(station(), {}).error().code, ErrorCode::kState);
+  EXPECT_EQ(service_->calibrate(station(), {}, {}).error().code, ErrorCode::kState);
   EXPECT_EQ(station().jog(10).error().code, ErrorCode::kState);
   EXPECT_EQ(station().laser(true).error().code, ErrorCode::kState);
   EXPECT_EQ(station().status().state, ScannerState::kBusy);
@@ -235,7 +236,7 @@ TEST_F(Scans, a_picture_or_a_refused_command_takes_no_emergency_stop_back) {
   held.await();
   station().stop();
   EXPECT_FALSE(service_->scan(order_, {}));
-  EXPECT_FALSE(service_->calibrate(station(), {}));
+  EXPECT_FALSE(service_->calibrate(station(), {}, {}));
   EXPECT_FALSE(station().jog(10));
   EXPECT_TRUE(world_.stopped());
   held.open();
@@ -408,7 +409,7 @@ TEST_F(Scans, of_a_scan_without_a_step_no_model_is_made) {
 }
 
 TEST_F(Scans, a_calibration_is_a_job_and_its_number_is_seen) {
-  const auto job = service_->calibrate(station(), {});
+  const auto job = service_->calibrate(station(), {}, {});
   ASSERT_TRUE(job);
   settle();
   EXPECT_EQ((*service_->jobs().find(job->id))->record.state, JobState::kDone);
@@ -417,7 +418,7 @@ TEST_F(Scans, a_calibration_is_a_job_and_its_number_is_seen) {
 
 TEST_F(Scans, a_calibration_that_is_stopped_ends_and_frees_the_scanner) {
   HeldAtStep held(world_, 0);
-  const auto job = service_->calibrate(station(), {});
+  const auto job = service_->calibrate(station(), {}, {});
   ASSERT_TRUE(job);
   held.await();
   station().stop();
@@ -425,7 +426,26 @@ TEST_F(Scans, a_calibration_that_is_stopped_ends_and_frees_the_scanner) {
   settle();
   EXPECT_EQ((*service_->jobs().find(job->id))->record.state, JobState::kCancelled);
   EXPECT_EQ(station().status().state, ScannerState::kIdle);
-  EXPECT_TRUE(service_->calibrate(station(), {}));
+  EXPECT_TRUE(service_->calibrate(station(), {}, {}));
+}
+
+TEST_F(Scans, a_calibration_by_hand_waits_for_each_pose_and_a_stop_ends_it) {
+  world_.by_hand = true;
+  const auto job = service_->calibrate(station(), {.poses = 3}, {});
+  ASSERT_TRUE(job);
+  const auto run = service_->jobs().run(job->id);
+  for (int pose = 1; pose <= 2; ++pose) {
+    const std::string stage = "place the target, pose " + std::to_string(pose);
+    while (run->job().stage != stage || run->job().state != JobState::kPaused)
+      std::this_thread::yield();
+    EXPECT_EQ(run->status().note, "so far it is seen");
+    EXPECT_EQ(station().status().state, ScannerState::kBusy);
+    ASSERT_TRUE(pose == 2 || service_->resume(*job));
+  }
+  station().stop();
+  settle();
+  EXPECT_EQ(run->job().state, JobState::kCancelled);
+  EXPECT_EQ(station().status().state, ScannerState::kIdle);
 }
 
 TEST_F(Scans, a_job_whose_scanner_is_not_configured_any_more_says_so) {

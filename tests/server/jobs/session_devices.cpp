@@ -21,8 +21,9 @@ class SessionDevices : public testing::Test {
 
   TemporaryFolder folder_;
   FakeWorld world_;
-  SessionBackend backend_{{.name = "fake", .calibrations = folder_.path()},
-                          fake_scanner(world_, folder_.path())};
+  SessionBackend backend_{
+      {.name = "fake", .target = {9, 14, 8, 6, "DICT_4X4_100"}, .calibrations = folder_.path()},
+      fake_scanner(world_, folder_.path())};
 };
 
 TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsTakenBack) {
@@ -61,6 +62,47 @@ TEST_F(SessionDevices, ABoardThatWasPluggedInAgainIsUsed) {
   lose_board();
   EXPECT_TRUE(backend_.identify());
   EXPECT_TRUE(backend_.jog(10));
+}
+
+// Who is asked to place the target.
+struct Hands final : CalibrationListener {
+  void told(const CalibrationTold&) override {}
+  bool await_operator(const CalibrationTold& told) override {
+    asked.push_back(told.stage);
+    return !refuse;
+  }
+  bool is_interrupted() const override { return interrupted; }
+
+  std::vector<std::string> asked;
+  bool refuse = false, interrupted = false;
+};
+
+TEST_F(SessionDevices, WhereNoRigPlacesTheTargetSomebodyIsAskedPoseByPose) {
+  Hands hands;
+  const auto number = backend_.calibrate({.poses = 3}, hands);
+  ASSERT_FALSE(number);
+  EXPECT_NE(number.error().message.find("target never seen"), std::string::npos);
+  const std::vector<std::string> asked = {"place the target, pose 1 of 3",
+                                          "place the target, pose 2 of 3",
+                                          "place the target, pose 3 of 3"};
+  EXPECT_EQ(hands.asked, asked);
+}
+
+TEST_F(SessionDevices, ACalibrationThatNobodyGoesOnWithEnds) {
+  Hands hands;
+  hands.refuse = true;
+  EXPECT_EQ(backend_.calibrate({.poses = 3}, hands).error().code, ErrorCode::kState);
+  EXPECT_EQ(world_.calls["capture"], 0);
+}
+
+TEST_F(SessionDevices, ACalibrationIsInterruptedAmidAPlace) {
+  Hands hands;
+  world_.meanwhile = [&hands](const std::string& call, int count) {
+    if (call == "capture" && count == 4) hands.interrupted = true;
+  };
+  EXPECT_EQ(backend_.calibrate({.poses = 3}, hands).error().code, ErrorCode::kState);
+  EXPECT_EQ(world_.calls["capture"], 4);
+  EXPECT_FALSE(world_.laser || world_.motor);
 }
 
 }  // namespace

@@ -91,7 +91,8 @@ class ScanPage implements ScanSight {
   /** The base mesh is on the screen: the points go. */
   async #unveil(): Promise<void> {
     this.#main.classList.add("modelled");
-    await Promise.all(this.#growth.getAnimations().map(({ finished }) => finished));
+    await Promise.allSettled(this.#growth.getAnimations().map(({ finished }) => finished));
+    this.#growth.hidden = true;
     this.#stage?.dispose();
     this.#stage = null;
   }

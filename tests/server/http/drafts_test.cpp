@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drafts: who sees them, and how a model becomes one and ceases to be one.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "local_server.h"
+#include "server/http/routes.h"
+#include "server/store/publish.h"
+#include "support/http_client.h"
+#include "support/tiny_pmesh.h"
+
+namespace vitrine {
+namespace {
+
+using nlohmann::json;
+using test::HttpAnswer;
+
+class Drafts : public testing::Test {
+ protected:
+  HttpAnswer ask(const std::string& path, const std::string& who = "",
+                 const std::string& method = "GET") {
+    test::HttpClient client(server_.port());
+    return client.get(path, who, method);
+  }
+  HttpAnswer set(const std::string& verb) { return ask(api_ + "/" + verb, operator_, "POST"); }
+
+  test::LocalServer server_{public_routes()};
+  const test::TinyPmesh file_ = test::tiny_pmesh("the base", "a chunk");
+  const std::string id_ = publish(server_.store(), server_.catalogue(), file_.bytes, {.title = "A"},
+                                  {.state = ModelState::kDraft})
+                              ->id.to_string();
+  const std::string api_ = "/api/v1/models/" + id_;
+  const std::string chunk_ = "/chunks/" + to_hex(file_.manifest.chunks[0].sha256);
+  const std::string base_ = "/chunks/" + to_hex(file_.manifest.base_sha256);
+  const std::string viewer_ = server_.bearer(Role::kViewer);
+  const std::string operator_ = server_.bearer(Role::kOperator);
+};
+
+TEST_F(Drafts, ADraftIsShownToWhoHasATokenAndNobodyMayKeepIt) {
+  for (const std::string& path : {"/models/" + id_, api_, api_ + "/manifest", api_ + "/head",
+                                  api_ + "/file.pmesh", api_ + base_, api_ + chunk_}) {
+    EXPECT_EQ(ask(path).status, 404) << path;
+    const HttpAnswer answer = ask(path, viewer_);
+    EXPECT_EQ(answer.status, 200) << path;
+    EXPECT_EQ(answer.field("cache-control"), "private, no-store") << path;
+    EXPECT_EQ(answer.field("access-control-allow-origin"), "") << path;
+  }
+  EXPECT_EQ(ask(api_ + chunk_, viewer_).body, "a chunk");
+  EXPECT_EQ(ask(api_ + "/chunks/" + std::string(64, 'a'), viewer_).status, 404);
+  EXPECT_EQ(json::parse(ask(api_, viewer_).body)["state"], "draft");
+  EXPECT_EQ(ask("/api/v1" + chunk_, viewer_).status, 404) << "that URL is for everybody's caches";
+}
+
+TEST_F(Drafts, DraftsAreListedForWhoHasATokenAndAsks) {
+  const std::string list = "/api/v1/models?drafts=true";
+  EXPECT_EQ(ask(list).status, 401);
+  const HttpAnswer answer = ask(list, viewer_);
+  EXPECT_EQ(answer.field("cache-control"), "private, no-store");
+  EXPECT_EQ(json::parse(answer.body)["models"].at(0)["id"], id_);
+  EXPECT_TRUE(json::parse(ask("/api/v1/models", viewer_).body)["models"].empty());
+  EXPECT_EQ(ask("/api/v1/models?drafts=1", viewer_).status, 400);
+}
+
+TEST_F(Drafts, AnOperatorPublishesAModelAndTakesItBack) {
+  EXPECT_EQ(ask(api_ + "/publish", "", "POST").status, 401);
+  EXPECT_EQ(ask(api_ + "/publish", viewer_, "POST").status, 403);
+  for (int i = 0; i < 2; ++i) {
+    const HttpAnswer published = set("publish");
+    EXPECT_EQ(published.status, 200) << published.body;
+    EXPECT_EQ(json::parse(published.body)["state"], "published");
+    EXPECT_EQ(ask(api_ + "/manifest").status, 200);
+    EXPECT_EQ(ask("/api/v1" + chunk_).body, "a chunk");
+    EXPECT_EQ(ask(api_ + chunk_).field("cache-control"), "private, no-store");
+    EXPECT_EQ(json::parse(ask("/api/v1/models").body)["models"].size(), 1u);
+  }
+  for (int i = 0; i < 2; ++i) {
+    const HttpAnswer hidden = set("unpublish");
+    EXPECT_EQ(hidden.status, 200) << hidden.body;
+    EXPECT_EQ(json::parse(hidden.body)["state"], "draft");
+    EXPECT_EQ(ask(api_ + "/manifest").status, 404) << "at once";
+    EXPECT_EQ(ask("/api/v1" + chunk_).status, 404);
+  }
+  EXPECT_NE(server_.events().find("/unpublish status=200"), std::string::npos);
+}
+
+TEST_F(Drafts, WhatIsNotThereIsNotPublished) {
+  const std::string other = "/api/v1/models/" + ModelId::generate().to_string();
+  EXPECT_EQ(ask(other + "/publish", operator_, "POST").status, 404);
+  EXPECT_EQ(ask(other + "/unpublish", operator_, "POST").status, 404);
+  EXPECT_EQ(ask(other, viewer_).status, 404);
+}
+
+}  // namespace
+}  // namespace vitrine
