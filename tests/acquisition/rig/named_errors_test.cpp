@@ -29,6 +29,11 @@ TEST_F(NamedErrors, ALaserThatDoesNotLightIsNoStripe) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out"})));
 }
 
+// Its pictures with and without laser are equal, and no fault of the camera.
+TEST_F(NamedErrors, BeforeAnIdealCameraItIsNoStripeEither) {
+  expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out", "--ideal"})));
+}
+
 TEST_F(NamedErrors, ALaserThatGoesOutIsALostStripe) {
   EXPECT_THAT(error_of(with_object(kScan, {"--fault", "laser-out@6"})),
               AllOf(StartsWith("vitrine: the stripe is lost since step 7 of the scan, no stripe: "),
