@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <vector>
 
 namespace vitrine {
 namespace {
@@ -14,13 +15,43 @@ constexpr double kMostSaturated = .8, kMostDoubled = .5;
 constexpr double kMostFull = .05;   // a stripe is a hundredth of a picture, a lamp in view no more
 constexpr int kFullLevel = 254;     // grey levels, as where a stripe is saturated
 constexpr double kLeastHeight = 1;  // mm
+constexpr double kStrays = .02;     // of the points, at either end
+constexpr double kMostSlant = 10;   // pixels from row to row
+
+// Noise stands out in a row here and there, and nowhere in two rows side by side.
+bool is_line(const StripePoint& a, const StripePoint& b) {
+  return b.row == a.row + 1 && std::abs(b.u - a.u) <= kMostSlant;
+}
+
+// The first point of each row, flagged kDouble where a second follows, be it as strong or not.
+std::vector<StripePoint> one_a_row(std::span<const StripePoint> stripe) {
+  std::vector<StripePoint> first;
+  for (const StripePoint& point : stripe) {
+    if (!(point.flags & kSecond))
+      first.push_back(point);
+    else if (!first.empty() && first.back().row == point.row)
+      first.back().flags |= kDouble;
+  }
+  return first;
+}
+
+// From the least to the largest of what is left of them without the strays on either side; mm.
+double extent(std::vector<double>& heights) {
+  std::ranges::sort(heights);
+  const auto strays = static_cast<std::size_t>(kStrays * static_cast<double>(heights.size()));
+  return heights[heights.size() - 1 - strays] - heights[strays];
+}
 
 }  // namespace
 
 StripeCount count(std::span<const StripePoint> stripe) {
+  const std::vector<StripePoint> first = one_a_row(stripe);
   StripeCount sum{.frames = 1};
-  for (const StripePoint& point : stripe) {
-    if (point.flags & kSecond) continue;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const StripePoint& point = first[i];
+    const bool continues = (i > 0 && is_line(first[i - 1], point)) ||
+                           (i + 1 < first.size() && is_line(point, first[i + 1]));
+    if (!continues) continue;
     ++sum.rows;
     if (point.flags & kSaturated) ++sum.saturated;
     if (point.flags & kDouble) ++sum.doubled;
@@ -63,29 +94,28 @@ Expected<void> judge(const StripeCount& scan) {
                             scan.saturated, scan.rows));
   if (static_cast<double>(scan.doubled) > kMostDoubled * rows)
     return fail(ErrorCode::kBadInput,
-                fmt::format("two stripes: {} of {} rows show a second peak as strong; cover what "
-                            "reflects the laser, switch the other laser off",
+                fmt::format("two stripes: {} of {} rows show the laser twice; cover what reflects "
+                            "it, switch the other laser off",
                             scan.doubled, scan.rows));
   return {};
 }
 
 Expected<void> judge(std::span<const Profile> scan) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  std::size_t points = 0;
+  std::vector<double> heights;
   for (const Profile& profile : scan) {
-    points += profile.points.size();
     for (const ProfilePoint& point : profile.points)
-      low = std::min(low, point.at.z), high = std::max(high, point.at.z);
+      heights.push_back(point.at.z);
   }
-  if (points == 0)
+  if (heights.empty())
     return fail(ErrorCode::kBadInput,
                 "no stripe: no point lies in the calibrated region; put the object on the middle "
                 "of the table, or calibrate a larger region");
-  if (high - low < kLeastHeight)
+  const double height = extent(heights);
+  if (height < kLeastHeight)
     return fail(ErrorCode::kBadInput,
-                fmt::format("empty turntable: all {} points lie within {:.2f} mm of height; put an "
+                fmt::format("empty turntable: {} points lie within {:.2f} mm of height; put an "
                             "object on it",
-                            points, high - low));
+                            heights.size(), height));
   return {};
 }
 

@@ -13,7 +13,7 @@ namespace vitrine {
 
 // Of one frame, or summed up over many.
 struct StripeCount {
-  std::uint64_t frames = 0, rows = 0;  // rows with a stripe
+  std::uint64_t frames = 0, rows = 0;  // rows with a stripe that the next one continues
   std::uint64_t saturated = 0, doubled = 0;
   std::uint64_t pixels = 0, full = 0;  // of the pictures, with and without laser; full: see below
 };
@@ -29,11 +29,11 @@ bool shows_stripe(const StripeCount& scan);
 
 // Fails (kBadInput) where the pictures are full ("over-exposed"), where hardly a frame shows a
 // stripe ("no stripe"), where most of it is at the end of the camera's range ("all saturated") or
-// where most rows have two ("two stripes").
+// where most rows show two lines ("two stripes").
 Expected<void> judge(const StripeCount& scan);
 
-// Fails (kBadInput) where all that the laser met lies at one height: the table itself ("empty
-// turntable"), or nothing.
+// Fails (kBadInput) where all that the laser met lies at one height but for a few strays: the table
+// itself ("empty turntable"), or nothing.
 Expected<void> judge(std::span<const Profile> scan);
 
 }  // namespace vitrine

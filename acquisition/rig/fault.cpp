@@ -20,7 +20,9 @@ constexpr Name kNames[] = {{"lost-packets", FaultKind::kLostPackets, 0},
                            {"usb-unplug", FaultKind::kUsbUnplug, 1},
                            {"motor-stall", FaultKind::kMotorStall, 1},
                            {"missed-trigger", FaultKind::kMissedTrigger, 1},
-                           {"drift", FaultKind::kDrift, 0}};
+                           {"drift", FaultKind::kDrift, 0},
+                           {"laser-out", FaultKind::kLaserOut, 0},
+                           {"second-stripe", FaultKind::kSecondStripe, 0}};
 
 Unexpected unknown(std::string_view text) {
   std::string names;

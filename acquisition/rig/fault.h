@@ -16,6 +16,8 @@ enum class FaultKind {
   kMotorStall,     // after that motion the table does not turn until the board is restarted
   kMissedTrigger,  // the first frame after that motion is not sent
   kDrift,          // from then on the laser creeps by kCreepMm a motion
+  kLaserOut,       // from then on it does not light when it is told to
+  kSecondStripe,   // from then on the scanner's other laser lights with it
 };
 
 struct Fault {

@@ -53,6 +53,14 @@ Optics optics_of(std::uint64_t seed) {
   return optics;
 }
 
+LaserSheet other_laser(const Optics& optics) {
+  const double across = 2 * std::atan2(optics.camera.at.y, optics.camera.at.x);
+  LaserSheet other = optics.laser;
+  other.normal = turned_by(across, other.normal);
+  other.source = turned_by(across, other.source);
+  return other;
+}
+
 Vec3 turned(const Optics& optics, double degrees, const Vec3& p) {
   return turned_by((optics.clockwise ? -degrees : degrees) * kDegree, p);
 }

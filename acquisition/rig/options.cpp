@@ -18,13 +18,15 @@ that only COMMAND sees. Runs COMMAND and exits as it does.
   --mesh FILE          what stands on the table: PLY, OBJ, STL, OFF or GLB
   --up AXIS            the file's axis that points upwards: x, y, z, -x, -y, -z (default y)
   --height-mm MM       its height on the table (default 80)
-  --empty              nothing stands on the table
+  --empty              nothing stands on the table, and the laser meets its bare plate: under an
+                       object lies black cloth, which shows no light
   --seed N             which rig: geometry, serial numbers and noise (default 1)
   --steps N            the scanner's steps a turn, for --write-config (default 720)
   --degrees-per-second N
                        how fast the table turns (default: it is there at once)
   --fault NAME[@STEP]  what goes wrong, at that motion of the table; may be repeated: lost-packets,
-                       camera-unplug, usb-unplug, motor-stall, missed-trigger, drift
+                       camera-unplug, usb-unplug, motor-stall, missed-trigger, drift,
+                       laser-out, second-stripe
   --stripe SHAPE       gaussian, top-hat or skewed (default gaussian)
   --speckle CONTRAST   of the laser's light, 0.33 to 1 (default 0.33)
   --matt               no paint of another albedo and no gloss

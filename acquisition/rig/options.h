@@ -18,7 +18,7 @@ namespace vitrine::rig {
 
 struct RigOptions {
   bool help = false, version = false, private_network = false;
-  std::optional<PlacedMesh> object;  // nothing: an empty table
+  std::optional<PlacedMesh> object;  // nothing: an empty table, its plate bare
   Realism realism;
   Finish finish;
   int steps = 720;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/rig/renderer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "acquisition/rig/noise.h"
 
@@ -59,16 +61,22 @@ void Renderer::light_up(const Shot& shot, const Scene& scene) {
   const View view = seen_from(placement, optics);
   light_ = {ambient_light(view, rays_, *subject),
             stripe_light(view, rays_, *subject, realism_.look, key_of(scene.key, 0x59ec))};
+  if (!scene.second_stripe) return;
+  optics.laser = other_laser(optics_);
+  const std::vector<float> second = stripe_light(seen_from(placement, optics), rays_, *subject,
+                                                 realism_.look, key_of(scene.key, 0x59ed));
+  std::ranges::transform(light_.laser, second, light_.laser.begin(), std::plus<>());
 }
 
 Frame Renderer::take(const Shot& shot) {
-  const Scene scene{scene_key(shot.setting), shot.laser_shift};
+  const Scene scene{scene_key(shot.setting), shot.laser_shift, shot.second_stripe};
   if (lit_ != scene) {
     light_up(shot, scene);
     lit_ = scene;
   }
   const std::uint64_t noise = realism_.ideal ? 0 : key_of(scene.key, 1 + shot.setting.laser);
-  return expose(light_, shot.setting.laser, shot.exposure, noise, shot.region);
+  const bool lit = shot.setting.laser && !shot.laser_out;
+  return expose(light_, lit, shot.exposure, noise, shot.region);
 }
 
 }  // namespace vitrine::rig

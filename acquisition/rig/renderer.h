@@ -26,7 +26,9 @@ struct Shot {
   Setting setting;  // its turns do not count: only what can be seen does
   Exposure exposure = {};
   SensorRegion region = kWholeSensor;
-  double laser_shift = 0;  // mm along the sheet's normal: how far it has crept
+  double laser_shift = 0;      // mm along the sheet's normal: how far it has crept
+  bool second_stripe = false;  // the other laser lights with it
+  bool laser_out = false;      // neither lights
 };
 
 // Where the motor really stops when it is told to go to `degrees`: 0.05 degrees of error, standard
@@ -37,7 +39,7 @@ double reached(const Realism& realism, double degrees);
 // turn), target and laser alone: the same setting gives the same picture.
 class Renderer {
  public:
-  // `object` may be null: an empty table. It is not owned.
+  // `object` may be null: nothing that shows light. It is not owned.
   Renderer(const Optics& optics, const Subject* object, const Realism& realism);
 
   Frame take(const Shot& shot);
@@ -46,6 +48,7 @@ class Renderer {
   struct Scene {
     std::uint64_t key = 0;
     double laser_shift = 0;
+    bool second_stripe = false;
     bool operator==(const Scene&) const = default;
   };
   std::uint64_t scene_key(const Setting& setting) const;

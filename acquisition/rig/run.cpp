@@ -9,6 +9,7 @@
 
 #include "acquisition/rig/operator_door.h"
 #include "acquisition/rig/options.h"
+#include "acquisition/rig/plate.h"
 #include "acquisition/rig/private_network.h"
 #include "acquisition/rig/rig_file.h"
 #include "acquisition/rig/run_command.h"
@@ -95,6 +96,11 @@ Expected<int> run_with_object(const RigOptions& options) {
   return options.command.empty() ? 0 : serve(options, &solid);
 }
 
+Expected<int> run_empty(const RigOptions& options) {
+  const Solid bare(plate(), {.painted = false, .gloss = 0});
+  return serve(options, &bare);
+}
+
 int complain(const Error& error, int exit_code) {
   fmt::print(stderr, "vitrine-rig: {}\n", error.message);
   return exit_code;
@@ -112,7 +118,7 @@ int run(std::span<const std::string_view> words) {
     if (!entered) return complain(entered.error(), 1);
   }
   hold_signals();
-  const auto code = options->object ? run_with_object(*options) : serve(*options, nullptr);
+  const auto code = options->object ? run_with_object(*options) : run_empty(*options);
   return code ? *code : complain(code.error(), 1);
 }
 

@@ -76,8 +76,14 @@ Delivery Scanner::delivery(int turns) {
 
 Exposed Scanner::expose(const Exposure& exposure, const SensorRegion& region) {
   const Setting setting = stage_.now();
-  const double shift = crept(options_.faults, setting.turns);
-  return {renderer_.take({setting, exposure, region, shift}), delivery(setting.turns)};
+  const auto since = [&](FaultKind kind) { return lasting(options_.faults, kind, setting.turns); };
+  const Shot shot{.setting = setting,
+                  .exposure = exposure,
+                  .region = region,
+                  .laser_shift = crept(options_.faults, setting.turns),
+                  .second_stripe = since(FaultKind::kSecondStripe),
+                  .laser_out = since(FaultKind::kLaserOut)};
+  return {renderer_.take(shot), delivery(setting.turns)};
 }
 
 }  // namespace vitrine::rig

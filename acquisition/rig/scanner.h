@@ -19,7 +19,7 @@
 namespace vitrine::rig {
 
 struct ScannerOptions {
-  const Subject* object = nullptr;  // outlives the scanner; null: an empty table
+  const Subject* object = nullptr;  // outlives the scanner; null: nothing shows light
   Realism realism;
   std::vector<Fault> faults;
   std::string camera_address = "127.0.0.1";

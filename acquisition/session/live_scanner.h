@@ -43,8 +43,8 @@ class LiveScanner {
   // Laser and motor off until the next turn; the watchdog rests, too.
   Expected<void> rest() { return board_->rest(); }
   Expected<Frame> capture() { return camera_->capture(); }  // as the laser is, off at first
-  // Taken anew, three times in all, where both frames are the same one: noise alone makes two
-  // exposures differ.
+  // Taken anew, three times in all, where both frames are the same one: equal down to their noise,
+  // which alone makes two exposures differ.
   Expected<FramePair> capture_pair();
 
  private:

@@ -27,11 +27,12 @@ TEST(Judge, AScanWithAStripeIsFine) {
 }
 
 TEST(Judge, ARowThatShowsTwoSurfacesIsOneRow) {
-  auto points = stripe(1, kSaturated);
-  points.push_back({0, 200, 90, kSaturated | kSecond});
-  const StripeCount one = count(points);
-  EXPECT_EQ(one.rows, 1);
-  EXPECT_EQ(one.saturated, 1);
+  auto points = stripe(2, kSaturated);
+  points.insert(points.begin() + 1, {0, 200, 90, kSaturated | kSecond});
+  const StripeCount two = count(points);
+  EXPECT_EQ(two.rows, 2);
+  EXPECT_EQ(two.saturated, 2);
+  EXPECT_EQ(two.doubled, 1);
 }
 
 TEST(Judge, NoStripeNamesWhatToDo) {
@@ -39,6 +40,14 @@ TEST(Judge, NoStripeNamesWhatToDo) {
               AllOf(StartsWith("no stripe: 0 rows of 2 pictures"), HasSubstr("laser is on"),
                     HasSubstr("raise the exposure")));
   EXPECT_THAT(verdict(judge(StripeCount{})), StartsWith("no stripe"));
+}
+
+TEST(Judge, NoiseInRowsHereAndThereIsNoStripe) {
+  std::vector<StripePoint> noise;
+  for (int row = 0; row < 500; row += 2)
+    noise.push_back({row, 100, 9, 0});
+  noise.push_back({499, 900, 9, 0});  // next to a row, and far from what is there
+  EXPECT_THAT(verdict(judge(count(noise))), StartsWith("no stripe: 0 rows"));
 }
 
 TEST(Judge, OverExposedPicturesAreNotToBeExposedMore) {
@@ -64,9 +73,17 @@ TEST(Judge, TwoStripesNameWhatToDo) {
 TEST(Judge, AFlatScanIsAnEmptyTurntable) {
   const std::vector<Profile> flat(4, Profile{0, {{{10, 0, 1.0}, 7}, {{12, 0, 1.4}, 8}}});
   EXPECT_THAT(verdict(judge(std::span(flat))),
-              AllOf(StartsWith("empty turntable: all 8 points"), HasSubstr("put an object")));
+              AllOf(StartsWith("empty turntable: 8 points"), HasSubstr("put an object")));
   const std::vector<Profile> tall(4, Profile{0, {{{10, 0, 1}, 7}, {{10, 0, 9}, 8}}});
   EXPECT_EQ(verdict(judge(std::span(tall))), "");
+}
+
+TEST(Judge, AStrayPointIsNoObject) {
+  Profile profile{0, std::vector<ProfilePoint>(98, ProfilePoint{{10, 0, 1}, 7})};
+  profile.points.push_back({{10, 0, 40}, 300});
+  EXPECT_THAT(verdict(judge(std::span(&profile, 1))), StartsWith("empty turntable"));
+  profile.points.insert(profile.points.end(), 9, {{10, 0, 40}, 301});
+  EXPECT_EQ(verdict(judge(std::span(&profile, 1))), "");
 }
 
 TEST(Judge, AScanOutsideTheCalibrationNamesWhatToDo) {

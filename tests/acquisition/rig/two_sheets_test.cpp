@@ -8,6 +8,7 @@
 
 #include "acquisition/profile/profile_of.h"
 #include "acquisition/surface/surface_of.h"
+#include "support/rig_calibration.h"
 #include "support/rig_scenes.h"
 
 namespace vitrine::rig::test {
@@ -25,30 +26,10 @@ TriangleMesh two_sheets() {
   return mesh;
 }
 
-// From what the rig is: in the sheet of light x is the world's, y upwards from the origin's foot.
-Calibration known(const Optics& optics) {
-  const Vec3 &normal = optics.laser.normal, up{0, -normal.z, normal.y};
-  const auto in_sheet = [&](double x, double y) {
-    return normal * optics.laser.offset + Vec3{1, 0, 0} * x + up * y;
-  };
-  std::vector<Correspondence> points;
-  for (double x = -10; x <= 45; x += 2.5) {
-    for (double y = -5; y <= 60; y += 2.5) {
-      const auto pixel = project(optics.camera, in_sheet(x, y));
-      points.push_back({pixel->u, pixel->v, {x, y}});
-    }
-  }
-  Calibration calibration;
-  calibration.map = *PlaneMap::fit(points, 5, kSensorWidth, kSensorHeight);
-  calibration.axis = {
-      .offset = optics.laser.offset, .tilt = -normal.z / normal.y, .clockwise = optics.clockwise};
-  return calibration;
-}
-
 // About the middle of the turn, where both sheets face the laser.
 std::vector<Profile> profiles() {
   const Optics optics = optics_of(1);
-  const Calibration calibration = known(optics);
+  const Calibration calibration = perfect_calibration(1);
   const Solid solid = matt(two_sheets());
   Renderer renderer(optics, &solid, ideal());
   std::vector<Profile> profiles;

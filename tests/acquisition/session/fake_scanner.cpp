@@ -56,13 +56,17 @@ class FakeCamera : public Camera {
     Frame frame{kFakeWidth, kFakeHeight, std::vector<std::uint8_t>(kFakeWidth * kFakeHeight)};
     for (int i = 0; i < kFakeWidth * kFakeHeight; ++i) {
       const int u = i % kFakeWidth, v = i / kFakeWidth;
-      const double grey = 10 + noise(world_.degrees, world_.laser, i) + light(u, v);
+      const double grey = ambient(i) + light(u, v);
       frame.pixels[i] = static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0));
     }
     return last_ = frame;
   }
 
  private:
+  double ambient(int pixel) const {
+    if (world_.is_ideal) return pixel % kFakeWidth < kFakeWidth / 2 ? 10 : 20;
+    return 10 + noise(world_.degrees, world_.laser, pixel);
+  }
   double light(int u, int v) const {
     if (world_.object == FakeObject::kOverExposed) return 255;
     if (!world_.laser || world_.object == FakeObject::kNothing) return 0;

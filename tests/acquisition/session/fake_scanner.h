@@ -38,6 +38,7 @@ struct FakeWorld {
   std::function<bool(int count)> repeats;
   std::string serial = kFakeSerial;
   FakeObject object = FakeObject::kColumn;
+  bool is_ideal = false;          // the camera has no noise
   bool forgets_position = false;  // a board that has been restarted when it is opened anew
 
   mutable std::mutex mutex;  // of what follows

@@ -186,6 +186,18 @@ TEST_F(ScanTest, what_is_thrown_ends_the_scan_and_nothing_else) {
   }
 }
 
+TEST_F(ScanTest, a_camera_without_noise_shows_the_same_twice_where_the_laser_meets_nothing) {
+  world_.is_ideal = true;
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call != "turn") return;
+    const std::lock_guard lock(world_.mutex);
+    world_.object = count % 6 < 4 ? FakeObject::kColumn : FakeObject::kNothing;
+  };
+  auto scan = this->scan("scan", {.steps = 40});
+  EXPECT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
+  EXPECT_EQ(world_.calls["open camera"], 1);
+}
+
 TEST_F(ScanTest, while_it_waits_for_a_device_it_says_so_and_can_be_paused) {
   auto made =
       Scan::create(scanner(), request(), path(),

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "acquisition/surface/shapes.h"
@@ -68,7 +69,22 @@ TEST(Merge, TwoPosesOfOneObjectBecomeOneSurface) {
   EXPECT_LT(merged->mesh.faces.size(), top.faces.size() + bottom.faces.size() * 4 / 5);
 }
 
-TEST(Merge, OnlyVerticesOfFacesThatAreAddedAreAddedAndNoColours) {
+// Of each vertex that several faces share there is one.
+TEST(Merge, OnlyVerticesOfFacesThatAreAddedAreAdded) {
+  const TriangleMesh top = part({}, .5), all = part({}, -.4);
+  const auto merged = merge(std::vector{top, all}, std::vector<RigidMotion>(2));
+  ASSERT_TRUE(merged.has_value()) << merged.error().message;
+  EXPECT_GT(merged->mesh.faces.size(), top.faces.size());
+  EXPECT_LE(merged->mesh.positions.size(), top.positions.size() + all.positions.size());
+  std::vector<bool> used(merged->mesh.positions.size());
+  for (const Triangle& face : merged->mesh.faces) {
+    for (const std::uint32_t vertex : face)
+      used[vertex] = true;
+  }
+  EXPECT_EQ(std::ranges::count(used, false), 0);
+}
+
+TEST(Merge, AScanThatShowsNothingNewAddsNothingAndNoColours) {
   TriangleMesh top = part({}, -.4);
   top.colours.resize(top.positions.size());
   const auto merged = merge(std::vector{top, top}, std::vector<RigidMotion>(2));

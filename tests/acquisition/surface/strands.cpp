@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <random>
 
+#include "acquisition/surface/nearest_strand.h"
+
 namespace vitrine {
 namespace {
 
@@ -53,6 +55,17 @@ TEST(Strands, ASurfaceThatIsAloneAgainStaysInItsStrand) {
   ASSERT_EQ(strands.size(), 2);
   EXPECT_THAT(rhos(strands[0]), testing::ElementsAre(20, 20, 20, 20));
   EXPECT_THAT(rhos(strands[1]), testing::ElementsAre(12, 12, 12, 12));
+}
+
+// It need not have a point there, unless its surface ends between its points.
+TEST(NearestStrand, IsNearAtThePointsRow) {
+  Profile sparse{0, {point(0, 20), point(40, 20)}}, dense{0, {}};
+  for (int row = 0; row <= 40; ++row)
+    dense.points.push_back(point(row, 17));
+  const Profile next{.01, {point(20, 18.8)}};
+  EXPECT_THAT(nearest_strands(Cloud({sparse, dense, next}), 2, 0), testing::ElementsAre(0));
+  sparse.points[1].flags = kApart;
+  EXPECT_THAT(nearest_strands(Cloud({sparse, dense, next}), 2, 0), testing::ElementsAre(1));
 }
 
 }  // namespace

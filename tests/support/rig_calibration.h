@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a perfect calibration of the simulated rig would find, for tests of something else.
+#pragma once
+
+#include <vector>
+
+#include "acquisition/calibration/calibration.h"
+#include "acquisition/rig/renderer.h"
+#include "acquisition/rig/scanner.h"
+
+namespace vitrine::rig::test {
+
+// In the sheet of light x is the world's, y upwards from the origin's foot.
+inline Calibration perfect_calibration(std::uint64_t seed) {
+  const Optics optics = optics_of(seed);
+  const Vec3 &normal = optics.laser.normal, up{0, -normal.z, normal.y};
+  std::vector<Correspondence> points;
+  for (double x = -10; x <= 45; x += 2.5) {
+    for (double y = -5; y <= 60; y += 2.5) {
+      const auto pixel =
+          project(optics.camera, normal * optics.laser.offset + Vec3{1, 0, 0} * x + up * y);
+      points.push_back({pixel->u, pixel->v, {x, y}});
+    }
+  }
+  Calibration calibration;
+  calibration.created = "2026-01-01T00:00:00Z";
+  calibration.camera = camera_serial(seed);
+  calibration.region = kWholeSensor;
+  calibration.map = *PlaneMap::fit(points, 5, kSensorWidth, kSensorHeight);
+  calibration.axis = {
+      .offset = optics.laser.offset, .tilt = -normal.z / normal.y, .clockwise = optics.clockwise};
+  return calibration;
+}
+
+}  // namespace vitrine::rig::test
