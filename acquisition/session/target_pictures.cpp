@@ -113,9 +113,11 @@ Expected<CalibrationInput> picture_target(const Scanner& scanner, const Target& 
     const std::size_t before = photographer.pictures().size();
     if (auto taken = photographer.take_place(number); !taken) return tl::unexpected(taken.error());
     const std::size_t pictures = photographer.pictures().size();
-    if (options.progress)
-      options.progress(number + 1, static_cast<int>(pictures),
-                       pictures > before ? "" : photographer.why_unseen()->message);
+    if (options.progress) {
+      options.progress(fmt::format(
+          "{} places, {} pictures that show the target{}", number + 1, pictures,
+          pictures > before ? "" : "; not at this place: " + photographer.why_unseen()->message));
+    }
   }
   if (photographer.pictures().empty()) {
     const auto& why = photographer.why_unseen();

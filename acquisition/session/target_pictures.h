@@ -17,8 +17,9 @@ using PlaceTarget = std::function<Expected<bool>(int number)>;
 
 struct TargetPictureOptions {
   double largest_angle = 50, angle_step = 5;  // degrees, of the table, either way
-  // Called after each place; `unseen`: why no picture shows the target there, empty where one does.
-  std::function<void(int places, int pictures, const std::string& unseen)> progress = {};
+  // Called after each place with what has been seen so far and, where no picture shows the target
+  // there, why: words for the operator.
+  std::function<void(const std::string& seen)> progress = {};
   // Asked before each picture; may be empty.
   std::function<bool()> is_interrupted = {};
 };

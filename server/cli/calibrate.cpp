@@ -78,10 +78,7 @@ Expected<CalibrationInput> take_pictures(const ScannerConfig& config) {
   TargetPictureOptions options;
   options.is_interrupted = StopSignals::arrived;
   if (config.rig.empty()) {
-    options.progress = [](int places, int pictures, const std::string& unseen) {
-      print_note(fmt::format("{} places, {} pictures that show the target{}{}", places, pictures,
-                             unseen.empty() ? "" : "; not at this place: ", unseen));
-    };
+    options.progress = print_note;
     EmergencyStop stop;
     return picture_target(scanner, config.target, ask_operator, stop, options);
   }

@@ -240,13 +240,8 @@ Expected<CalibrationInput> SessionBackend::picture_by_hand(int poses,
     listener.told(told);
     return number < poses;
   };
-  const TargetPictureOptions options{
-      .progress =
-          [&](int places, int pictures) {
-            told.note =
-                fmt::format("{} places, {} pictures that show the target", places, pictures);
-          },
-      .is_interrupted = [&] { return listener.is_interrupted(); }};
+  const TargetPictureOptions options{.progress = [&](const std::string& seen) { told.note = seen; },
+                                     .is_interrupted = [&] { return listener.is_interrupted(); }};
   return picture_target(scanner_, config_.target, place, stop_, options);
 }
 
