@@ -4,11 +4,19 @@
 #include <cmath>
 
 namespace vitrine {
+namespace {
+
+// In [0, 360): less than nothing by a rounding error is nothing, though 360 added to it is 360.
+double whole_turn(double degrees) {
+  const double rest = std::fmod(degrees, 360), turned = rest < 0 ? rest + 360 : rest;
+  return turned < 360 ? turned : 0;
+}
+
+}  // namespace
 
 Profile profile_of(std::span<const StripePoint> stripe, const Calibration& calibration,
                    double angle) {
-  const double turned = std::fmod(calibration.axis.clockwise ? -angle : angle, 360);
-  Profile profile{turned < 0 ? turned + 360 : turned, {}};
+  Profile profile{whole_turn(calibration.axis.clockwise ? -angle : angle), {}};
   profile.points.reserve(stripe.size());
   for (const StripePoint& point : stripe) {
     if (const auto at = calibration.map.at(point.u, point.row))

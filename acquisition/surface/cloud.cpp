@@ -11,6 +11,8 @@ namespace {
 constexpr double kDepths = 4;       // of s_max: eq. 5
 constexpr double kOutermost = .95;  // of the points lie closer to the axis than what spacing is of
 
+constexpr double kLeastHeight = 1e-3;  // mm: no camera's row is lower
+
 constexpr int kSampledGap = 4;  // of the median: profiles that come sampled have any rows
 
 template <class T>
@@ -65,7 +67,7 @@ std::vector<Profile> keep(const Cloud& cloud, const std::vector<bool>& kept) {
 }
 
 Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options) {
-  std::vector<double> along, radii;
+  std::vector<double> along, heights, radii;
   std::vector<int> rows;
   for (const Profile& strand : cloud.strands) {
     for (std::size_t i = 0; i < strand.points.size(); ++i) {
@@ -74,6 +76,7 @@ Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options) {
       if (i == 0) continue;
       const ProfilePoint& q = strand.points[i - 1];
       rows.push_back(p.row - q.row);
+      heights.push_back(std::abs(p.at.z - q.at.z) / (p.row - q.row));
       along.push_back(std::hypot(p.at.rho - q.at.rho, p.at.z - q.at.z));
     }
   }
@@ -84,13 +87,15 @@ Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options) {
       options.largest_spacing > 0
           ? options.largest_spacing
           : std::max(percentile(along, .5), median_step(cloud) * percentile(radii, kOutermost));
-  spacing.bridge = std::max(kDepths * spacing.largest, options.largest_hole);
+  spacing.row_height = std::max(percentile(heights, .5), kLeastHeight);
+  spacing.near = kDepths * spacing.largest;
+  spacing.bridge = std::max(spacing.near, options.largest_hole);
   spacing.cos_largest = std::cos(options.largest_angle * std::numbers::pi / 180);
   return spacing;
 }
 
 bool are_joined(double depth, double distance, const Spacing& spacing) {
-  if (depth < kDepths * spacing.largest) return true;
+  if (depth < spacing.near) return true;
   const double across = std::sqrt(std::max(0., distance * distance - depth * depth));
   return across > spacing.cos_largest * distance;
 }

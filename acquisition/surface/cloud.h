@@ -39,7 +39,9 @@ std::vector<Profile> keep(const Cloud& cloud, const std::vector<bool>& kept);
 struct Spacing {
   int rows = 1;            // from point to point in a strand, median
   int gap = 1;             // rows from point to point; where there are more, some are missing
+  double row_height = 1;   // mm, from row to row, median
   double largest = 0;      // s_max, mm
+  double near = 0;         // 4 s_max, mm: what eq. 5 joins at any angle
   double bridge = 0;       // mm: strands whose points are further apart are not joined
   double cos_largest = 0;  // of phi_max
 };

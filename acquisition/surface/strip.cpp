@@ -10,6 +10,8 @@
 namespace vitrine {
 namespace {
 
+constexpr double kBreak = 10;  // times what an edge across may be long
+
 struct Side {
   std::size_t strand;
   const std::vector<ProfilePoint>& points;
@@ -39,34 +41,98 @@ struct Side {
   }
 };
 
+// The edges across that are looked at: for each point of one strand those to a range of the other's
+// points, about the same rows. The ranges overlap, so that a way down both strands stays within.
+class Band {
+ public:
+  Band(const Side& a, const Side& b, int rows) {
+    std::size_t low = 0, high = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      while (low + 1 < b.size() && b.points[low].row < a.points[i].row - rows)
+        ++low;
+      high = std::max(low, high);
+      while (high + 1 < b.size() && b.points[high + 1].row <= a.points[i].row + rows)
+        ++high;
+      if (i > 0) end_.back() = std::max(end_.back(), low + 1);
+      low_.push_back(i > 0 ? low : 0), end_.push_back(high + 1);
+    }
+    end_.back() = b.size();
+    for (std::size_t i = 0, cells = 0; i < a.size(); cells += end_[i] - low_[i], ++i)
+      first_.push_back(cells);
+  }
+
+  std::size_t size() const { return first_.back() + end_.back() - low_.back(); }
+  std::size_t low(std::size_t i) const { return low_[i]; }
+  std::size_t end(std::size_t i) const { return end_[i]; }
+  bool has(std::size_t i, std::size_t j) const { return j >= low_[i] && j < end_[i]; }
+  std::size_t cell(std::size_t i, std::size_t j) const { return first_[i] + j - low_[i]; }
+
+ private:
+  std::vector<std::size_t> low_, end_, first_;
+};
+
+// The rows between two points that may be joined, at most.
+int rows_apart(const Side& a, const Side& b, const Spacing& spacing) {
+  int rows = static_cast<int>(std::ceil(spacing.near / spacing.row_height));
+  for (const Side* side : {&a, &b}) {
+    for (std::size_t i = 0; i < side->size(); ++i)
+      rows = std::max(rows, side->reach(i));
+  }
+  return rows;
+}
+
 class Strip {
  public:
   Strip(const Cloud& cloud, const Side& a, const Side& b, const Spacing& spacing)
-      : cloud_(cloud), spacing_(spacing), a_(a), b_(b) {}
+      : cloud_(cloud),
+        spacing_(spacing),
+        a_(a),
+        b_(b),
+        band_(a, b, rows_apart(a, b, spacing)),
+        edges_(band_.size()),
+        ways_(band_.size()) {}
 
-  void walk(std::vector<Triangle>& faces) {
-    std::size_t i = 0, j = 0;
-    while (i < a_.size() && j < b_.size()) {
-      const bool here = is_accepted(i, j);
-      const double down_a = here && a_.goes_on(i) ? edge(i + 1, j) : kNever;
-      const double down_b = here && b_.goes_on(j) ? edge(i, j + 1) : kNever;
-      if (down_a < kNever || down_b < kNever) {
-        const bool left = down_a <= down_b;
-        add(i, j, left ? vertex_a(i + 1) : vertex_b(j + 1), faces);
-        left ? ++i : ++j;
-      } else {
-        // Each of the two points has all it can have: the upper one goes.
-        next_row(a_, i) < next_row(b_, j) ? ++i : ++j;
-      }
+  void join(std::vector<Triangle>& faces) {
+    find_ways();
+    std::size_t i = a_.size() - 1, j = b_.size() - 1;
+    while (i > 0 || j > 0) {
+      const Way& way = ways_[band_.cell(i, j)];
+      const std::uint32_t third = way.down_a ? vertex_a(i) : vertex_b(j);
+      way.down_a ? --i : --j;
+      if (way.joins) add(i, j, third, faces);
     }
   }
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  static int next_row(const Side& side, std::size_t i) {
-    return i + 1 < side.size() ? side.points[i + 1].row : std::numeric_limits<int>::max();
+  // From the top of both strands to an edge across.
+  struct Way {
+    double cost = kNever;
+    bool down_a = false, joins = false;  // its last step
+  };
+
+  void find_ways() {
+    for (std::size_t i = 0; i < a_.size(); ++i) {
+      for (std::size_t j = band_.low(i); j < band_.end(i); ++j) {
+        edges_[band_.cell(i, j)] = edge(i, j);
+        Way& way = ways_[band_.cell(i, j)];
+        if (i == 0 && j == 0) way.cost = 0;
+        if (i > 0 && band_.has(i - 1, j)) offer(i, j, true, a_.goes_on(i - 1), way);
+        if (j > band_.low(i)) offer(i, j, false, b_.goes_on(j - 1), way);
+      }
+    }
   }
+
+  // A step without triangle costs more than any edge.
+  void offer(std::size_t i, std::size_t j, bool down_a, bool goes_on, Way& way) const {
+    const std::size_t from = down_a ? band_.cell(i - 1, j) : band_.cell(i, j - 1);
+    const double length = edges_[band_.cell(i, j)];
+    const bool joins = goes_on && edges_[from] < kNever && length < kNever;
+    const double cost = ways_[from].cost + (joins ? length : kBreak * spacing_.bridge);
+    if (cost < way.cost) way = {cost, down_a, joins};
+  }
+
   std::uint32_t vertex_a(std::size_t i) const { return static_cast<std::uint32_t>(a_.first + i); }
   std::uint32_t vertex_b(std::size_t j) const { return static_cast<std::uint32_t>(b_.first + j); }
 
@@ -78,9 +144,10 @@ class Strip {
     const ProfilePoint &p = a_.points[i], &q = b_.points[j];
     if (a_.nearest[i] != b_.strand || b_.nearest[j] != a_.strand) return false;
     if ((p.at.rho < 0) != (q.at.rho < 0)) return false;
+    const double distance = length_across(i, j);
+    if (distance < spacing_.near) return true;
     if (std::abs(p.row - q.row) > std::max(a_.reach(i), b_.reach(j))) return false;
-    const double distance = length_across(i, j), in_depth = p.at.rho - q.at.rho,
-                 height = p.at.z - q.at.z;
+    const double in_depth = p.at.rho - q.at.rho, height = p.at.z - q.at.z;
     if (distance * distance - in_depth * in_depth - height * height >
         spacing_.bridge * spacing_.bridge)
       return false;
@@ -107,6 +174,9 @@ class Strip {
   const Cloud& cloud_;
   const Spacing& spacing_;
   const Side &a_, &b_;
+  const Band band_;
+  std::vector<double> edges_;  // lengths of those across, kNever where they are not accepted
+  std::vector<Way> ways_;      // the cheapest
 };
 
 // The strands of a step, to be joined to those of `other`.
@@ -126,8 +196,9 @@ void add_strips(const Cloud& cloud, std::size_t step, const Spacing& spacing,
   const std::size_t next = cloud.after(step);
   const std::vector<Side> after = sides_of(cloud, next, step, spacing);
   for (const Side& a : sides_of(cloud, step, next, spacing)) {
-    for (const Side& b : after)
-      Strip(cloud, a, b, spacing).walk(faces);
+    for (const Side& b : after) {
+      if (a.size() > 0 && b.size() > 0) Strip(cloud, a, b, spacing).join(faces);
+    }
   }
 }
 

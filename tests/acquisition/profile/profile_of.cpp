@@ -33,6 +33,11 @@ TEST(ProfileOf, ItsAngleGrowsCounterClockwiseFromZeroToAWholeTurn) {
   }
 }
 
+TEST(ProfileOf, AHairLessThanNothingIsNothingNotAWholeTurn) {
+  EXPECT_EQ(theta_of(-1e-15, false), 0);
+  EXPECT_EQ(theta_of(1e-15, true), 0);
+}
+
 TEST(ProfileOf, EachPointIsAboutTheAxisAndKeepsItsRowAndFlags) {
   const StripePoint stripe[] = {{.row = 200, .u = 250, .flags = kSaturated},
                                 {.row = 300, .u = 150.5, .flags = kDouble}};

@@ -23,12 +23,29 @@ struct Topology {
   bool oriented = true;      // no edge is run along twice in one direction
 };
 
-Topology topology_of(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> ways;
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+// How often faces run along each.
+std::map<Edge, std::size_t> edges_of(const TriangleMesh& mesh) {
+  std::map<Edge, std::size_t> ways;
   for (const Triangle& f : mesh.faces) {
     for (std::size_t k = 0; k < 3; ++k)
       ++ways[{f[k], f[(k + 1) % 3]}];
   }
+  return ways;
+}
+
+std::vector<Edge> boundary_of(const TriangleMesh& mesh) {
+  std::vector<Edge> boundary;
+  const auto ways = edges_of(mesh);
+  for (const auto& [edge, count] : ways) {
+    if (!ways.contains({edge.second, edge.first})) boundary.push_back(edge);
+  }
+  return boundary;
+}
+
+Topology topology_of(const TriangleMesh& mesh) {
+  const auto ways = edges_of(mesh);
   Topology topology;
   for (const auto& [edge, count] : ways) {
     const auto back = ways.find({edge.second, edge.first});
@@ -195,6 +212,23 @@ TEST(Surface, ASlopeThatIsGrazedAllAlongIsWhole) {
   const auto cone = [](double, double z) { return 45 - 7.2 * z; };
   const auto profiles = scan_of(cone, {.profiles = 360, .rows = 20, .top = 4.75});
   EXPECT_EQ(mesh_of(profiles, {.largest_spacing = .42}).faces.size(), 2 * 360 * 19);
+}
+
+// The same slope askew: from step to step it is .35 mm lower, and 2.5 mm further out at each row.
+TEST(Surface, ASlopeThatRunsAcrossTheRowsIsWholeToo) {
+  const auto cone = [](double angle, double z) -> std::optional<double> {
+    const double rho = 45 - 7.2 * (z - 20 - 20 * std::sin(angle));
+    return rho < 10 || rho > 45 ? std::nullopt : std::optional(rho);
+  };
+  const auto profiles = scan_of(cone, {.profiles = 360, .rows = 181, .top = 45});
+  const TriangleMesh mesh = mesh_of(profiles, {.largest_spacing = .5, .largest_angle = 60});
+  const double rim = 2 * 1.8;
+  const auto is_inside = [&](std::uint32_t v) {
+    const double rho = std::hypot(mesh.positions[v].x, mesh.positions[v].y);
+    return rho > 10 + rim && rho < 45 - rim;
+  };
+  for (const auto& [from, to] : boundary_of(mesh))
+    EXPECT_FALSE(is_inside(from) && is_inside(to)) << from << ' ' << to;
 }
 
 TEST(Surface, SpecksAndOutliersVanish) {
