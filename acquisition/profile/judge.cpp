@@ -16,11 +16,11 @@ constexpr double kMostFull = .05;   // a stripe is a hundredth of a picture, a l
 constexpr int kFullLevel = 254;     // grey levels, as where a stripe is saturated
 constexpr double kLeastHeight = 1;  // mm
 constexpr double kStrays = .02;     // of the points, at either end
-constexpr double kMostSlant = 10;   // pixels from row to row
+constexpr double kMostShift = 10;   // pixels from row to row
 
 // Noise stands out in a row here and there, and nowhere in two rows side by side.
 bool is_line(const StripePoint& a, const StripePoint& b) {
-  return b.row == a.row + 1 && std::abs(b.u - a.u) <= kMostSlant;
+  return b.row == a.row + 1 && std::abs(b.u - a.u) <= kMostShift;
 }
 
 // The first point of each row, flagged kDouble where a second follows, be it as strong or not.

@@ -20,10 +20,6 @@ bool shows_noise(const Frame& frame) {
   return kNoisy * changes > frame.pixels.size();
 }
 
-bool is_one_frame(const FramePair& pair) {
-  return pair.dark == pair.lit && shows_noise(pair.dark);
-}
-
 }  // namespace
 
 Expected<LiveScanner> LiveScanner::open(const ScannerDevices& devices,
@@ -56,11 +52,13 @@ Expected<void> LiveScanner::find_position(double otherwise) {
   return *position ? Expected<void>{} : board_->set_position(otherwise);
 }
 
+// A picture that is delivered twice would be a step without a stripe. Where pictures show no noise
+// it may be one: the laser meets nothing there.
 Expected<FramePair> LiveScanner::capture_pair() {
-  for (int i = 0; i < kPairTries; ++i) {
-    auto pair = capture_once();
-    if (!pair || !is_one_frame(*pair)) return pair;
-  }
+  auto pair = capture_once();
+  for (int i = 1; i < kPairTries && pair && pair->dark == pair->lit; ++i)
+    pair = capture_once();
+  if (!pair || pair->dark != pair->lit || !shows_noise(pair->dark)) return pair;
   return fail(ErrorCode::kIo,
               fmt::format("camera {} delivers the same picture with the laser off and on; check "
                           "that the laser lights, and plug the camera in anew",

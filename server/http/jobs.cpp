@@ -35,7 +35,7 @@ bool is_readable(const JobRecord& job, const Request& request, Services& service
   if (request.caller) return true;
   if (!job.scan) return false;
   const auto scan = services.scans.find(*job.scan);
-  return scan && *scan && (*scan)->entry.is_public;
+  return scan && *scan && is_public((*scan)->entry, services);
 }
 
 // Calls `answer(job)` with the request's job, or answers 401, 404 or 500.

@@ -19,6 +19,13 @@ inline Response internal_error(const Error& error, const Request& request, Servi
   return problem(500, "", request.id);
 }
 
+// A public scan is there for everybody to see, once there is a model of it as long as that is.
+inline bool is_public(const ScanEntry& scan, Services& services) {
+  if (!scan.is_public || !scan.model) return scan.is_public;
+  const auto model = services.models.find(*scan.model);
+  return model && *model != nullptr;
+}
+
 using FoundModel = Expected<std::shared_ptr<const PublishedModel>>;  // null: there is none
 
 // Calls `answer(model)`, or answers 404 or 500.

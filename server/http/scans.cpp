@@ -17,7 +17,7 @@ template <class Answer>
 Response with_scan(const Request& request, Services& services, Answer&& answer) {
   const auto scan = services.scans.find(request.parameters.id);
   if (!scan) return internal_error(scan.error(), request, services);
-  if (*scan && (request.caller || (*scan)->entry.is_public)) return answer(**scan);
+  if (*scan && (request.caller || is_public((*scan)->entry, services))) return answer(**scan);
   if (!request.caller) return token_needed(request);  // which scans there are is nobody's business
   return problem(404, "there is no such scan", request.id);
 }

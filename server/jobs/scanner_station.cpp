@@ -10,17 +10,21 @@ namespace {
 
 constexpr std::chrono::seconds kPatience{3};  // with a scanner that is looked for
 
-// What is thrown ends this task, not the lane that others wait in.
-template <class Task>
-auto caught(Task task) -> decltype(task()) try {
-  return task();
-} catch (const std::exception& fault) {
+Unexpected thrown(const std::exception& fault) {
   return fail(ErrorCode::kIo, fmt::format("the scanner cannot be used: {}; free memory and try "
                                           "again",
                                           fault.what()));
 }
 
 }  // namespace
+
+template <class Task>
+auto ScannerStation::caught(Task task) -> decltype(task()) try {
+  return task();
+} catch (const std::exception& fault) {
+  backend_.close();
+  return thrown(fault);
+}
 
 ScannerStation::ScannerStation(ScannerBackend& backend, JobQueue& jobs)
     : backend_(backend), jobs_(jobs) {}
@@ -78,7 +82,7 @@ ScannerStatus ScannerStation::status() {
 template <class Task>
 auto ScannerStation::in_lane(Task task) -> decltype(task()) {
   std::promise<decltype(task())> done;
-  const auto posted = jobs_.post_command(name(), [&] { done.set_value(caught(task)); });
+  const auto posted = jobs_.post_command(name(), [&] { done.set_value(task()); });
   if (!posted) return Unexpected(posted.error());
   return done.get_future().get();
 }
@@ -87,8 +91,8 @@ template <class Action>
 auto ScannerStation::command(Action action) -> decltype(action()) {
   return in_lane([&, stops = backend_.stops()]() -> decltype(action()) {
     backend_.allow(stops);
-    const auto seen = backend_.identify();
-    auto done = seen ? action() : decltype(action())(Unexpected(seen.error()));
+    const auto seen = caught([this] { return backend_.identify(); });
+    auto done = seen ? caught(action) : decltype(action())(Unexpected(seen.error()));
     remember(done ? seen : Unexpected(done.error()));
     return done;
   });
@@ -104,7 +108,7 @@ Expected<void> ScannerStation::laser(bool on) {
 
 Expected<Frame> ScannerStation::picture() {
   return in_lane([&] {
-    auto frame = backend_.picture();
+    auto frame = caught([this] { return backend_.picture(); });
     if (!frame) remember(Unexpected(frame.error()));
     return frame;
   });

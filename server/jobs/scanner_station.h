@@ -53,6 +53,9 @@ class ScannerStation {
   void close_after_all();
 
  private:
+  // What `task` throws is its error, not the end of the lane; the devices that it used are closed.
+  template <class Task>
+  auto caught(Task task) -> decltype(task());
   // Has `task` done by the scanner's lane, and returns what it returns.
   template <class Task>
   auto in_lane(Task task) -> decltype(task());

@@ -196,7 +196,16 @@ Expected<std::optional<TriangleMesh>> SessionBackend::scan(const ScanOrder& orde
   if (auto resumed = (*scan)->resume(); !resumed) return Unexpected(resumed.error());
   drive(*scan);
   if (stop_.is_pressed()) (*scan)->emergency_stop();  // it came before the line above
-  const ScanStatus end = follow(**scan, listener);
+  ScanStatus end;
+  try {
+    end = follow(**scan, listener);
+  } catch (...) {  // the devices are others' from here on
+    static_cast<void>((*scan)->pause());
+    while (is_under_way((*scan)->wait(kTick).state)) {
+    }
+    drive(nullptr);
+    throw;
+  }
   drive(nullptr);
   if (end.state == ScanState::kFailed)
     return fail(end.error ? end.error->code : ErrorCode::kIo, end.error ? end.error->message : "");

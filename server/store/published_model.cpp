@@ -67,14 +67,16 @@ bool PublishedModels::is_fresh(Clock::time_point now) const {
 
 Expected<void> PublishedModels::forget_if_changed() {
   const auto now = Clock::now();
+  std::uint64_t refreshed = 0;
   {
     const std::shared_lock lock(mutex_);
     if (is_fresh(now)) return {};
+    refreshed = refreshed_;
   }
   const auto revision = catalogue_.revision();
   if (!revision) return tl::unexpected(revision.error());
   const std::unique_lock lock(mutex_);
-  checked_ = now;
+  if (refreshed == refreshed_) checked_ = now;
   if (*revision == revision_) return {};
   revision_ = *revision;
   models_.clear();
@@ -128,6 +130,7 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_draft(cons
 
 void PublishedModels::refresh() {
   const std::unique_lock lock(mutex_);
+  ++refreshed_;
   checked_ = {};
 }
 

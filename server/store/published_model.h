@@ -96,6 +96,7 @@ class PublishedModels {
   std::shared_mutex mutex_;  // guards what follows
   std::uint64_t revision_ = 0;
   Clock::time_point checked_{};
+  std::uint64_t refreshed_ = 0;  // how often: what was read before is no news
   std::unordered_map<ModelId, std::shared_ptr<const PublishedModel>, HashOfId> models_;
   std::unordered_map<Sha256, PublishedChunk, HashOfHash> chunks_;
 };

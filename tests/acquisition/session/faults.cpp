@@ -154,6 +154,18 @@ TEST_F(ScanTest, a_frame_that_comes_twice_is_no_picture_with_the_laser_on_and_bo
   }
 }
 
+TEST_F(ScanTest, a_frame_that_comes_twice_is_taken_anew_where_there_is_no_noise_either) {
+  world_.is_ideal = true;
+  auto calm = this->scan("calm");
+  ASSERT_EQ(run(*calm), ScanState::kDone);
+  world_.calls.clear();
+  world_.degrees = 0;
+  world_.repeats = [](int count) { return count == 12; };
+  auto scan = this->scan("repeated");
+  EXPECT_EQ(run(*scan), ScanState::kDone);
+  EXPECT_EQ(mesh_text(*scan), mesh_text(*calm));
+}
+
 TEST_F(ScanTest, a_camera_that_repeats_one_frame_is_an_error_that_says_so) {
   auto scan = this->scan();
   world_.repeats = [](int count) { return count % 2 == 0 && count > 10; };

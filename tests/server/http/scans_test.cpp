@@ -194,6 +194,23 @@ TEST_F(ScanRoutes, PointsWhoseFolderIsGoneAreAConflictThatNamesIt) {
   EXPECT_EQ(get(scan_path(started) + "/profile").status, 409);
 }
 
+TEST_F(ScanRoutes, AScanWhoseModelIsHiddenIsHiddenToo) {
+  const json started = begin({{"publish", true}, {"metadata", {{"title", "A bust"}}}});
+  settle();
+  const json scan = json::parse(get(scan_path(started)).body);
+  const std::string model = "/models/" + scan["model"].get<std::string>();
+  const auto expect = [&](unsigned status) {
+    for (const std::string& path : {scan_path(started), scan_path(started) + "/points",
+                                    scan_path(started) + "/profile", job_path(started)})
+      EXPECT_EQ(ask("GET", path, "").status, status) << path;
+  };
+  expect(200);
+  EXPECT_EQ(post(model + "/unpublish").status, 200);
+  expect(401);
+  EXPECT_EQ(post(model + "/publish").status, 200);
+  expect(200);
+}
+
 TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   HeldAtStep held(world_, 5);
   const json started = begin({{"metadata", {{"title", "A ring"}}}});

@@ -2,7 +2,11 @@
 // A backend and its devices between jobs.
 #include <gtest/gtest.h>
 
+#include <future>
+#include <new>
+
 #include "../../acquisition/session/fake_scanner.h"
+#include "acquisition/calibration/calibration_store.h"
 #include "server/jobs/session_backend.h"
 #include "support/temporary_folder.h"
 
@@ -25,6 +29,34 @@ class SessionDevices : public testing::Test {
       {.name = "fake", .target = {9, 14, 8, 6, "DICT_4X4_100"}, .calibrations = folder_.path()},
       fake_scanner(world_, folder_.path())};
 };
+
+struct ThrowingListener final : ScanListener {
+  void begins(std::shared_ptr<const ScanView>) override {}
+  void told(const ScanTold& told) override {
+    if (told.step <= 3) return;
+    threw.set_value();
+    throw std::bad_alloc();
+  }
+  bool is_interrupted() const override { return false; }
+  bool is_cancelled() const override { return false; }
+
+  std::promise<void> threw;
+};
+
+TEST_F(SessionDevices, AScanWhoseListenerThrowsHasEnded) {
+  ASSERT_TRUE(CalibrationStore(folder_.path()).add(fake_calibration()));
+  ThrowingListener listener;
+  world_.meanwhile = [threw = listener.threw.get_future().share()](const std::string& call,
+                                                                   int count) {
+    if (call == "capture" && count == 40) threw.wait();
+  };
+  ScanOrder order;
+  order.request.steps = 200;
+  EXPECT_THROW((void)backend_.scan(order, folder_.path() / "scan", listener), std::bad_alloc);
+  const std::lock_guard lock(world_.mutex);
+  EXPECT_EQ(world_.open_boards, 0);
+  EXPECT_FALSE(world_.laser || world_.motor);
+}
 
 TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsTakenBack) {
   world_.meanwhile = [this](const std::string& call, int) {
