@@ -287,6 +287,12 @@ Expected<void> read_body(ByteReader& in, const Limits& limits, Manifest& m) {
   return {};
 }
 
+// Whether the header ends with the hash of what is before it.
+bool is_sealed(std::span<const std::uint8_t> header) {
+  const Sha256 hash = sha256(header.first(header.size() - kHashBytes));
+  return std::equal(hash.begin(), hash.end(), header.last(kHashBytes).begin());
+}
+
 }  // namespace
 
 std::uint64_t Manifest::cumulative_bytes(std::uint32_t level) const {
@@ -325,7 +331,7 @@ Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) {
                                              ", this program reads version " +
                                              std::to_string(kFormatMajor) + "; update it");
   }
-  if (length < kHeaderPrefix) return bad("its length is impossible");
+  if (length < kHeaderPrefix + kHashBytes) return bad("its length is impossible");
   return length;
 }
 
@@ -336,7 +342,10 @@ Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limit
     return bad("it is cut off (" + std::to_string(bytes.size()) + " of " + std::to_string(*length) +
                " bytes)");
   }
-  ByteReader in(bytes.subspan(kHeaderPrefix, *length - kHeaderPrefix));
+  if (!is_sealed(bytes.first(*length))) {
+    return bad("its SHA-256 is not the one it ends with (a byte has changed)");
+  }
+  ByteReader in(bytes.subspan(kHeaderPrefix, *length - kHeaderPrefix - kHashBytes));
   Manifest m;
   const std::uint64_t features = in.varint();
   if ((features & ~kKnownFeatures) != 0) {
@@ -368,15 +377,18 @@ std::vector<std::uint8_t> write_header(Manifest& m) {
   out.bytes(kMagic);
   out.u16(kFormatMajor);
   out.u16(kFormatMinor);
-  out.u32(static_cast<std::uint32_t>(kHeaderPrefix + body.size()));
+  out.u32(static_cast<std::uint32_t>(kHeaderPrefix + body.size() + kHashBytes));
   out.bytes(body.take());
+  std::vector<std::uint8_t> header = out.take();
+  const Sha256 hash = sha256(header);
+  header.insert(header.end(), hash.begin(), hash.end());
 
-  m.base_offset = out.size();
+  m.base_offset = header.size();
   std::uint64_t offset = m.base_offset + m.base_length;
   for (ChunkInfo& chunk : m.chunks)
     chunk.offset = offset, offset += chunk.length;
   m.file_bytes = offset;
-  return out.take();
+  return header;
 }
 
 }  // namespace vitrine

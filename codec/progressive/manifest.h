@@ -81,8 +81,8 @@ struct Manifest {
 inline constexpr std::size_t kHeaderPrefix = 16;
 Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix);
 
-// Parses a header. Safe on hostile bytes: every count is checked against the bytes left and
-// `limits` before memory is reserved. `bytes` may go on beyond the header.
+// Parses a header whose hash is right. Safe on hostile bytes: every count is checked against the
+// bytes left and `limits` before memory is reserved. `bytes` may go on beyond the header.
 Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limits& limits = {});
 
 // Writes the header. Offsets, lengths and file_bytes are laid out here (header, base, chunks

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/random_mesh.h"
+#include "support/sealed.h"
 
 namespace vitrine {
 namespace {
@@ -169,6 +170,19 @@ TEST(Manifest, ABoundStaysABoundInSinglePrecision) {
   EXPECT_GE(parsed->chunks[0].max_error, 0.1000000001);
 }
 
+TEST(Manifest, EveryByteOfAHeaderIsProtected) {
+  Manifest manifest = random_manifest(5);
+  auto bytes = write_header(manifest);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    for (const int flip : {0x01, 0x80, 0xFF}) {
+      bytes[i] = static_cast<std::uint8_t>(bytes[i] ^ flip);
+      EXPECT_FALSE(parse_header(bytes)) << "byte " << i;
+      bytes[i] = static_cast<std::uint8_t>(bytes[i] ^ flip);
+    }
+  }
+  EXPECT_TRUE(parse_header(bytes));
+}
+
 // Changes a good manifest and expects the reader to refuse it.
 template <class Change>
 std::string refusal(const Change& change) {
@@ -277,8 +291,9 @@ TEST(Manifest, NamesTheVersionAndTheFeaturesItDoesNotKnow) {
   EXPECT_NE(parse_header(bytes).error().message.find("version 2"), std::string::npos);
   bytes[8] = 1;
   bytes[10] = 7;  // a newer minor version is read
-  EXPECT_TRUE(parse_header(bytes));
+  EXPECT_TRUE(parse_header(test::sealed(bytes)));
   bytes[16] |= 0x40;
+  bytes = test::sealed(bytes);
   EXPECT_EQ(parse_header(bytes).error().code, ErrorCode::kUnsupported);
   EXPECT_NE(parse_header(bytes).error().message.find("64"), std::string::npos);
 }

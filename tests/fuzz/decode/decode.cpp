@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Header, planner and refiner on hostile bytes: what `vitrine decode` does. No checksum is looked
-// at, so that no mutation stops there.
+// Header, planner and refiner on hostile bytes: what `vitrine decode` does. The header's hash is
+// made right and no other is looked at, so that no mutation stops there.
 #include "../bounded.h"
 #include "../checks.h"
 #include "codec/progressive/planner.h"
 #include "codec/progressive/refiner.h"
 #include "raw_base.h"
+#include "support/sealed.h"
 
 namespace vitrine {
 namespace {
@@ -89,8 +90,7 @@ void decode(std::span<const std::uint8_t> bytes) {
 }  // namespace vitrine
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  vitrine::fuzz::bounded(vitrine::test::kDecodingHeap, size, [&] {
-    vitrine::decode({data, size});
-  });
+  const auto file = vitrine::test::sealed({data, size});
+  vitrine::fuzz::bounded(vitrine::test::kDecodingHeap, size, [&] { vitrine::decode(file); });
   return 0;
 }

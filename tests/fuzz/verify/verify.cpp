@@ -8,6 +8,7 @@
 #include "codec/base/base_encoder.h"
 #include "codec/progressive/refiner.h"
 #include "server/jobs/verify_model.h"
+#include "support/sealed.h"
 
 namespace vitrine {
 namespace {
@@ -17,7 +18,7 @@ using fuzz::part;
 constexpr Limits kLimits = {.vertices = 5'000, .faces = 10'000};
 
 // The file that says the same with a Draco base and true checksums, or nothing.
-std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> bytes) {
+std::vector<std::uint8_t> with_draco_base(std::span<const std::uint8_t> bytes) {
   auto manifest = parse_header(bytes, kLimits);
   if (!manifest) return {};
   const BaseMesh raw =
@@ -43,7 +44,7 @@ std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> bytes) {
 }  // namespace vitrine
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto file = vitrine::sealed({data, size});
+  const auto file = vitrine::with_draco_base(vitrine::test::sealed({data, size}));
   if (file.empty()) return 0;
   const auto none = [](std::string_view, double) {};
   const auto verified = vitrine::verify_model(file, std::nullopt, none);

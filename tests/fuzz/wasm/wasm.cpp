@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The browser's model on hostile bytes, through the calls that a page makes. The seeds are those of
-// the decode fuzzer (a raw base mesh, as Draco's own module hands it over); no checksum is looked
-// at. The last bytes also say what is wanted on the way.
+// the decode fuzzer (a raw base mesh, as Draco's own module hands it over); the header's hash is
+// made right and no other is looked at. The last bytes also say what is wanted on the way.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -10,6 +10,7 @@
 #include "../checks.h"
 #include "../decode/raw_base.h"
 #include "codec/wasm/model.h"
+#include "support/sealed.h"
 
 namespace vitrine {
 namespace {
@@ -96,6 +97,7 @@ void visit(std::span<const std::uint8_t> bytes) {
 }  // namespace vitrine
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  vitrine::fuzz::bounded(vitrine::test::kDecodingHeap, size, [&] { vitrine::visit({data, size}); });
+  const auto file = vitrine::test::sealed({data, size});
+  vitrine::fuzz::bounded(vitrine::test::kDecodingHeap, size, [&] { vitrine::visit(file); });
   return 0;
 }
