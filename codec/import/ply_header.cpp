@@ -159,6 +159,7 @@ Expected<PlyHeader> HeaderParser::parse() {
     if (line == "end_header") {
       if (!has_format_) return bad("no format was given");
       header_.data_begin = at_;
+      header_.line_count = line_number_;
       return std::move(header_);
     }
     if (auto ok = statement(line); !ok) return Unexpected(ok.error());

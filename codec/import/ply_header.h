@@ -34,6 +34,7 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
   std::vector<std::string> textures;  // the files that TextureFile comments name
   std::size_t data_begin = 0;         // byte offset of the first element
+  std::uint64_t line_count = 0;       // with end_header
 };
 
 // Fails unless the data after the header can hold all the elements that it claims.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "codec/import/keep_vertices.h"
+#include "codec/import/seams.h"
 #include "codec/import/triangulate.h"
 #include "codec/import/weld.h"
 
@@ -41,26 +42,38 @@ Unexpected bad_input(std::string message) {
   return fail(ErrorCode::kBadInput, std::move(message));
 }
 
-void RawMesh::note_index(std::uint32_t index) {
+void RawMesh::note_index(std::uint32_t index, std::uint64_t line) {
   if (index <= max_index_) return;
   max_index_ = index;
   max_index_face_ = face_count_;
+  max_index_line_ = line;
 }
 
-void RawMesh::add_triangle(const Triangle& face) {
+// "vertex 7 (counted from 1)"
+std::string RawMesh::numbered(std::uint32_t vertex) const {
+  return "vertex " + std::to_string(std::uint64_t{vertex} + first_number) + " (counted from " +
+         std::to_string(first_number) + ')';
+}
+
+std::string RawMesh::face_of_max_index() const {
+  if (max_index_line_ == 0) return "face " + std::to_string(max_index_face_);
+  return std::string(format) + " line " + std::to_string(max_index_line_) + ": this face";
+}
+
+void RawMesh::add_triangle(const Triangle& face, std::uint64_t line) {
   for (const std::uint32_t v : face)
-    note_index(v);
+    note_index(v, line);
   triangles_.push_back(face);
   ++face_count_;
 }
 
-void RawMesh::add_face(std::span<const std::uint32_t> corners) {
-  if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
+void RawMesh::add_face(std::span<const std::uint32_t> corners, std::uint64_t line) {
+  if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]}, line);
   if (corners.size() < 3) {
     if (small_faces_++ == 0) first_small_face_ = face_count_;
   } else {
     for (const std::uint32_t v : corners)
-      note_index(v);
+      note_index(v, line);
     polygon_corners_.insert(polygon_corners_.end(), corners.begin(), corners.end());
     polygon_ends_.push_back(polygon_corners_.size());
   }
@@ -74,10 +87,9 @@ Expected<void> RawMesh::check_counts(const Limits& limits) const {
                      " but no faces; Vitrine needs a surface, so mesh the points first");
   }
   if (max_index_ >= positions.size()) {
-    const std::string vertex = max_index_ == 0xFFFF'FFFFu ? "a vertex that cannot be"
-                                                          : "vertex " + std::to_string(max_index_);
-    return bad_input("face " + std::to_string(max_index_face_) + " refers to " + vertex +
-                     " (counted from 0), but the file has only " +
+    const std::string vertex =
+        max_index_ == 0xFFFF'FFFFu ? "a vertex that cannot be" : numbered(max_index_);
+    return bad_input(face_of_max_index() + " refers to " + vertex + ", but the file has only " +
                      std::to_string(positions.size()) + "; the file is damaged, export it again");
   }
   if (positions.size() > limits.vertices || triangles_.size() > limits.faces) {
@@ -113,7 +125,7 @@ Expected<void> RawMesh::drop_stray_positions() {
   for (std::size_t v = 0; v < positions.size(); ++v) {
     usable[v] = is_usable(positions[v]);
     if (usable[v] || !used[v]) continue;
-    return bad_input("vertex " + std::to_string(v) +
+    return bad_input(numbered(static_cast<std::uint32_t>(v)) +
                      " has a coordinate that is not a finite number (or beyond 1e30) and faces "
                      "use it; remove it and export again");
   }
@@ -125,15 +137,21 @@ Expected<void> RawMesh::drop_stray_positions() {
 
 void RawMesh::close_seams() {
   const std::size_t before = positions.size();
+  std::vector<Colour> baked;
+  if (is_baked) baked.swap(colours);
   const std::vector<std::uint32_t> renamed =
-      is_baked ? weld_and_blend(positions, colours) : weld(positions, colours);
-  if (positions.size() == before) return;
+      has_seams ? weld(positions, colours) : weld_seams(positions, colours, triangles_);
+  const std::size_t welded = before - positions.size();
+  if (is_baked) colours = welded > 0 ? blended(renamed, positions.size(), baked) : std::move(baked);
+  if (welded == 0) return;
   for (Triangle& face : triangles_) {
     for (std::uint32_t& v : face)
       v = renamed[v];
   }
-  repairs.push_back(std::to_string(before - positions.size()) +
-                    " repeated vertices welded, parted by normals, textures or missing indices");
+  repairs.push_back(std::to_string(welded) +
+                    (welded == 1 ? " repeated vertex welded" : " repeated vertices welded") +
+                    (has_seams ? ", parted by normals, textures or missing indices"
+                               : ", parted along matching borders"));
 }
 
 Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
@@ -144,7 +162,7 @@ Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
                                        ", more than this installation accepts; simplify it first");
   }
   if (auto ok = drop_stray_positions(); !ok) return Unexpected(ok.error());
-  if (has_seams) close_seams();
+  close_seams();
   if (small_faces_ > 0) {
     repairs.push_back(counted(small_faces_, "face") +
                       " with fewer than three corners dropped, first at face " +

@@ -18,16 +18,21 @@ class RawMesh {
   std::vector<Vec3> positions;
   std::vector<Colour> colours;  // empty, or as many as positions
   std::vector<std::string> repairs;
-  // Vertices may be repeated where an attribute jumps that is not carried, such as a normal, or for
-  // each face: those of equal position and colour are welded.
+  // Vertices are repeated by design where an attribute jumps that is not carried, such as a normal,
+  // or for each face: all of equal position and colour are welded. In other files those along
+  // matching borders are (see seams.h).
   bool has_seams = false;
-  // The colours were sampled from pictures or materials: vertices of equal position are welded
-  // whatever their colours, which are averaged.
+  // The colours were sampled from pictures or materials: vertices are welded whatever their
+  // colours, which are averaged.
   bool is_baked = false;
+  // For messages: the format's name, and the number that it gives to the first vertex.
+  std::string_view format;
+  std::uint32_t first_number = 0;
 
   // Faces are numbered from 0 in the order of these calls. Indices may refer to vertices to come.
-  void add_triangle(const Triangle& face);
-  void add_face(std::span<const std::uint32_t> corners);
+  // `line` is where the face stands in a text, from 1.
+  void add_triangle(const Triangle& face, std::uint64_t line = 0);
+  void add_face(std::span<const std::uint32_t> corners, std::uint64_t line = 0);
   void reserve_faces(std::size_t count) { triangles_.reserve(count); }
   std::uint64_t face_count() const { return face_count_; }
 
@@ -35,7 +40,9 @@ class RawMesh {
   Expected<ImportedMesh> finish(const Limits& limits) &&;
 
  private:
-  void note_index(std::uint32_t index);
+  void note_index(std::uint32_t index, std::uint64_t line);
+  std::string numbered(std::uint32_t vertex) const;
+  std::string face_of_max_index() const;
   Expected<void> check_counts(const Limits& limits) const;
   Expected<void> drop_stray_positions();
   void triangulate_polygons();
@@ -47,7 +54,7 @@ class RawMesh {
   std::uint64_t face_count_ = 0;
   std::uint64_t small_faces_ = 0, first_small_face_ = 0;  // with fewer than three corners
   std::uint32_t max_index_ = 0;
-  std::uint64_t max_index_face_ = 0;
+  std::uint64_t max_index_face_ = 0, max_index_line_ = 0;
 };
 
 // "3 faces", "1 face": the number and the noun, plural by `s`.

@@ -13,7 +13,10 @@ namespace {
 class ObjReader {
  public:
   ObjReader(std::span<const std::uint8_t> bytes, const Companions& beside)
-      : text_(bytes), materials_(beside) {}
+      : text_(bytes), materials_(beside) {
+    mesh_.format = "OBJ";
+    mesh_.first_number = 1;
+  }
 
   Expected<RawMesh> read() {
     while (text_.seek_word()) {
@@ -77,7 +80,7 @@ class ObjReader {
       if (materials_.has_current()) add_sample(corners_.back(), vt);
     }
     is_cut_ = corners_.size() < 3 && text_.at_end();
-    mesh_.add_face(corners_);
+    mesh_.add_face(corners_, text_.line());
     return !is_cut_;
   }
 

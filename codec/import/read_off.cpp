@@ -18,7 +18,7 @@ bool take_prefix(std::string_view& text, std::string_view prefix) {
 
 class OffReader {
  public:
-  explicit OffReader(std::span<const std::uint8_t> bytes) : text_(bytes) {}
+  explicit OffReader(std::span<const std::uint8_t> bytes) : text_(bytes) { mesh_.format = "OFF"; }
 
   Expected<RawMesh> read() {
     if (auto ok = header(); !ok) return Unexpected(ok.error());
@@ -99,7 +99,7 @@ class OffReader {
     for (std::uint32_t& corner : corners_) {
       if (!text_.number(corner)) return false;
     }
-    mesh_.add_face(corners_);
+    mesh_.add_face(corners_, text_.line());
     text_.next_line();  // what follows is the colour of the face
     return true;
   }

@@ -15,10 +15,12 @@ namespace {
 
 class AsciiValues {
  public:
-  explicit AsciiValues(std::span<const std::uint8_t> bytes) : text_(bytes) {}
+  AsciiValues(std::span<const std::uint8_t> bytes, std::uint64_t first_line)
+      : text_(bytes, first_line) {}
 
   bool failed() const { return failed_; }
   std::uint64_t most_values() const { return text_.left() / 2 + 1; }
+  std::uint64_t line() const { return text_.line(); }
 
   double real(PlyType) {
     double value = 0;
@@ -47,6 +49,7 @@ class BinaryValues {
 
   bool failed() const { return bytes_.overrun(); }
   std::uint64_t most_values() const { return bytes_.left(); }
+  static std::uint64_t line() { return 0; }
 
   double real(PlyType type) {
     if (type == PlyType::kFloat32) return bytes_.read<float>(swap);
@@ -137,8 +140,10 @@ struct VertexPlan {
 template <class Values>
 class BodyReader {
  public:
-  BodyReader(const PlyHeader& header, std::span<const std::uint8_t> body, const Companions& beside)
-      : header_(header), values_(body), pictures_(beside) {}
+  BodyReader(const PlyHeader& header, const Values& values, const Companions& beside)
+      : header_(header), values_(values), pictures_(beside) {
+    mesh_.format = "PLY";
+  }
 
   Expected<RawMesh> read() {
     if (header_.textures.size() == 1) picture_ = pictures_.find(header_.textures[0]);
@@ -267,7 +272,9 @@ class BodyReader {
     }
   }
 
-  void face_of(const std::vector<std::uint32_t>& corners) { mesh_.add_face(corners); }
+  void face_of(const std::vector<std::uint32_t>& corners) {
+    mesh_.add_face(corners, values_.line());
+  }
 
   // A strip of triangles that alternate in direction; -1 starts a new one.
   void strip_of(const std::vector<std::uint32_t>& strip) {
@@ -277,7 +284,7 @@ class BodyReader {
         start = i + 1;
       } else if (i >= start + 2) {
         const bool odd = (i - start) % 2 == 1;
-        mesh_.add_triangle({strip[i - 2 + odd], strip[i - 1 - odd], strip[i]});
+        mesh_.add_triangle({strip[i - 2 + odd], strip[i - 1 - odd], strip[i]}, values_.line());
       }
     }
   }
@@ -286,8 +293,11 @@ class BodyReader {
     values_.skip(property.type, property.is_list ? values_.index(property.count_type) : 1);
   }
 
-  static Unexpected cut_short(const PlyElement& element, std::uint64_t i) {
-    return bad_input("the PLY file ends or has no number in " + in_quotes(element.name) + ' ' +
+  Unexpected cut_short(const PlyElement& element, std::uint64_t i) const {
+    const std::string place = values_.line() == 0
+                                  ? "the PLY file"
+                                  : "PLY line " + std::to_string(values_.line()) + ": the file";
+    return bad_input(place + " ends or has no number in " + in_quotes(element.name) + ' ' +
                      std::to_string(i) + " of " + std::to_string(element.count) +
                      "; it is cut short or damaged, copy it again");
   }
@@ -308,11 +318,11 @@ Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const Companions
   const auto body = bytes.subspan(header->data_begin);
   switch (header->format) {
     case PlyFormat::kAscii:
-      return BodyReader<AsciiValues>(*header, body, beside).read();
+      return BodyReader<AsciiValues>(*header, {body, header->line_count + 1}, beside).read();
     case PlyFormat::kLittleEndian:
-      return BodyReader<BinaryValues<false>>(*header, body, beside).read();
+      return BodyReader<BinaryValues<false>>(*header, BinaryValues<false>(body), beside).read();
     default:
-      return BodyReader<BinaryValues<true>>(*header, body, beside).read();
+      return BodyReader<BinaryValues<true>>(*header, BinaryValues<true>(body), beside).read();
   }
 }
 

@@ -68,8 +68,10 @@ class Repairer {
   Expected<RepairedMesh> run() {
     if (auto ok = check(); !ok) return Unexpected(ok.error());
     drop_degenerate();
-    if (mesh_.faces.empty())
-      return bad_input("every face of the mesh repeats a vertex; export the surface again");
+    if (std::ranges::none_of(mesh_.faces, [&](const Triangle& f) { return has_area(f); }))
+      return bad_input(
+          "no face of the mesh has an area: the corners of each lie in one point or on "
+          "one line; export the surface again");
     EdgeGroups groups = edges();
     if (drop_duplicates(groups)) groups = edges();
     if (orient(groups)) groups = edges();
@@ -91,6 +93,12 @@ class Repairer {
       }
     }
     return {};
+  }
+
+  bool has_area(const Triangle& face) const {
+    const auto& [a, b, c] = face;
+    const std::vector<Vec3>& p = mesh_.positions;
+    return cross(p[b] - p[a], p[c] - p[a]) != Vec3{};
   }
 
   void drop_degenerate() {

@@ -23,8 +23,8 @@ struct RepairedMesh {
 // majority; at an edge of three or more faces the faces are paired by angle, so that touching
 // solids part and opposed faces on the same vertices become two sheets; where a surface has only
 // one side it is cut; vertices are split, one for each fan; unreferenced vertices are dropped.
-// All other faces are kept, in order. Fails (kBadInput) when an index is out of range or no face is
-// left. O(n log n).
+// All other faces are kept, in order. Fails (kBadInput) when an index is out of range or no face
+// has an area. O(n log n).
 Expected<RepairedMesh> repair(ImportedMesh imported);
 
 }  // namespace vitrine

@@ -14,8 +14,10 @@ namespace vitrine {
 
 class TextCursor {
  public:
-  explicit TextCursor(std::span<const std::uint8_t> bytes)
-      : at_(reinterpret_cast<const char*>(bytes.data())), end_(at_ + bytes.size()) {}
+  explicit TextCursor(std::span<const std::uint8_t> bytes, std::uint64_t first_line = 1)
+      : at_(reinterpret_cast<const char*>(bytes.data())),
+        end_(at_ + bytes.size()),
+        line_(first_line) {}
 
   bool at_end() const { return at_ == end_; }
   std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
@@ -123,7 +125,7 @@ class TextCursor {
 
   const char* at_;
   const char* end_;
-  std::uint64_t line_ = 1;
+  std::uint64_t line_;
 };
 
 }  // namespace vitrine

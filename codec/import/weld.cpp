@@ -1,75 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/import/weld.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "codec/import/linear_colour.h"
 
 namespace vitrine {
-namespace {
 
-// Three-way order of two vertices: by position, then by colour.
-class VertexOrder {
- public:
-  VertexOrder(const std::vector<Vec3>& positions, const std::vector<Colour>& colours)
-      : positions_(positions), colours_(colours) {}
+int VertexOrder::operator()(std::uint32_t a, std::uint32_t b) const {
+  const Vec3 &p = positions_[a], &q = positions_[b];
+  if (p.x != q.x) return p.x < q.x ? -1 : 1;
+  if (p.y != q.y) return p.y < q.y ? -1 : 1;
+  if (p.z != q.z) return p.z < q.z ? -1 : 1;
+  if (colours_.empty() || colours_[a] == colours_[b]) return 0;
+  return colours_[a] < colours_[b] ? -1 : 1;
+}
 
-  int operator()(std::uint32_t a, std::uint32_t b) const {
-    const Vec3 &p = positions_[a], &q = positions_[b];
-    if (p.x != q.x) return p.x < q.x ? -1 : 1;
-    if (p.y != q.y) return p.y < q.y ? -1 : 1;
-    if (p.z != q.z) return p.z < q.z ? -1 : 1;
-    if (colours_.empty() || colours_[a] == colours_[b]) return 0;
-    return colours_[a] < colours_[b] ? -1 : 1;
-  }
-
- private:
-  const std::vector<Vec3>& positions_;
-  const std::vector<Colour>& colours_;
-};
-
-}  // namespace
-
-std::vector<std::uint32_t> weld(std::vector<Vec3>& positions, std::vector<Colour>& colours) {
-  const VertexOrder order(positions, colours);
-  std::vector<std::uint32_t> sorted(positions.size());
-  std::iota(sorted.begin(), sorted.end(), 0);
-  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const int by_value = order(a, b);
-    return by_value != 0 ? by_value < 0 : a < b;
-  });
-  // First the oldest equal vertex, then, in ascending order, that one's new index.
-  std::vector<std::uint32_t> renamed(positions.size());
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const bool equal = i > 0 && order(sorted[i - 1], sorted[i]) == 0;
-    renamed[sorted[i]] = equal ? renamed[sorted[i - 1]] : sorted[i];
-  }
+void merge_into_older(std::vector<std::uint32_t>& older, std::vector<Vec3>& positions,
+                      std::vector<Colour>& colours) {
   std::uint32_t kept = 0;
-  for (std::uint32_t v = 0; v < renamed.size(); ++v) {
-    if (renamed[v] != v) {
-      renamed[v] = renamed[renamed[v]];
+  for (std::uint32_t v = 0; v < older.size(); ++v) {
+    if (older[v] != v) {
+      older[v] = older[older[v]];
       continue;
     }
     positions[kept] = positions[v];
     if (!colours.empty()) colours[kept] = colours[v];
-    renamed[v] = kept++;
+    older[v] = kept++;
   }
   positions.resize(kept);
   if (!colours.empty()) colours.resize(kept);
+}
+
+std::vector<std::uint32_t> weld(std::vector<Vec3>& positions, std::vector<Colour>& colours) {
+  std::vector<std::uint32_t> all(positions.size()), renamed(positions.size());
+  std::iota(all.begin(), all.end(), 0);
+  VertexOrder(positions, colours)
+      .for_each_oldest(std::move(all),
+                       [&](std::uint32_t v, std::uint32_t oldest) { renamed[v] = oldest; });
+  merge_into_older(renamed, positions, colours);
   return renamed;
 }
 
-std::vector<std::uint32_t> weld_and_blend(std::vector<Vec3>& positions,
-                                          std::vector<Colour>& colours) {
-  std::vector<Colour> none;
-  std::vector<std::uint32_t> renamed = weld(positions, none);
-  if (renamed.size() == positions.size()) return renamed;
-  ColourMeans means(positions.size());
+std::vector<Colour> blended(const std::vector<std::uint32_t>& renamed, std::size_t count,
+                            const std::vector<Colour>& colours) {
+  ColourMeans means(count);
   for (std::size_t v = 0; v < renamed.size(); ++v)
     means.add(renamed[v], to_linear(colours[v]));
-  colours = means.take();
-  return renamed;
+  return means.take();
 }
 
 }  // namespace vitrine

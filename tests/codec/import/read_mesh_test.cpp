@@ -49,14 +49,17 @@ TEST(ReadMesh, RefusesPointsWithoutFaces) {
 }
 
 TEST(ReadMesh, RefusesAFaceWhoseVertexIsMissingAndNamesIt) {
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n"),
-              HasSubstr("face 1 refers to vertex 3 (counted from 0), but the file has only 3"));
+  EXPECT_THAT(
+      refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n"),
+      HasSubstr(
+          "OBJ line 5: this face refers to vertex 4 (counted from 1), but the file has only 3"));
 }
 
 TEST(ReadMesh, RefusesANumberThatIsNotFiniteWhereAFaceUsesIt) {
-  EXPECT_THAT(refusal("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("vertex 1"));
+  EXPECT_THAT(refusal("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"),
+              HasSubstr("vertex 2 (counted from 1) has"));
   EXPECT_THAT(refusal("v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("not a finite number"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 1e999 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("vertex 1"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 1e999 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("vertex 2"));
 }
 
 TEST(ReadMesh, DropsPointsThatAreNotFiniteWhereNoFaceUsesThem) {

@@ -82,7 +82,9 @@ TEST(ReadObj, NamesTheLineOfAFault) {
   EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\n"), HasSubstr("line 2: a vertex needs three numbers"));
   EXPECT_THAT(refusal("v 0 0 0\nf 0 1 1\n"), HasSubstr("line 2: a face needs"));
   EXPECT_THAT(refusal("v 0 0 0\nf 1 1 -2\n"), HasSubstr("line 2: a face needs"));
-  EXPECT_THAT(refusal("v 0 0 0\nf 1 1 99999999999\n"), HasSubstr("refers to a vertex"));
+  EXPECT_THAT(refusal("v 0 0 0\nf 1 1 99999999999\n"), HasSubstr("line 2: this face refers to a"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 3 4\nf 1 2 3\n"),
+              HasSubstr("OBJ line 5: this face refers to vertex 4 (counted from 1)"));
 }
 
 TEST(ReadObj, RefusesAFileThatEndsWithinAFace) {

@@ -51,6 +51,8 @@ TEST(ReadOff, RefusesByName) {
   EXPECT_THAT(refusal("OFF\n3000000000 1 0\n0 0 0\n"), HasSubstr("claims 3000000000 vertices"));
   EXPECT_THAT(refusal("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), HasSubstr("line 4: vertex 1"));
   EXPECT_THAT(refusal("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), HasSubstr("face 0"));
+  EXPECT_THAT(refusal("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n# faces\n3 0 1 3\n"),
+              HasSubstr("OFF line 7: this face refers to vertex 3 (counted from 0)"));
   EXPECT_THAT(refusal("OFF BINARY\n\1\2\3"), HasSubstr("binary OFF is not read"));
   EXPECT_THAT(refusal("4OFF\n1 1 0\n0 0 0 1\n"), HasSubstr("four or n dimensions"));
 }

@@ -165,6 +165,22 @@ TEST(ReadPly, RefusesAListThatTheFileCannotHold) {
               HasSubstr("'face' 0 of 1"));
 }
 
+TEST(ReadPly, NamesTheLineOfAFaultInAText) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    for (const char* line :
+         {"ply", "format ascii 1.0", "element vertex 3", "property float x", "property float y",
+          "property float z", "element face 1", "property list uchar int vertex_indices",
+          "end_header", "0 0 0", "1 0 0", "0 1 0"}) {
+      text += line + end;
+    }
+    EXPECT_THAT(refusal(text + "3 0 1 3" + end),
+                HasSubstr("PLY line 13: this face refers to vertex 3 (counted from 0)"));
+    EXPECT_THAT(refusal(text + "3 0 x 2" + end),
+                HasSubstr("PLY line 13: the file ends or has no number in 'face' 0 of 1"));
+  }
+}
+
 TEST(ReadPly, NamesTheFaultOfTheHeader) {
   EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\n"),
               HasSubstr("line 4: unknown type 'quad'"));

@@ -53,6 +53,16 @@ TEST(ReadTexturedObj, AMaterialWithoutPictureGivesItsColour) {
   EXPECT_THAT(result.repairs, Contains("material colours baked into vertex colours"));
 }
 
+TEST(ReadTexturedObj, MaterialsThatMeetAlongASeamAreWeldedToTheMeanOfTheirColours) {
+  const auto result = read_with(
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\n"
+      "usemtl red\nf 1 2 3\nusemtl blue\nf 4 5 6\n",
+      {{"a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n"}});
+  EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}));
+  EXPECT_THAT(result.mesh.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
+  EXPECT_THAT(result.repairs, Contains(HasSubstr("2 repeated vertices welded")));
+}
+
 TEST(ReadTexturedObj, WhatIsMissingIsNamed) {
   const auto result = read_with(kObj, {{"bust.mtl", kLibrary}});
   EXPECT_THAT(result.repairs, Contains(HasSubstr("Skin.PNG' not carried: it is not beside")));

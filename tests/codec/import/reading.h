@@ -48,8 +48,9 @@ inline void expect_first_dropped(const ImportedMesh& imported) {
 
 // The faces use the first vertex, too.
 inline void expect_first_named(std::string_view file) {
-  EXPECT_THAT(refusal(file), ::testing::HasSubstr("vertex 0 has a coordinate that is not a finite "
-                                                  "number"));
+  EXPECT_THAT(refusal(file), ::testing::HasSubstr(
+                                 "vertex 0 (counted from 0) has a coordinate that is not a finite "
+                                 "number"));
 }
 
 template <class T>
