@@ -23,10 +23,8 @@ struct DracoPrimitive {
   std::uint64_t bytes() const;
 };
 
-// Decodes `compressed`, the buffer view of a primitive with that extension. The counts in the
-// Draco header are compared with the limits and with the data's size before Draco sees it (at most
-// 1024 faces a byte); but Draco itself is not safe on hostile bytes, so this belongs into the
-// sandbox. Fails (kBadInput, kUnsupported, kLimit).
+// Decodes `compressed`, the buffer view of a primitive with that extension, by decode_draco_data():
+// in the sandbox. Fails (kBadInput, kUnsupported, kLimit).
 Expected<DracoPrimitive> decode_draco_primitive(std::span<const std::uint8_t> compressed,
                                                 const Json& document, const Json& primitive,
                                                 const Limits& limits);

@@ -61,14 +61,18 @@ void turn_z_up_to_y(std::vector<Vec3>& positions) {
 
 }  // namespace
 
+std::string_view stated_unit(std::span<const std::uint8_t> file) {
+  const auto bytes = without_mark(file);
+  return is_glb(bytes) ? "m" : unit_in_comments(bytes);
+}
+
 Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> file, const ReadOptions& options) {
   const auto bytes = without_mark(file);
   auto raw = read_any(bytes, options);
   if (!raw) return Unexpected(raw.error());
   auto imported = std::move(*raw).finish(options.limits);
   if (!imported) return imported;
-  const std::string_view stated = is_glb(bytes) ? "m" : unit_in_comments(bytes);
-  imported->unit = options.unit.empty() ? stated : options.unit;
+  imported->unit = options.unit.empty() ? stated_unit(file) : options.unit;
   if (options.up == UpAxis::kZ) turn_z_up_to_y(imported->mesh.positions);
   return imported;
 }

@@ -34,8 +34,11 @@ struct ImportedMesh {
   std::vector<std::string> repairs;  // what was left out or changed, one line each
 };
 
-// GLB is in metres by its standard; the other formats may state a unit in a comment (see
-// unit_comment.h). For untrusted bytes, but in the sandbox: the decoders of
+// The unit that a file states: GLB is in metres by its standard; the other formats may state one in
+// a comment (see unit_comment.h). Empty where there is none.
+std::string_view stated_unit(std::span<const std::uint8_t> bytes);
+
+// For untrusted bytes, but in the sandbox: the decoders of
 // Draco data and of pictures are not safe. Allocates at most about 64 times the input, for
 // GLB, which may repeat its meshes, 128 times, where a compressed part or a picture counts as what
 // it makes (at most 1024 bytes or pixels for each of its own), and nothing on the word of a count

@@ -135,7 +135,9 @@ Expected<Product> make(std::span<const std::uint8_t> input, const BuildOptions& 
     if (!written) return tl::unexpected(written.error());
     page = std::move(*written);
   }
-  return Product{describe(result->report, *manifest), std::move(result->file), std::move(page)};
+  json report = describe(result->report, *manifest);
+  if (auto note = note_on_unit(input, options.reading); !note.empty()) report["note"] = note;
+  return Product{std::move(report), std::move(result->file), std::move(page)};
 }
 
 Outcome write_outputs(const Arguments& arguments, const Product& product) {
@@ -160,7 +162,7 @@ Outcome build(const Arguments& arguments) {
   if (!options) return tl::unexpected(options.error());
   const std::string path = arguments.operand(0), out = arguments.text("-o");
   if (auto ok = check_outputs(arguments); !ok) return ok;
-  const auto file = InputFile::open(path);
+  const auto file = InputFile::open_mesh(path);
   if (!file) return failed(file.error());
   const CompanionFiles companions(path, file->bytes());
   options->reading.beside = companions.contents();

@@ -24,6 +24,7 @@ Outcome print(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() &&
                        std::fputc('\n', stdout) != EOF && std::fflush(stdout) == 0;
   if (written) return {};
+  if (errno == EPIPE) return tl::unexpected(Fault{kNobodyReads, {}});
   return failed(fmt::format("cannot write the result to stdout: {}; check where it goes",
                             std::strerror(errno)));
 }

@@ -16,7 +16,8 @@
 
 namespace vitrine::cli {
 
-// Writes `text` and a line end to stdout. Fails where it cannot take them (a full disk).
+// Writes `text` and a line end to stdout. Fails where it cannot take them (a full disk),
+// in silence where nobody reads it any more.
 Outcome print(std::string_view text);
 Outcome print_json(const nlohmann::json& object);  // what is not UTF-8 in it is replaced
 

@@ -9,6 +9,7 @@
 #include "server/cli/console.h"
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
+#include "server/cli/levels.h"
 #include "server/jobs/open_model.h"
 
 namespace vitrine::cli {
@@ -55,8 +56,8 @@ Expected<void> check_want(const Manifest& m, const Want& want) {
         fmt::format("the coarsest level takes {} bytes; ask for as many or more", m.head_bytes()));
   }
   if (const auto* w = std::get_if<WantError>(&want); w && w->error < finest.max_error) {
-    return unmet(fmt::format("the finest level has an error of {:.6g}; ask for as much or more",
-                             finest.max_error));
+    return unmet(fmt::format("the finest level has an error of {}; ask for as much or more",
+                             bound_text(finest.max_error)));
   }
   return {};
 }

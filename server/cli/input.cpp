@@ -48,6 +48,13 @@ Expected<InputFile> InputFile::open(const std::string& path) {
   return InputFile({static_cast<const std::uint8_t*>(data), size});
 }
 
+Expected<InputFile> InputFile::open_mesh(const std::string& path) {
+  auto file = open(path);
+  if (!file || !file->is_pmesh()) return file;
+  return fail(ErrorCode::kBadInput,
+              path + " is a .pmesh, no mesh; name the mesh that it was built from");
+}
+
 InputFile::InputFile(InputFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
 
 InputFile::~InputFile() {

@@ -18,6 +18,8 @@ class InputFile {
  public:
   // Fails (kIo, kBadInput) on a missing, unreadable or empty file and on anything but a file.
   static Expected<InputFile> open(const std::string& path);
+  // The same for a file that must be a mesh: fails on a .pmesh.
+  static Expected<InputFile> open_mesh(const std::string& path);
   InputFile(InputFile&& other) noexcept;
   InputFile& operator=(InputFile&&) = delete;
   ~InputFile();

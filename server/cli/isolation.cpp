@@ -74,13 +74,10 @@ tl::expected<Product, Fault> unpack(std::span<const std::uint8_t> bytes) {
   return product;
 }
 
-}  // namespace
-
-tl::expected<Product, Fault> isolate(
-    const std::string& subject, const std::function<Expected<Product>(const ProgressReport&)>& task,
-    const SpillOptions& spill) {
+Expected<Bytes> answer_to(const std::function<Expected<Product>(const ProgressReport&)>& task,
+                          const SpillOptions& spill) {
   ProgressBar bar;
-  const auto answer = run_sandboxed(
+  return run_sandboxed(
       limits(spill),
       [&](const ProgressReport& progress) -> Expected<Bytes> {
         const auto product = task(progress);
@@ -88,8 +85,19 @@ tl::expected<Product, Fault> isolate(
         return pack(*product);
       },
       bar.report());
+}
+
+}  // namespace
+
+tl::expected<Product, Fault> isolate(
+    const std::string& subject, const std::function<Expected<Product>(const ProgressReport&)>& task,
+    const SpillOptions& spill) {
+  const auto answer = answer_to(task, spill);
   if (!answer) return failed(fmt::format("{}: {}", subject, answer.error().message));
-  return unpack(*answer);
+  auto product = unpack(*answer);
+  if (product && product->report.contains("note"))
+    print_note(product->report["note"].get<std::string>());
+  return product;
 }
 
 }  // namespace vitrine::cli

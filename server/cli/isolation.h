@@ -12,7 +12,7 @@
 namespace vitrine::cli {
 
 struct Product {
-  nlohmann::json report;
+  nlohmann::json report;           // isolate() prints its "note", too, where there is one
   std::vector<std::uint8_t> file;  // the output file's bytes; may be empty
   std::string page = {};           // a page about it; may be empty
 };

@@ -3,7 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 namespace vitrine::cli {
+
+std::string bound_text(double bound) {
+  constexpr double kHalfOfLastDigit = 5e-5;
+  const std::string nearest = fmt::format("{:.5g}", bound);
+  if (std::strtod(nearest.c_str(), nullptr) >= bound) return nearest;
+  return fmt::format("{:.5g}", bound * (1 + kHalfOfLastDigit));
+}
 
 std::string lattice_text(const Manifest& m) {
   return fmt::format("{} bits, step {:.6g} {}", m.lattice.bits, m.lattice.step,
@@ -33,9 +42,9 @@ std::string levels_text(const Manifest& m) {
   std::string text = fmt::format("{:>5} {:>11} {:>11} {:>13} {:>12} {:>12}", "level", "faces",
                                  "vertices", "bytes so far", "max error", "rms error");
   for (std::uint32_t l = 0; l < m.levels.size(); ++l) {
-    text += fmt::format("\n{:>5} {:>11} {:>11} {:>13} {:>12.5g} {:>12.5g}", l, m.levels[l].faces,
-                        m.levels[l].vertices, m.cumulative_bytes(l), m.levels[l].max_error,
-                        m.levels[l].rms_error);
+    text += fmt::format("\n{:>5} {:>11} {:>11} {:>13} {:>12} {:>12.5g}", l, m.levels[l].faces,
+                        m.levels[l].vertices, m.cumulative_bytes(l),
+                        bound_text(m.levels[l].max_error), m.levels[l].rms_error);
   }
   return text;
 }

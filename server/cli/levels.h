@@ -14,4 +14,7 @@ nlohmann::json bytes_json(const Manifest& manifest);  // total, base, layers, he
 nlohmann::json levels_json(const Manifest& manifest);
 std::string levels_text(const Manifest& manifest);
 
+// An error bound in five digits, rounded up: `decode --error` accepts what is printed.
+std::string bound_text(double bound);
+
 }  // namespace vitrine::cli

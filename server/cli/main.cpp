@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
   vitrine::keep_standard_streams();
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error to report, not an end
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe ends no command before its devices are off
   const std::vector<std::string_view> words(argv + (argc > 0 ? 1 : 0), argv + argc);
   return vitrine::cli::run(words);
 }

@@ -69,7 +69,6 @@ Outcome run_measure(const Arguments& arguments) {
     return Product{std::move(report), {}};
   });
   if (!product) return tl::unexpected(product.error());
-  if (product->report.contains("note")) print_note(product->report["note"].get<std::string>());
   return arguments.has("--json") ? print_json(product->report) : print(distances(product->report));
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a command ends: 0 done, 1 failed with a reason, 2 wrong usage.
+// How a command ends: 0 done, 1 failed with a reason, 2 wrong usage; kNobodyReads in silence.
 #pragma once
 
+#include <csignal>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,9 @@ struct Fault {
   int exit_code;
   std::string message;  // one line
 };
+
+// Who read stdout has seen enough, as `head` has: the exit code that shells give for SIGPIPE.
+inline constexpr int kNobodyReads = 128 + SIGPIPE;
 
 using Outcome = tl::expected<void, Fault>;
 

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 
-#include "codec/files/atomic_file.h"
 #include "server/cli/command.h"
 #include "server/cli/companion_files.h"
 #include "server/cli/console.h"
@@ -32,19 +31,13 @@ tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& 
     }
     auto built = build_model(file.bytes(), {.reading = reading}, progress);
     if (!built) return tl::unexpected(built.error());
-    return Product{nlohmann::json::object(), std::move(built->file)};
+    auto report = nlohmann::json::object();
+    if (auto note = note_on_unit(file.bytes(), reading); !note.empty()) report["note"] = note;
+    return Product{std::move(report), std::move(built->file)};
   };
   const auto product = isolate(path, task, spill);
   if (!product) return tl::unexpected(product.error());
   return product->file;
-}
-
-// The folder, or the one that it will be made in.
-std::filesystem::path existing(std::filesystem::path folder) {
-  std::error_code unknown;  // is as good as not there: who opens the folder names the fault
-  while (!std::filesystem::is_directory(folder, unknown) && folder != folder_of(folder))
-    folder = folder_of(folder);
-  return folder;
 }
 
 Outcome publish_file(const Arguments& arguments) {
@@ -64,9 +57,10 @@ Outcome publish_file(const Arguments& arguments) {
   }
   const std::filesystem::path data = arguments.text("--data");
   if (const auto usable = check_installation(data); !usable) return failed(usable.error());
+  if (const auto there = check_data_folder(data); !there) return failed(there.error());
   const CompanionFiles companions(path, file->bytes());
   reading->beside = companions.contents();
-  const SpillOptions spill{.folder = existing(data), .input = file->bytes()};
+  const SpillOptions spill{.folder = data, .input = file->bytes()};
   const auto pmesh = make_pmesh(*file, path, *reading, spill);
   if (!pmesh) return tl::unexpected(pmesh.error());
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/cli/reading.h"
 
+#include <fmt/format.h>
+
 #include "codec/mesh/unit.h"
 
 namespace vitrine::cli {
@@ -18,6 +20,14 @@ tl::expected<ReadOptions, Fault> reading_options(const Arguments& arguments) {
   if (arguments.has("--unit")) options.unit = units[*unit];
   if (*up == 1) options.up = UpAxis::kZ;
   return options;
+}
+
+std::string note_on_unit(std::span<const std::uint8_t> mesh, const ReadOptions& options) {
+  const std::string_view stated = stated_unit(mesh);
+  if (options.unit.empty() || stated.empty() || stated == options.unit) return {};
+  return fmt::format(
+      "the file is in {} and is taken to be in {}; leave --unit out to go by the file", stated,
+      options.unit);
 }
 
 }  // namespace vitrine::cli

@@ -15,4 +15,8 @@ inline constexpr Flag kUpFlag = {"--up", "y|z",
 // Of commands that declare one flag or both.
 tl::expected<ReadOptions, Fault> reading_options(const Arguments& arguments);
 
+// What to know where `options` have another unit than the mesh file states, else empty. For
+// untrusted bytes, but in the sandbox.
+std::string note_on_unit(std::span<const std::uint8_t> mesh, const ReadOptions& options);
+
 }  // namespace vitrine::cli

@@ -77,7 +77,7 @@ Outcome dispatch(std::span<const std::string_view> words) {
 int run(std::span<const std::string_view> words) {
   const Outcome outcome = dispatch(words);
   if (outcome) return 0;
-  print_fault(outcome.error().message);
+  if (outcome.error().exit_code != kNobodyReads) print_fault(outcome.error().message);
   return outcome.error().exit_code;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/cli/surface_file.h"
 
+#include "codec/import/read_drc.h"
 #include "codec/import/read_mesh.h"
 #include "codec/mesh/unit.h"
 #include "server/jobs/open_model.h"
@@ -9,6 +10,8 @@ namespace vitrine::cli {
 namespace {
 
 Expected<Surface> surface_in(const InputFile& file) {
+  if (is_drc(file.bytes()))
+    return read_drc(file.bytes()).map([](TriangleMesh&& mesh) { return Surface{std::move(mesh)}; });
   if (!file.is_pmesh()) {
     auto imported = read_mesh(file.bytes());
     if (!imported) return tl::unexpected(imported.error());

@@ -50,7 +50,7 @@ Outcome verify(const Arguments& arguments) {
   std::optional<InputFile> input;
   std::optional<CompanionFiles> companions;
   if (arguments.has("--against")) {
-    auto opened = InputFile::open(arguments.text("--against"));
+    auto opened = InputFile::open_mesh(arguments.text("--against"));
     if (!opened) return failed(opened.error());
     input.emplace(std::move(*opened));
     companions.emplace(arguments.text("--against"), input->bytes());

@@ -21,6 +21,10 @@ struct Installation {
 // Fails (kIo) with the cause.
 Expected<void> check_installation(const std::filesystem::path& folder);
 
+// Whether the folder is an installation, or may become one: it exists and nothing else is in it. So
+// a mistyped name makes no installation that nobody serves. Fails (kIo) with the next step.
+Expected<void> check_data_folder(const std::filesystem::path& folder);
+
 // Creates what is missing. Several processes may open the same folder.
 Expected<Installation> open_installation(const std::filesystem::path& folder);
 

@@ -209,6 +209,14 @@ TEST_F(VitrineCommand, measure_reads_models_and_meshes) {
   }
 }
 
+TEST_F(VitrineCommand, measure_reads_the_drc_that_decode_writes) {
+  const std::string file = model(3'000, true, true);
+  vitrine_json({"decode", file, "-o", path("out.drc")});
+  const json measured = vitrine_json({"measure", path("out.drc"), file, "--samples", "5000"});
+  EXPECT_LT(measured["max_percent"].get<double>(), 0.2);
+  EXPECT_GT(measured["max"].get<double>(), 0);
+}
+
 TEST_F(VitrineCommand, repairs_are_listed) {
   std::string text = bumpy_ply(500);
   const std::size_t face = text.find("\n3 ", text.find("end_header")) + 1;
@@ -254,6 +262,27 @@ TEST_F(VitrineCommand, a_unit_goes_through_the_model_into_what_is_exported) {
   const json distance =
       vitrine_json({"measure", path("out.glb"), path("out.ply"), "--samples", "1000"});
   EXPECT_LT(distance["max_percent"].get<double>(), 1e-3);
+}
+
+TEST_F(VitrineCommand, a_unit_that_contradicts_the_file_is_noted) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  vitrine_json({"build", in, "-o", path("mm.pmesh"), "--unit", "mm"});
+  vitrine_json({"decode", path("mm.pmesh"), "-o", path("in.glb")});
+  vitrine_json({"decode", path("mm.pmesh"), "-o", path("mm.ply")});
+  const std::string out = path("out.pmesh"), note = "note: the file is in m and is taken to be in ";
+  const ProgramResult built =
+      vitrine({"build", path("in.glb"), "-o", out, "--unit", "mm", "--json"});
+  expect_fault(built, 0);
+  EXPECT_THAT(built.errors, HasSubstr(note + "mm; leave --unit out"));
+  EXPECT_EQ(json::parse(built.output)["unit"], "mm");
+  const ProgramResult published =
+      vitrine({"publish", path("in.glb"), "--data", empty_folder("data"), "--unit", "in"});
+  expect_fault(published, 0);
+  EXPECT_THAT(published.errors, HasSubstr(note + "in; "));
+  EXPECT_THAT(vitrine({"build", path("mm.ply"), "-o", out, "--unit", "cm"}).errors,
+              HasSubstr("the file is in mm and is taken to be in cm; "));
+  for (const std::string same : {"in.glb", "mm.ply"})
+    vitrine_json({"build", path(same), "-o", out, "--unit", same == "in.glb" ? "m" : "mm"});
 }
 
 TEST_F(VitrineCommand, measure_says_where_only_one_of_two_states_its_unit) {

@@ -62,6 +62,23 @@ TEST_F(VitrineCommand, a_hostile_base_mesh_is_an_error_or_a_mesh_but_never_a_cra
   }
 }
 
+TEST_F(VitrineCommand, a_hostile_drc_is_an_error_or_a_mesh_but_never_a_crash) {
+  vitrine_json({"decode", model(600), "-o", path("good.drc")});
+  const std::string bytes = read("good.drc");
+  for (std::size_t at = 0; at < bytes.size(); at += bytes.size() / 31 + 1) {
+    std::string damaged = bytes;
+    damaged[at] = flipped(damaged[at], 0x55);
+    const ProgramResult result =
+        vitrine({"measure", write("bad.drc", damaged), path("model.ply"), "--samples", "100"});
+    if (result.exit_code != 0) expect_fault(result, 1);
+  }
+  const ProgramResult cut = vitrine({"measure", write("bad.drc", bytes.substr(0, bytes.size() / 2)),
+                                     path("model.ply"), "--samples", "100"});
+  expect_fault(cut, 1);
+  EXPECT_NE(cut.errors.find("bad.drc: the Draco data cannot be decoded"), std::string::npos)
+      << cut.errors;
+}
+
 TEST_F(VitrineCommand, a_wrong_box_is_found_in_a_file_of_one_level) {
   model(4);
   const std::string bytes = read("model.pmesh");

@@ -11,10 +11,11 @@ namespace {
 using testing::HasSubstr;
 
 TEST_F(VitrineCommand, what_is_published_is_served_by_an_installation_that_is_open_already) {
-  const auto installation = open_installation(path("data")).value();
+  const std::string data = path("data");
+  const auto installation = open_installation(data).value();
   PublishedModels models(*installation.store, *installation.catalogue);
   const std::string in = write("Bust of a girl.ply", bumpy_ply(2'000));
-  const nlohmann::json report = vitrine_json({"publish", in, "--data", path("data")});
+  const nlohmann::json report = vitrine_json({"publish", in, "--data", data});
   EXPECT_EQ(report.size(), 2u);
   EXPECT_EQ(report["url"], nullptr);
   const auto id = ModelId::parse(report["id"].get<std::string>());
@@ -28,7 +29,7 @@ TEST_F(VitrineCommand, what_is_published_is_served_by_an_installation_that_is_op
 TEST_F(VitrineCommand, a_pmesh_is_published_as_it_is) {
   const std::string file = model(800);
   const nlohmann::json report =
-      vitrine_json({"publish", file, "--data", path("data"), "--title", "Torus"});
+      vitrine_json({"publish", file, "--data", empty_folder("data"), "--title", "Torus"});
   const auto installation = open_installation(path("data")).value();
   PublishedModels models(*installation.store, *installation.catalogue);
   const auto found = models.find(*ModelId::parse(report["id"].get<std::string>())).value();
@@ -39,9 +40,9 @@ TEST_F(VitrineCommand, a_pmesh_is_published_as_it_is) {
 }
 
 TEST_F(VitrineCommand, publishing_a_mesh_again_gives_the_same_model_and_says_so) {
-  const std::string in = write("in.ply", bumpy_ply(500));
-  const nlohmann::json first = vitrine_json({"publish", in, "--data", path("data")});
-  const ProgramResult again = vitrine({"publish", in, "--data", path("data"), "--json"});
+  const std::string in = write("in.ply", bumpy_ply(500)), data = empty_folder("data");
+  const nlohmann::json first = vitrine_json({"publish", in, "--data", data});
+  const ProgramResult again = vitrine({"publish", in, "--data", data, "--json"});
   expect_fault(again, 0);
   EXPECT_THAT(again.errors, HasSubstr("note: " + in + " is published under this title already"));
   EXPECT_EQ(nlohmann::json::parse(again.output), first);
@@ -55,12 +56,30 @@ TEST_F(VitrineCommand, a_data_folder_that_cannot_be_looked_at_is_named) {
   EXPECT_THAT(result.errors, HasSubstr("File name too long"));
 }
 
+TEST_F(VitrineCommand, a_mistyped_data_folder_becomes_no_installation) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  const ProgramResult absent = vitrine({"publish", in, "--data", path("absent")});
+  expect_fault(absent, 1);
+  EXPECT_THAT(absent.errors, HasSubstr("absent: No such file or directory; check its name"));
+  const ProgramResult other = vitrine({"publish", in, "--data", folder_.path().string()});
+  expect_fault(other, 1);
+  EXPECT_THAT(other.errors, HasSubstr("holds other things and no catalogue; check its name"));
+  EXPECT_THAT(files(), testing::ElementsAre("in.ply"));
+}
+
+TEST_F(VitrineCommand, what_an_interrupted_start_and_the_demo_leave_is_no_other_thing) {
+  const std::string in = write("in.ply", bumpy_ply(500)), data = empty_folder("data");
+  for (const char* name : {"data/objects", "data/demo", "data/lost+found"})
+    empty_folder(name);
+  vitrine_json({"publish", in, "--data", data});
+}
+
 TEST_F(VitrineCommand, a_damaged_pmesh_is_not_published) {
   model(800);
   const std::string whole = read("model.pmesh");
   const std::string cut = whole.substr(0, whole.size() - 1);
-  expect_fault(vitrine({"publish", write("bad.pmesh", cut), "--data", path("data")}), 1);
-  EXPECT_FALSE(std::filesystem::exists(path("data")));
+  expect_fault(vitrine({"publish", write("bad.pmesh", cut), "--data", empty_folder("data")}), 1);
+  EXPECT_TRUE(std::filesystem::is_empty(path("data")));
 }
 
 TEST_F(VitrineCommand, a_remote_server_is_refused_with_the_way_round) {

@@ -34,6 +34,11 @@ class VitrineCommand : public testing::Test {
     std::ofstream(path(name), std::ios::binary) << contents;
     return path(name);
   }
+  // An empty folder, which may become an installation.
+  std::string empty_folder(const std::string& name) const {
+    std::filesystem::create_directory(path(name));
+    return path(name);
+  }
   std::string read(const std::string& name) const {
     std::ifstream in(path(name), std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

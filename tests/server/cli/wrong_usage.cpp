@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
+
 #include "vitrine_command.h"
 
 namespace vitrine::test {
@@ -64,17 +66,21 @@ TEST_F(VitrineCommand, inputs_that_are_no_mesh_are_refused_and_nothing_is_writte
        "property float y\nproperty float z\nelement face 10737418240\n"
        "property list uchar int vertex_indices\nend_header\n0123456789"},
       {"huge.stl", std::string(80, ' ') + "\xFF\xFF\xFF\xFF" + std::string(50, '\0')}};
+  const std::string data = empty_folder("data");
   for (const auto& [name, contents] : inputs) {
     const std::string in = write(name, contents);
     const ProgramResult built = vitrine({"build", in, "-o", path("out.pmesh")});
     expect_fault(built, 1);
     EXPECT_THAT(built.errors, HasSubstr(name));
-    expect_fault(vitrine({"publish", in, "--data", path("data")}), 1);
+    const ProgramResult published = vitrine({"publish", in, "--data", data});
+    expect_fault(published, 1);
+    EXPECT_THAT(published.errors, HasSubstr(name));
     expect_fault(vitrine({"measure", in, in}), 1);
     expect_fault(vitrine({"info", in}), 1);
     std::filesystem::remove(in);
   }
-  EXPECT_THAT(files(), ElementsAre());
+  EXPECT_THAT(files(), ElementsAre("data"));
+  EXPECT_TRUE(std::filesystem::is_empty(data));
 }
 
 TEST_F(VitrineCommand, a_line_end_in_a_name_does_not_break_the_message) {
@@ -106,6 +112,17 @@ TEST_F(VitrineCommand, the_input_is_never_replaced_by_the_output) {
   expect_fault(result, 1);
   EXPECT_THAT(result.errors, HasSubstr("is the input itself"));
   EXPECT_EQ(read("in.pmesh"), mesh);
+}
+
+TEST_F(VitrineCommand, a_model_where_a_mesh_is_wanted_is_named_with_what_to_do) {
+  const std::string file = model(500);
+  const std::vector<std::vector<std::string>> lines = {{"build", file, "-o", path("again.pmesh")},
+                                                       {"verify", file, "--against", file}};
+  for (const auto& words : lines) {
+    const ProgramResult result = vitrine(words);
+    expect_fault(result, 1);
+    EXPECT_THAT(result.errors, HasSubstr("model.pmesh is a .pmesh, no mesh; name the mesh"));
+  }
 }
 
 TEST_F(VitrineCommand, a_mesh_is_not_replaced_by_a_model) {
@@ -146,6 +163,19 @@ TEST_F(VitrineCommand, a_full_stdout_is_an_error) {
   EXPECT_THAT(result.errors, HasSubstr("No space left on device"));
 }
 
+TEST_F(VitrineCommand, a_closed_stdout_ends_it_in_silence) {
+  const std::string file = model(500);
+  const std::string into_nothing = "exec 3> >(:); wait $!; \"$0\" \"$@\" >&3";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"info", file}, {"info", file, "--json"}, {"--help"}}) {
+    std::vector<std::string> line = {"bash", "-c", into_nothing, kVitrine};
+    line.insert(line.end(), words.begin(), words.end());
+    const ProgramResult result = run_program(line);
+    EXPECT_EQ(result.exit_code, 128 + SIGPIPE);
+    EXPECT_EQ(result.errors, "");
+  }
+}
+
 // Runs the command with `out` on a small disk of its own, in a private mount namespace: `prepare`
 // runs first, and the names of the files left there are added to the output.
 ProgramResult run_on_small_disk(const std::string& prepare, const std::string& out,
@@ -173,7 +203,7 @@ TEST_F(VitrineCommand, a_full_disk_is_an_error_and_leaves_no_part_of_a_file) {
 TEST_F(VitrineCommand, a_full_disk_under_an_installation_is_named) {
   const std::string in = write("in.ply", bumpy_ply(500));
   std::filesystem::create_directory(path("out"));
-  const std::string publish_and_fill = "\"$1\" publish '" + in +
+  const std::string publish_and_fill = "mkdir \"$out/data\" && \"$1\" publish '" + in +
                                        "' --data \"$out/data\" > \"$out/published\" && "
                                        "{ head -c 2000000 /dev/zero > \"$out/filler\"; } 2>&-";
   const ProgramResult result = run_on_small_disk(publish_and_fill + " || true", path("out"),

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/levels.h"
+
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+TEST(BoundText, has_five_digits_that_are_never_below_the_bound) {
+  for (const double scale : {1e-7, 1e-3, 1.0, 1e4}) {
+    for (double bound = scale; bound < 12 * scale; bound *= 1.000137) {
+      const double named = std::stod(cli::bound_text(bound));
+      EXPECT_GE(named, bound);
+      EXPECT_LE(named, bound * 1.0001001);
+    }
+  }
+}
+
+TEST(BoundText, leaves_a_short_number_as_it_is) {
+  EXPECT_EQ(cli::bound_text(0), "0");
+  EXPECT_EQ(cli::bound_text(0.5), "0.5");
+  EXPECT_EQ(cli::bound_text(0.10186), "0.10186");
+}
+
+TEST_F(VitrineCommand, the_error_that_a_refusal_names_is_accepted) {
+  static const std::regex kNamed("an error of ([^;]+);");
+  for (const int faces : {500, 700, 1'100, 1'500}) {
+    const std::string file = model(faces);
+    const ProgramResult refused = vitrine({"decode", file, "-o", path("out.ply"), "--error", "0"});
+    std::smatch named;
+    ASSERT_TRUE(std::regex_search(refused.errors, named, kNamed)) << refused.errors;
+    vitrine_json({"decode", file, "-o", path("out.ply"), "--error", named[1]});
+    EXPECT_NE(vitrine({"info", file}).output.find(" " + named[1].str() + " "), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace vitrine::test
