@@ -16,6 +16,8 @@ struct StripeCount {
   std::uint64_t frames = 0, rows = 0;  // rows with a stripe that the next one continues
   std::uint64_t saturated = 0, doubled = 0;
   std::uint64_t pixels = 0, full = 0;  // of the pictures, with and without laser; full: see below
+
+  bool operator==(const StripeCount&) const = default;
 };
 
 StripeCount count(std::span<const StripePoint> stripe);

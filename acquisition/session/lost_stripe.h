@@ -11,17 +11,15 @@ namespace vitrine {
 
 class LostStripe {
  public:
-  // `is_accepted`: it was lost before and the operator went on.
-  LostStripe(int steps_of_a_turn, bool is_accepted)
-      : most_(std::max(steps_of_a_turn / 8, 3)), lost_(is_accepted ? most_ : 0) {}
+  explicit LostStripe(int steps_of_a_turn) : most_(std::max(steps_of_a_turn / 8, 3)) {}
 
-  // Of the next step, the `steps_done`-th. Fails (kBadInput) at the end of an eighth of a turn
-  // without stripe.
+  // Of the next step, the `steps_done`-th. Fails (kBadInput) once at the end of an eighth of a turn
+  // without stripe: who goes on has accepted it.
   Expected<void> add(const StripeCount& stripe, int steps_done);
 
  private:
   const int most_;
-  int lost_;  // steps in a row
+  int lost_ = 0;  // steps in a row
   StripeCount sum_;
 };
 

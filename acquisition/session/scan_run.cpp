@@ -52,9 +52,9 @@ Expected<void> ScanRun::open_folder() {
   journal_ = std::move(*journal);
   profiles_ = std::move(contents.profiles);
   stands_at_ = contents.stands_at.value_or(0);
-  const bool is_lost =
-      !profiles_.empty() && !shows_stripe({.frames = 1, .rows = profiles_.back().points.size()});
-  lost_.emplace(means_.request.steps, is_lost);
+  lost_.emplace(means_.request.steps);
+  for (int step = 0; step < steps_done(); ++step)
+    (void)lost_->add(contents.stripes[step], step + 1);  // what there is to say was said then
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
@@ -202,7 +202,7 @@ Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
   if (request.keep_frames) {
     if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
   }
-  if (auto stored = journal_->append(measured->profile); !stored) return stored;
+  if (auto stored = journal_->append(measured->profile, measured->stripe); !stored) return stored;
   means_.preview.show(frames.lit);
   means_.preview.add(measured->profile);
   fresh_ = std::move(*measured);

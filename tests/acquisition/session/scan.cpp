@@ -311,6 +311,33 @@ TEST_F(ScanTest, a_stripe_that_is_lost_on_the_way_stops_the_scan_once) {
   EXPECT_EQ(run(*scan), ScanState::kDone) << "the operator went on";
 }
 
+// Where it stops depends on the steps alone, not on whether somebody paused among them.
+TEST_F(ScanTest, a_pause_while_the_stripe_is_lost_does_not_hide_that) {
+  constexpr int kManySteps = 40;
+  const auto run_with_pause_at = [&](int pause) {
+    auto scan = this->scan(fmt::format("paused-{}", pause), {.steps = kManySteps});
+    world_.calls.clear();
+    world_.degrees = 0;
+    world_.meanwhile = [&](const std::string& call, int count) {
+      if (call == "turn" && count == pause) (void)scan->pause();
+      if (call != "capture") return;
+      const std::lock_guard lock(world_.mutex);
+      const bool is_lost = world_.degrees >= 99 && world_.degrees < 180;
+      world_.object = is_lost ? FakeObject::kNothing : FakeObject::kColumn;
+    };
+    EXPECT_EQ(run(*scan), pause > 0 ? ScanState::kPaused : ScanState::kFailed);
+    if (pause > 0) {
+      EXPECT_EQ(run(*scan), ScanState::kFailed) << pause;
+    }
+    EXPECT_EQ(scan->status().steps_done, 16) << pause;
+    return scan->status().error.value_or(Error{}).message;
+  };
+  const std::string undisturbed = run_with_pause_at(0);
+  EXPECT_THAT(undisturbed, HasSubstr("the stripe is lost since step 12 of the scan, no stripe"));
+  for (const int pause : {10, 13, 14, 15})
+    EXPECT_EQ(run_with_pause_at(pause), undisturbed) << pause;
+}
+
 TEST_F(ScanTest, a_few_steps_without_stripe_are_the_object_s_shape) {
   auto scan = this->scan("scan", {.steps = 40});
   world_.meanwhile = [&](const std::string& call, int count) {
