@@ -335,7 +335,7 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
   if (job.kind == JobKind::kReprocess) return reprocess(run, *station);
   station->backend().allow(run.stops_known());
   auto end = job.kind == JobKind::kScan ? work_on_scan(run, *station) : calibrate(run, *station);
-  if (run.wish() != JobWish::kStop) station->look();  // what is known of it may have changed
+  if (!queue_.is_stopping()) station->look();  // what is known of it may have changed
   return end;
 }
 
