@@ -189,12 +189,12 @@ tl::expected<FramePair, ScanRun::Setback> ScanRun::take(LiveScanner& scanner, in
 }
 
 void ScanRun::measure(int step, FramePair frames) {
-  pending_ = std::async(std::launch::async, [this, step, frames = std::move(frames)] {
-    return measure_and_store(step, frames);
+  pending_ = std::async(std::launch::async, [this, step, frames = std::move(frames)]() mutable {
+    return measure_and_store(step, std::move(frames));
   });
 }
 
-Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
+Expected<void> ScanRun::measure_and_store(int step, FramePair frames) {
   const ScanRequest& request = means_.request;
   auto measured =
       measure_profile(frames, calibration_, request.processing.stripe, angle_of(request, step));
@@ -203,7 +203,7 @@ Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
     if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
   }
   if (auto stored = journal_->append(measured->profile, measured->stripe); !stored) return stored;
-  means_.preview.show(frames.lit);
+  means_.preview.show(std::move(frames.lit));
   means_.preview.add(measured->profile);
   fresh_ = std::move(*measured);
   return {};

@@ -92,7 +92,7 @@ class ScanRun {
   Outcome turn(LiveScanner& scanner, int step);
   tl::expected<FramePair, Setback> take(LiveScanner& scanner, int step);
   void measure(int step, FramePair frames);
-  Expected<void> measure_and_store(int step, const FramePair& frames);
+  Expected<void> measure_and_store(int step, FramePair frames);
   Expected<void> settle();
   Expected<void> open_folder();
 

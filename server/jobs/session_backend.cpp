@@ -38,15 +38,16 @@ class SessionView final : public ScanView {
  public:
   explicit SessionView(std::shared_ptr<const Scan> scan) : scan_(std::move(scan)) {}
 
-  std::shared_ptr<const Frame> frame() const override { return scan_->preview().snapshot().frame; }
+  std::shared_ptr<const Frame> frame() const override { return scan_->preview().frame().frame; }
   std::vector<std::array<double, 2>> profile() const override {
     std::vector<std::array<double, 2>> points;
-    for (const ProfilePoint& point : scan_->preview().snapshot().profile.points)
+    const Profile profile = scan_->preview().profile();
+    for (const ProfilePoint& point : profile.points)
       points.push_back({point.at.rho, point.at.z});
     return points;
   }
   ScanTold told() const override { return told_of(scan_->status()); }
-  std::size_t points() const override { return scan_->preview().snapshot().cloud_size; }
+  std::size_t points() const override { return scan_->preview().cloud_size(); }
   std::vector<std::array<float, 3>> points_from(std::size_t first) const override {
     return scan_->preview().cloud_from(first);
   }
