@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <vector>
 
 namespace vitrine {
@@ -68,6 +70,10 @@ StripeCount count_full(const Frame& picture) {
 StripeCount operator+(const StripeCount& a, const StripeCount& b) {
   return {a.frames + b.frames,   a.rows + b.rows,     a.saturated + b.saturated,
           a.doubled + b.doubled, a.pixels + b.pixels, a.full + b.full};
+}
+
+StripeCount sum(std::span<const StripeCount> counts) {
+  return std::accumulate(counts.begin(), counts.end(), StripeCount{}, std::plus<>());
 }
 
 bool shows_stripe(const StripeCount& scan) {

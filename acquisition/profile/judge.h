@@ -25,6 +25,7 @@ StripeCount count(std::span<const StripePoint> stripe);
 // picture without laser is full, the one with it shows no stripe, be the laser as bright as it may.
 StripeCount count_full(const Frame& picture);
 StripeCount operator+(const StripeCount& a, const StripeCount& b);
+StripeCount sum(std::span<const StripeCount> counts);
 
 // Whether there is something to measure.
 bool shows_stripe(const StripeCount& scan);

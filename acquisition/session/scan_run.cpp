@@ -52,9 +52,10 @@ Expected<void> ScanRun::open_folder() {
   journal_ = std::move(*journal);
   profiles_ = std::move(contents.profiles);
   stands_at_ = contents.stands_at.value_or(0);
-  lost_.emplace(means_.request.steps);
-  for (int step = 0; step < steps_done(); ++step)
-    (void)lost_->add(contents.stripes[step], step + 1);  // what there is to say was said then
+  stripe_watch_.emplace(means_.request.steps);
+  for (int step = 0; step < steps_done(); ++step) {
+    (void)stripe_watch_->add(contents.stripes[step], step + 1);  // what it says was said then
+  }
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
@@ -215,7 +216,7 @@ Expected<void> ScanRun::settle() {
   if (auto stored = pending_.get(); !stored) return stored;
   profiles_.push_back(std::move(fresh_.profile));
   means_.watch.step_done(steps_done());
-  return lost_->add(fresh_.stripe, steps_done());
+  return stripe_watch_->add(fresh_.stripe, steps_done());
 }
 
 }  // namespace vitrine

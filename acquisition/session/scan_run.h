@@ -13,10 +13,10 @@
 
 #include "acquisition/calibration/calibration.h"
 #include "acquisition/session/live_preview.h"
-#include "acquisition/session/lost_stripe.h"
 #include "acquisition/session/profile_journal.h"
 #include "acquisition/session/scan_folder.h"
 #include "acquisition/session/scanner.h"
+#include "acquisition/session/stripe_watch.h"
 
 namespace vitrine {
 
@@ -104,8 +104,8 @@ class ScanRun {
   Calibration calibration_;
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
-  std::optional<LostStripe> lost_;
-  Measured fresh_;  // of step profiles_.size(); the other thread's until pending_ is there
+  std::optional<StripeWatch> stripe_watch_;
+  Measured fresh_;    // of step profiles_.size(); the other thread's until pending_ is there
   std::future<Expected<void>> pending_;
   int stands_at_ = 0;  // the step that the table was turned to last, as the journal says, too
   bool is_checked_ = false;

@@ -14,6 +14,7 @@
 namespace vitrine::test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -336,6 +337,36 @@ TEST_F(ScanTest, a_pause_while_the_stripe_is_lost_does_not_hide_that) {
   EXPECT_THAT(undisturbed, HasSubstr("the stripe is lost since step 12 of the scan, no stripe"));
   for (const int pause : {10, 13, 14, 15})
     EXPECT_EQ(run_with_pause_at(pause), undisturbed) << pause;
+}
+
+TEST_F(ScanTest, a_second_laser_that_comes_on_on_the_way_stops_the_scan_once) {
+  auto scan = this->scan("scan", {.steps = 40});
+  world_.meanwhile = [&](const std::string& call, int) {
+    if (call != "capture") return;
+    const std::lock_guard lock(world_.mutex);
+    const bool is_on = world_.degrees >= 180 && world_.degrees < 300;
+    world_.object = is_on ? FakeObject::kTwoStripes : FakeObject::kColumn;
+  };
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  EXPECT_THAT(
+      scan->status().error.value_or(Error{}).message,
+      AllOf(HasSubstr("the stripe has changed since step 19 of the scan, two stripes: 72 of "
+                      "120 rows"),
+            HasSubstr("switch the other laser off; then start a new scan")));
+  EXPECT_EQ(scan->status().steps_done, 23);
+  EXPECT_EQ(scan->folder().profiles()->size(), 23u) << "nothing is lost";
+  expect_dark(world_);
+  EXPECT_EQ(run(*scan), ScanState::kDone) << "the operator went on";
+}
+
+TEST_F(ScanTest, one_side_that_is_saturated_does_not_stop_the_scan) {
+  auto scan = this->scan("scan", {.steps = 40});
+  world_.meanwhile = [&](const std::string& call, int) {
+    if (call != "capture") return;
+    const std::lock_guard lock(world_.mutex);
+    world_.object = world_.degrees >= 180 ? FakeObject::kSaturated : FakeObject::kColumn;
+  };
+  EXPECT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
 }
 
 TEST_F(ScanTest, a_few_steps_without_stripe_are_the_object_s_shape) {
