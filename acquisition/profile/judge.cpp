@@ -76,6 +76,15 @@ StripeCount sum(std::span<const StripeCount> counts) {
   return std::accumulate(counts.begin(), counts.end(), StripeCount{}, std::plus<>());
 }
 
+RowShares shares(const StripeCount& scan, int height) {
+  const auto share = [](std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+  };
+  const std::uint64_t all = scan.frames * static_cast<std::uint64_t>(height);
+  return {share(all - std::min(all, scan.rows), all), share(scan.saturated, scan.rows),
+          share(scan.doubled, scan.rows)};
+}
+
 bool shows_stripe(const StripeCount& scan) {
   return static_cast<double>(scan.rows) > kLeastRows * static_cast<double>(scan.frames);
 }

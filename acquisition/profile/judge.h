@@ -27,6 +27,14 @@ StripeCount count_full(const Frame& picture);
 StripeCount operator+(const StripeCount& a, const StripeCount& b);
 StripeCount sum(std::span<const StripeCount> counts);
 
+// 0..1: of all rows of the pictures those without a stripe, of the others those that are saturated,
+// and those that show two.
+struct RowShares {
+  double empty = 0, saturated = 0, doubled = 0;
+};
+// `height`: of a picture, pixels.
+RowShares shares(const StripeCount& scan, int height);
+
 // Whether there is something to measure.
 bool shows_stripe(const StripeCount& scan);
 

@@ -31,19 +31,20 @@ Expected<void> check_journal(const ScanFolder& folder, int steps_there, int step
                           folder.journal().string(), steps_there, steps));
 }
 
-Expected<void> measure_again(std::vector<Profile>& profiles, const ScanFolder& folder,
+Expected<void> measure_again(JournalContents& scan, const ScanFolder& folder,
                              const ScanRequest& request, const Calibration& calibration,
                              const ReprocessOptions& options) {
-  for (std::size_t i = 0; i < profiles.size(); ++i) {
+  const std::size_t steps = scan.profiles.size();
+  for (std::size_t i = 0; i < steps; ++i) {
     const int step = static_cast<int>(i);
     const auto frames = folder.frames(step);
     if (!frames) return tl::unexpected(frames.error());
     auto measured =
         measure_profile(*frames, calibration, options.processing.stripe, angle_of(request, step));
     if (!measured) return tl::unexpected(measured.error());
-    profiles[i] = std::move(measured->profile);
-    if (options.progress)
-      options.progress(static_cast<double>(i + 1) / static_cast<double>(profiles.size()));
+    scan.profiles[i] = std::move(measured->profile);
+    scan.stripes[i] = measured->stripe;
+    if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(steps));
   }
   return {};
 }
@@ -63,9 +64,9 @@ Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem:
   const int number = options.calibration == 0 ? (*record)->calibration : options.calibration;
   const auto calibration = chosen(**record, calibrations, number);
   if (!calibration) return tl::unexpected(calibration.error());
-  auto profiles = folder.profiles();
-  if (!profiles) return tl::unexpected(profiles.error());
-  const int steps = static_cast<int>(profiles->size());
+  auto scan = folder.measured();
+  if (!scan) return tl::unexpected(scan.error());
+  const int steps = static_cast<int>(scan->profiles.size());
   if (auto whole = check_journal(folder, steps, request.steps); !whole)
     return tl::unexpected(whole.error());
   const bool other_points =
@@ -78,12 +79,12 @@ Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem:
                                                              : "another stripe method"));
   }
   if (other_points) {
-    if (auto measured = measure_again(*profiles, folder, request, *calibration, options); !measured)
+    if (auto measured = measure_again(*scan, folder, request, *calibration, options); !measured)
       return tl::unexpected(measured.error());
   }
-  return mesh_of(*profiles, *calibration, options.processing).map([&](ScannedSurface surface) {
-    return Reprocessed{{std::move(surface)}, steps};
-  });
+  auto surface = mesh_of(scan->profiles, *calibration, options.processing);
+  if (!surface) return tl::unexpected(surface.error());
+  return Reprocessed{{std::move(*surface)}, steps, sum(scan->stripes)};
 }
 
 }  // namespace vitrine

@@ -17,6 +17,7 @@ struct ReprocessOptions {
 
 struct Reprocessed : ScannedSurface {
   int steps = 0;  // that it is made of
+  StripeCount stripe;
 };
 
 // Of all steps that are on disk, also of a scan that was cancelled. Another way to find the stripe

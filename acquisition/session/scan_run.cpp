@@ -54,6 +54,7 @@ Expected<void> ScanRun::open_folder() {
   stands_at_ = contents.stands_at.value_or(0);
   stripe_watch_.emplace(means_.request.steps);
   for (int step = 0; step < steps_done(); ++step) {
+    seen_ = seen_ + contents.stripes[step];
     (void)stripe_watch_->add(contents.stripes[step], step + 1);  // what it says was said then
   }
   auto record = means_.folder.record();
@@ -215,7 +216,8 @@ Expected<void> ScanRun::settle() {
   if (!pending_.valid()) return {};
   if (auto stored = pending_.get(); !stored) return stored;
   profiles_.push_back(std::move(fresh_.profile));
-  means_.watch.step_done(steps_done());
+  seen_ = seen_ + fresh_.stripe;
+  means_.watch.step_done(steps_done(), seen_);
   return stripe_watch_->add(fresh_.stripe, steps_done());
 }
 

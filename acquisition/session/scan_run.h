@@ -40,7 +40,7 @@ class ScanWatch {
   // Returns early when it is interrupted.
   virtual void sleep(std::chrono::milliseconds at_most) = 0;
   virtual void checks_passed() = 0;
-  virtual void step_done(int steps_done) = 0;
+  virtual void step_done(int steps_done, const StripeCount& so_far) = 0;
   virtual void waits_for(const Error& lost) = 0;
 };
 
@@ -105,6 +105,7 @@ class ScanRun {
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
   std::optional<StripeWatch> stripe_watch_;
+  StripeCount seen_;  // in all profiles_
   Measured fresh_;    // of step profiles_.size(); the other thread's until pending_ is there
   std::future<Expected<void>> pending_;
   int stands_at_ = 0;  // the step that the table was turned to last, as the journal says, too

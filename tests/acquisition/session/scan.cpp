@@ -108,7 +108,7 @@ TEST_F(ScanTest, cancelling_keeps_what_was_measured) {
   EXPECT_FALSE(scan->pause());
   const auto again = reopened();
   EXPECT_EQ(again->status().state, ScanState::kCancelled);
-  EXPECT_EQ(again->folder().profiles()->size(), 5u);
+  EXPECT_EQ(again->folder().measured()->profiles.size(), 5u);
 }
 
 TEST_F(ScanTest, what_a_state_does_not_allow_is_refused_with_the_state) {
@@ -354,7 +354,7 @@ TEST_F(ScanTest, a_second_laser_that_comes_on_on_the_way_stops_the_scan_once) {
                       "120 rows"),
             HasSubstr("switch the other laser off; then start a new scan")));
   EXPECT_EQ(scan->status().steps_done, 23);
-  EXPECT_EQ(scan->folder().profiles()->size(), 23u) << "nothing is lost";
+  EXPECT_EQ(scan->folder().measured()->profiles.size(), 23u) << "nothing is lost";
   expect_dark(world_);
   EXPECT_EQ(run(*scan), ScanState::kDone) << "the operator went on";
 }
