@@ -31,6 +31,12 @@ Expected<void> check_journal(const ScanFolder& folder, int steps_there, int step
                           folder.journal().string(), steps_there, steps));
 }
 
+// What of `options` moves the points; null: nothing.
+const char* other_points(const ScanRequest& scan, int own, const ReprocessOptions& options) {
+  if (options.calibration != 0 && options.calibration != own) return "another calibration";
+  return options.processing.stripe == scan.processing.stripe ? nullptr : "another stripe method";
+}
+
 Expected<void> measure_again(JournalContents& scan, const ScanFolder& folder,
                              const ScanRequest& request, const Calibration& calibration,
                              const ReprocessOptions& options) {
@@ -51,6 +57,14 @@ Expected<void> measure_again(JournalContents& scan, const ScanFolder& folder,
 
 }  // namespace
 
+Expected<void> check_pictures(const ScanRequest& scan, int own, const ReprocessOptions& options) {
+  const char* what = other_points(scan, own, options);
+  if (what == nullptr || scan.keep_frames) return {};
+  return fail(ErrorCode::kState, fmt::format("{} needs the pictures of the scan, which were not "
+                                             "kept; scan again and keep the frames",
+                                             what));
+}
+
 Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem::path& calibrations,
                                 const ReprocessOptions& options) {
   const auto record = folder.record();
@@ -69,16 +83,9 @@ Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem:
   const int steps = static_cast<int>(scan->profiles.size());
   if (auto whole = check_journal(folder, steps, request.steps); !whole)
     return tl::unexpected(whole.error());
-  const bool other_points =
-      number != (*record)->calibration || options.processing.stripe != request.processing.stripe;
-  if (other_points && !request.keep_frames) {
-    return fail(ErrorCode::kState,
-                fmt::format("{} needs the pictures of the scan, which were not kept; scan again "
-                            "and keep the frames",
-                            number != (*record)->calibration ? "another calibration"
-                                                             : "another stripe method"));
-  }
-  if (other_points) {
+  if (auto kept = check_pictures(request, (*record)->calibration, options); !kept)
+    return tl::unexpected(kept.error());
+  if (other_points(request, (*record)->calibration, options) != nullptr) {
     if (auto measured = measure_again(*scan, folder, request, *calibration, options); !measured)
       return tl::unexpected(measured.error());
   }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "acquisition/session/reprocess.h"
 #include "codec/export/write_mesh.h"
 #include "server/jobs/build_child.h"
 #include "server/jobs/clock.h"
@@ -214,6 +215,12 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
   if (auto unused = check_unused(scan); !unused) return Unexpected(unused.error());
   if (scan.step == 0)
     return fail(ErrorCode::kState, "the scan has no steps to make a model of; resume it first");
+  const auto ordered = order_of(scan);
+  if (!ordered) return Unexpected(ordered.error());
+  const ReprocessOptions options{.processing = order.request.processing,
+                                 .calibration = order.calibration};
+  if (auto kept = check_pictures(ordered->request, scan.calibration, options); !kept)
+    return Unexpected(kept.error());
   JobRecord job = new_job(JobKind::kReprocess, scan.scanner);
   job.scan = scan.id;
   job.parameters = to_json_text(order);

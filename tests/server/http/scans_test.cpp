@@ -293,9 +293,24 @@ TEST_F(ScanRoutes, WhatTheScannerOrTheStateDoesNotAllowIsAConflict) {
   EXPECT_EQ(fault_of(post(scan_path(started) + "/reprocess", {{"steps", 5}})), "steps");
 }
 
+TEST_F(ScanRoutes, WithoutPicturesOtherPointsAreAConflictAtOnce) {
+  const json started = begin();
+  settle();
+  for (const json& body : {json{{"stripe", "blais-rioux"}}, json{{"calibration", 2}}}) {
+    const HttpAnswer answer = post(scan_path(started) + "/reprocess", body);
+    EXPECT_EQ(answer.status, 409) << body;
+    EXPECT_EQ(answer.field("content-type"), "application/problem+json");
+    EXPECT_NE(answer.body.find("which were not kept; scan again"), std::string::npos);
+  }
+  EXPECT_EQ(json::parse(get("/jobs").body)["jobs"].size(), 1u);
+  const json same = {{"stripe", "derivative-of-gaussian"}, {"calibration", 1}};
+  EXPECT_EQ(post(scan_path(started) + "/reprocess", same).status, 202);
+  settle("");
+}
+
 TEST_F(ScanRoutes, AScanIsPausedResumedCancelledAndReprocessed) {
   HeldAtStep held(world_, 3);
-  const json started = begin();
+  const json started = begin({{"keep_frames", true}});
   held.await();
   EXPECT_EQ(post(scan_path(started) + "/pause").status, 202);
   held.open();
