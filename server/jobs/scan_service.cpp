@@ -86,6 +86,7 @@ class ScanService::Listener final : public ScanListener {
     const bool calibration_is_new = entry_.calibration != told.calibration && told.calibration > 0;
     entry_.step = told.step;
     if (calibration_is_new) entry_.calibration = told.calibration;
+    if (told.rows) entry_.rows = told.rows;
     if (view_) entry_.points = view_->points();
     {
       const std::scoped_lock lock(service_.mutex_);

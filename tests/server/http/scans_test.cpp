@@ -221,6 +221,7 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   EXPECT_EQ(scan["steps"], 12);
   EXPECT_EQ(scan["title"], "A ring");
   EXPECT_EQ(scan["points"], 50);
+  EXPECT_EQ(scan["rows"], nullptr);
   EXPECT_EQ(json::parse(get("/scanners/rig").body)["scan"], started["id"]);
   const HttpAnswer points = get(scan_path(started) + "/points?from=48");
   ASSERT_EQ(points.body.size(), 2 * 12u);
@@ -237,6 +238,7 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   scan = json::parse(get(scan_path(started)).body);
   EXPECT_EQ(scan["state"], "done") << scan;
   EXPECT_EQ(scan["progress"], 1);
+  EXPECT_EQ(scan["rows"], json::parse(R"({"empty":0.5,"saturated":0.25,"doubled":0.125})"));
   ASSERT_TRUE(scan["model"].is_string());
   const std::string model = "/models/" + scan["model"].get<std::string>();
   EXPECT_EQ(ask("GET", model + "/export.ply", "").status, 404);
