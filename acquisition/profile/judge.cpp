@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <vector>
 
 namespace vitrine {
@@ -68,6 +70,19 @@ StripeCount count_full(const Frame& picture) {
 StripeCount operator+(const StripeCount& a, const StripeCount& b) {
   return {a.frames + b.frames,   a.rows + b.rows,     a.saturated + b.saturated,
           a.doubled + b.doubled, a.pixels + b.pixels, a.full + b.full};
+}
+
+StripeCount sum(std::span<const StripeCount> counts) {
+  return std::accumulate(counts.begin(), counts.end(), StripeCount{}, std::plus<>());
+}
+
+RowShares shares(const StripeCount& scan, int height) {
+  const auto share = [](std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+  };
+  const std::uint64_t all = scan.frames * static_cast<std::uint64_t>(height);
+  return {share(all - std::min(all, scan.rows), all), share(scan.saturated, scan.rows),
+          share(scan.doubled, scan.rows)};
 }
 
 bool shows_stripe(const StripeCount& scan) {

@@ -16,6 +16,8 @@ struct StripeCount {
   std::uint64_t frames = 0, rows = 0;  // rows with a stripe that the next one continues
   std::uint64_t saturated = 0, doubled = 0;
   std::uint64_t pixels = 0, full = 0;  // of the pictures, with and without laser; full: see below
+
+  bool operator==(const StripeCount&) const = default;
 };
 
 StripeCount count(std::span<const StripePoint> stripe);
@@ -23,6 +25,15 @@ StripeCount count(std::span<const StripePoint> stripe);
 // picture without laser is full, the one with it shows no stripe, be the laser as bright as it may.
 StripeCount count_full(const Frame& picture);
 StripeCount operator+(const StripeCount& a, const StripeCount& b);
+StripeCount sum(std::span<const StripeCount> counts);
+
+// 0..1: of all rows of the pictures those without a stripe, of the others those that are saturated,
+// and those that show two.
+struct RowShares {
+  double empty = 0, saturated = 0, doubled = 0;
+};
+// `height`: of a picture, pixels.
+RowShares shares(const StripeCount& scan, int height);
 
 // Whether there is something to measure.
 bool shows_stripe(const StripeCount& scan);

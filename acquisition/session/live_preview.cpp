@@ -2,6 +2,7 @@
 #include "acquisition/session/live_preview.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vitrine {
 namespace {
@@ -29,11 +30,10 @@ std::shared_ptr<const Frame> shrink(const Frame& frame, int scale) {
 LivePreview::LivePreview(int steps)
     : share_(std::max<std::size_t>(1, kCloudPoints / static_cast<std::size_t>(steps))) {}
 
-void LivePreview::show(const Frame& lit) {
-  const int scale = scale_for(lit.width);
-  auto small = shrink(lit, scale);
+void LivePreview::show(Frame lit) {
+  auto frame = std::make_shared<const Frame>(std::move(lit));
   const std::lock_guard lock(mutex_);
-  frame_ = std::move(small), frame_scale_ = scale;
+  frame_ = std::move(frame);
 }
 
 void LivePreview::add(const Profile& profile) {
@@ -46,9 +46,25 @@ void LivePreview::add(const Profile& profile) {
   }
 }
 
-ScanPreview LivePreview::snapshot() const {
+PreviewFrame LivePreview::frame() const {
+  std::shared_ptr<const Frame> large;
+  {
+    const std::lock_guard lock(mutex_);
+    large = frame_;
+  }
+  if (!large) return {};
+  const int scale = scale_for(large->width);
+  return {shrink(*large, scale), scale};
+}
+
+Profile LivePreview::profile() const {
   const std::lock_guard lock(mutex_);
-  return {frame_, frame_scale_, profile_, cloud_.size()};
+  return profile_;
+}
+
+std::size_t LivePreview::cloud_size() const {
+  const std::lock_guard lock(mutex_);
+  return cloud_.size();
 }
 
 std::vector<std::array<float, 3>> LivePreview::cloud_from(std::size_t first) const {

@@ -13,12 +13,10 @@
 
 namespace vitrine {
 
-struct ScanPreview {
+struct PreviewFrame {
   std::shared_ptr<const Frame>
-      frame;                   // laser on, at most kPreviewWidth wide; null before the first
-  int frame_scale = 1;         // a pixel of it is that many of the camera's on either side
-  Profile profile;             // the last one
-  std::size_t cloud_size = 0;  // points so far
+      frame;      // laser on, at most kPreviewWidth wide; null before the first
+  int scale = 1;  // a pixel of it is that many of the camera's on either side
 };
 
 inline constexpr int kPreviewWidth = 650;
@@ -29,10 +27,12 @@ class LivePreview {
   // For a scan of `steps` profiles, each of which has the same share of the cloud.
   explicit LivePreview(int steps);
 
-  void show(const Frame& lit);
+  void show(Frame lit);
   void add(const Profile& profile);
 
-  ScanPreview snapshot() const;
+  PreviewFrame frame() const;      // made when it is asked for: a scan has no time to lose
+  Profile profile() const;         // the last one
+  std::size_t cloud_size() const;  // points so far
   // The points of the cloud from number `first` on, mm, in the frame of the object. The cloud only
   // grows, so that a viewer asks for what it does not have.
   std::vector<std::array<float, 3>> cloud_from(std::size_t first) const;
@@ -40,9 +40,8 @@ class LivePreview {
  private:
   const std::size_t share_;  // points of a profile, at most
 
-  mutable std::mutex mutex_;  // of what follows
-  std::shared_ptr<const Frame> frame_;
-  int frame_scale_ = 1;
+  mutable std::mutex mutex_;            // of what follows
+  std::shared_ptr<const Frame> frame_;  // as large as the camera's
   Profile profile_;
   std::vector<std::array<float, 3>> cloud_;
 };

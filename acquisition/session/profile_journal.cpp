@@ -16,8 +16,9 @@ namespace vitrine {
 namespace {
 
 // A record: kind, size of its body, body, and the first eight bytes of the SHA-256 of all these.
-constexpr std::uint32_t kProfile = 1, kTurn = 2;
+constexpr std::uint32_t kUncounted = 1, kTurn = 2, kProfile = 3;  // the first: by older versions
 constexpr std::size_t kHeadBytes = 8, kChecksumBytes = 8, kPointBytes = 3 * 8 + 4 + 1;
+constexpr std::size_t kThetaBytes = 8, kCountBytes = 5 * 8;
 
 void put_checksum(std::vector<std::uint8_t>& record) {
   const Sha256 digest = sha256(record);
@@ -30,8 +31,11 @@ bool has_checksum(std::span<const std::uint8_t> record) {
   return std::equal(record.end() - kChecksumBytes, record.end(), digest.begin());
 }
 
-std::vector<std::uint8_t> body_of(const Profile& profile) {
+std::vector<std::uint8_t> body_of(const Profile& profile, const StripeCount& stripe) {
   ByteWriter out;
+  for (const std::uint64_t count :
+       {stripe.rows, stripe.saturated, stripe.doubled, stripe.pixels, stripe.full})
+    out.u64(count);
   out.f64(profile.theta);
   for (const ProfilePoint& point : profile.points) {
     out.f64(point.at.rho), out.f64(point.at.lateral), out.f64(point.at.z);
@@ -41,8 +45,11 @@ std::vector<std::uint8_t> body_of(const Profile& profile) {
   return out.take();
 }
 
-Profile profile_of(std::span<const std::uint8_t> body) {
-  ByteReader in(body);
+StripeCount stripe_of(ByteReader& in) {
+  return {1, in.u64(), in.u64(), in.u64(), in.u64(), in.u64()};
+}
+
+Profile profile_of(ByteReader& in) {
   Profile profile{.theta = in.f64(), .points = {}};
   profile.points.resize(in.left() / kPointBytes);
   for (ProfilePoint& point : profile.points) {
@@ -51,6 +58,22 @@ Profile profile_of(std::span<const std::uint8_t> body) {
     point.flags = in.u8();
   }
   return profile;
+}
+
+bool is_profile(std::uint32_t kind, std::size_t body) {
+  const std::size_t before = kThetaBytes + (kind == kProfile ? kCountBytes : 0);
+  return (kind == kProfile || kind == kUncounted) && body >= before &&
+         (body - before) % kPointBytes == 0;
+}
+
+void add_profile(JournalContents& contents, std::uint32_t kind,
+                 std::span<const std::uint8_t> body) {
+  ByteReader in(body);
+  StripeCount stripe{.frames = 1};
+  if (kind == kProfile) stripe = stripe_of(in);
+  contents.profiles.push_back(profile_of(in));
+  if (kind == kUncounted) stripe.rows = contents.profiles.back().points.size();
+  contents.stripes.push_back(stripe);
 }
 
 // The next whole record's body, empty at the end or where it is torn.
@@ -76,8 +99,8 @@ JournalContents read_journal(std::span<const std::uint8_t> file) {
   std::uint32_t kind = 0;
   for (;;) {
     const auto body = next_record(file.subspan(contents.bytes), kind);
-    if (kind == kProfile && body.size() >= 8 && (body.size() - 8) % kPointBytes == 0) {
-      contents.profiles.push_back(profile_of(body));
+    if (is_profile(kind, body.size())) {
+      add_profile(contents, kind, body);
     } else if (kind == kTurn && body.size() == 4) {
       contents.stands_at = static_cast<int>(ByteReader(body).u32());
     } else {
@@ -104,8 +127,8 @@ Expected<ProfileJournal> ProfileJournal::open(const std::filesystem::path& path,
   return journal;
 }
 
-Expected<void> ProfileJournal::append(const Profile& profile) {
-  if (auto written = write(kProfile, body_of(profile)); !written) return written;
+Expected<void> ProfileJournal::append(const Profile& profile, const StripeCount& stripe) {
+  if (auto written = write(kProfile, body_of(profile, stripe)); !written) return written;
   if (::fdatasync(file_.get()) != 0) return refused("write", path_, errno);
   return {};
 }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "acquisition/profile/judge.h"
 #include "acquisition/profile/profile.h"
 #include "codec/core/expected.h"
 #include "codec/files/file_descriptor.h"
@@ -19,9 +20,10 @@ namespace vitrine {
 inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{4} << 30;
 
 struct JournalContents {
-  std::vector<Profile> profiles;  // of the steps 0, 1, 2, …
-  std::optional<int> stands_at;   // the step of the last note_turn()
-  std::size_t bytes = 0;          // of whole records; what follows is torn
+  std::vector<Profile> profiles;     // of the steps 0, 1, 2, …
+  std::vector<StripeCount> stripes;  // of each; of older versions' only about how many rows
+  std::optional<int> stands_at;      // the step of the last note_turn()
+  std::size_t bytes = 0;             // of whole records; what follows is torn
 };
 
 JournalContents read_journal(std::span<const std::uint8_t> file);
@@ -32,9 +34,9 @@ class ProfileJournal {
   static Expected<ProfileJournal> open(const std::filesystem::path& path,
                                        JournalContents& contents);
 
-  // The profile of the next step; on disk on return. After an error (kIo: a full disk) the file
-  // must be opened anew.
-  Expected<void> append(const Profile& profile);
+  // The profile of the next step and the stripe it was found in; on disk on return. After an error
+  // (kIo: a full disk) the file must be opened anew.
+  Expected<void> append(const Profile& profile, const StripeCount& stripe);
 
   // That the table stands at `step`, or soon will: a motion that has begun is completed when this
   // process has ended. Survives that, and the end of the computer together with the next profile.

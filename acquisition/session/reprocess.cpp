@@ -31,24 +31,39 @@ Expected<void> check_journal(const ScanFolder& folder, int steps_there, int step
                           folder.journal().string(), steps_there, steps));
 }
 
-Expected<void> measure_again(std::vector<Profile>& profiles, const ScanFolder& folder,
+// What of `options` moves the points; null: nothing.
+const char* other_points(const ScanRequest& scan, int own, const ReprocessOptions& options) {
+  if (options.calibration != 0 && options.calibration != own) return "another calibration";
+  return options.processing.stripe == scan.processing.stripe ? nullptr : "another stripe method";
+}
+
+Expected<void> measure_again(JournalContents& scan, const ScanFolder& folder,
                              const ScanRequest& request, const Calibration& calibration,
                              const ReprocessOptions& options) {
-  for (std::size_t i = 0; i < profiles.size(); ++i) {
+  const std::size_t steps = scan.profiles.size();
+  for (std::size_t i = 0; i < steps; ++i) {
     const int step = static_cast<int>(i);
     const auto frames = folder.frames(step);
     if (!frames) return tl::unexpected(frames.error());
     auto measured =
         measure_profile(*frames, calibration, options.processing.stripe, angle_of(request, step));
     if (!measured) return tl::unexpected(measured.error());
-    profiles[i] = std::move(measured->profile);
-    if (options.progress)
-      options.progress(static_cast<double>(i + 1) / static_cast<double>(profiles.size()));
+    scan.profiles[i] = std::move(measured->profile);
+    scan.stripes[i] = measured->stripe;
+    if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(steps));
   }
   return {};
 }
 
 }  // namespace
+
+Expected<void> check_pictures(const ScanRequest& scan, int own, const ReprocessOptions& options) {
+  const char* what = other_points(scan, own, options);
+  if (what == nullptr || scan.keep_frames) return {};
+  return fail(ErrorCode::kState, fmt::format("{} needs the pictures of the scan, which were not "
+                                             "kept; scan again and keep the frames",
+                                             what));
+}
 
 Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem::path& calibrations,
                                 const ReprocessOptions& options) {
@@ -63,27 +78,20 @@ Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem:
   const int number = options.calibration == 0 ? (*record)->calibration : options.calibration;
   const auto calibration = chosen(**record, calibrations, number);
   if (!calibration) return tl::unexpected(calibration.error());
-  auto profiles = folder.profiles();
-  if (!profiles) return tl::unexpected(profiles.error());
-  const int steps = static_cast<int>(profiles->size());
+  auto scan = folder.measured();
+  if (!scan) return tl::unexpected(scan.error());
+  const int steps = static_cast<int>(scan->profiles.size());
   if (auto whole = check_journal(folder, steps, request.steps); !whole)
     return tl::unexpected(whole.error());
-  const bool other_points =
-      number != (*record)->calibration || options.processing.stripe != request.processing.stripe;
-  if (other_points && !request.keep_frames) {
-    return fail(ErrorCode::kState,
-                fmt::format("{} needs the pictures of the scan, which were not kept; scan again "
-                            "and keep the frames",
-                            number != (*record)->calibration ? "another calibration"
-                                                             : "another stripe method"));
-  }
-  if (other_points) {
-    if (auto measured = measure_again(*profiles, folder, request, *calibration, options); !measured)
+  if (auto kept = check_pictures(request, (*record)->calibration, options); !kept)
+    return tl::unexpected(kept.error());
+  if (other_points(request, (*record)->calibration, options) != nullptr) {
+    if (auto measured = measure_again(*scan, folder, request, *calibration, options); !measured)
       return tl::unexpected(measured.error());
   }
-  return mesh_of(*profiles, *calibration, options.processing).map([&](ScannedSurface surface) {
-    return Reprocessed{{std::move(surface)}, steps};
-  });
+  auto surface = mesh_of(scan->profiles, *calibration, options.processing);
+  if (!surface) return tl::unexpected(surface.error());
+  return Reprocessed{{std::move(*surface)}, steps, sum(scan->stripes)};
 }
 
 }  // namespace vitrine

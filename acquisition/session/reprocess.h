@@ -17,11 +17,15 @@ struct ReprocessOptions {
 
 struct Reprocessed : ScannedSurface {
   int steps = 0;  // that it is made of
+  StripeCount stripe;
 };
 
-// Of all steps that are on disk, also of a scan that was cancelled. Another way to find the stripe
-// and another calibration need the scan's pictures: fails (kState) where they were not kept.
-// Fails (kBadInput) where the scan is done and yet steps are missing: its journal is damaged.
+// Of a scan with calibration number `own`: another calibration, and another way to find the stripe,
+// need its pictures. Fails (kState) where they were not kept.
+Expected<void> check_pictures(const ScanRequest& scan, int own, const ReprocessOptions& options);
+
+// Of all steps that are on disk, also of a scan that was cancelled. Fails as check_pictures(), and
+// (kBadInput) where the scan is done and yet steps are missing: its journal is damaged.
 Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem::path& calibrations,
                                 const ReprocessOptions& options);
 

@@ -47,17 +47,18 @@ Expected<std::unique_ptr<Scan>> Scan::reopen(Scanner scanner, const std::filesys
   if (!opened) return tl::unexpected(opened.error());
   const auto record = opened->record();
   if (!record) return tl::unexpected(record.error());
-  const auto profiles = opened->profiles();
-  if (!profiles) return tl::unexpected(profiles.error());
+  const auto measured = opened->measured();
+  if (!measured) return tl::unexpected(measured.error());
   std::unique_ptr<Scan> scan(
       new Scan(std::move(scanner), (*record)->request, std::move(*opened), std::move(settings)));
-  for (const Profile& profile : *profiles)
+  for (const Profile& profile : measured->profiles)
     scan->preview_.add(profile);
   const StoredState stored = scan->folder_.state();
   const std::lock_guard lock(scan->mutex_);
   scan->status_.state = stored.state;
   scan->status_.error = stored.error;
-  scan->status_.steps_done = static_cast<int>(profiles->size());
+  scan->status_.steps_done = static_cast<int>(measured->profiles.size());
+  scan->status_.stripe = sum(measured->stripes);
   scan->status_.progress = kScanningShare * scan->status_.steps_done / scan->status_.steps;
   return scan;
 }
@@ -151,10 +152,11 @@ void Scan::checks_passed() {
   enter(ScanState::kScanning);
 }
 
-void Scan::step_done(int steps_done) {
+void Scan::step_done(int steps_done, const StripeCount& so_far) {
   const std::lock_guard lock(mutex_);
   status_.note.clear();
   status_.steps_done = steps_done;
+  status_.stripe = so_far;
   status_.progress = kScanningShare * steps_done / status_.steps;
   const int in_this_run = steps_done - steps_before_;
   if (in_this_run > 0) {

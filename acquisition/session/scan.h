@@ -58,7 +58,7 @@ class Scan : private ScanWatch {
   bool is_interrupted() const override;
   void sleep(std::chrono::milliseconds at_most) override;
   void checks_passed() override;
-  void step_done(int steps_done) override;
+  void step_done(int steps_done, const StripeCount& so_far) override;
   void waits_for(const Error& lost) override;
 
   void work();

@@ -7,7 +7,6 @@
 
 #include "acquisition/session/json_members.h"
 #include "acquisition/session/pgm.h"
-#include "acquisition/session/profile_journal.h"
 #include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
 
@@ -88,10 +87,10 @@ Expected<void> ScanFolder::write_record(const ScanRecord& record) const {
   return write_text(path_ / kRecordName, to_json_text(record));
 }
 
-Expected<std::vector<Profile>> ScanFolder::profiles() const {
+Expected<JournalContents> ScanFolder::measured() const {
   const auto bytes = read_file(journal(), kMaxJournalBytes);
   if (!bytes) return tl::unexpected(bytes.error());
-  return read_journal(*bytes).profiles;
+  return read_journal(*bytes);
 }
 
 void ScanFolder::remove() const {

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "acquisition/profile/profile.h"
 #include "acquisition/session/live_scanner.h"
+#include "acquisition/session/profile_journal.h"
 #include "acquisition/session/scan_request.h"
 #include "acquisition/session/scan_status.h"
 
@@ -36,7 +36,7 @@ class ScanFolder {
   Expected<void> write_record(const ScanRecord& record) const;
 
   // As far as they are on disk.
-  Expected<std::vector<Profile>> profiles() const;
+  Expected<JournalContents> measured() const;
 
   StoredState state() const;
   Expected<void> write_state(const StoredState& state) const;

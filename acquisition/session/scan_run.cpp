@@ -52,9 +52,11 @@ Expected<void> ScanRun::open_folder() {
   journal_ = std::move(*journal);
   profiles_ = std::move(contents.profiles);
   stands_at_ = contents.stands_at.value_or(0);
-  const bool is_lost =
-      !profiles_.empty() && !shows_stripe({.frames = 1, .rows = profiles_.back().points.size()});
-  lost_.emplace(means_.request.steps, is_lost);
+  stripe_watch_.emplace(means_.request.steps);
+  for (int step = 0; step < steps_done(); ++step) {
+    seen_ = seen_ + contents.stripes[step];
+    (void)stripe_watch_->add(contents.stripes[step], step + 1);  // what it says was said then
+  }
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
@@ -189,12 +191,12 @@ tl::expected<FramePair, ScanRun::Setback> ScanRun::take(LiveScanner& scanner, in
 }
 
 void ScanRun::measure(int step, FramePair frames) {
-  pending_ = std::async(std::launch::async, [this, step, frames = std::move(frames)] {
-    return measure_and_store(step, frames);
+  pending_ = std::async(std::launch::async, [this, step, frames = std::move(frames)]() mutable {
+    return measure_and_store(step, std::move(frames));
   });
 }
 
-Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
+Expected<void> ScanRun::measure_and_store(int step, FramePair frames) {
   const ScanRequest& request = means_.request;
   auto measured =
       measure_profile(frames, calibration_, request.processing.stripe, angle_of(request, step));
@@ -202,8 +204,8 @@ Expected<void> ScanRun::measure_and_store(int step, const FramePair& frames) {
   if (request.keep_frames) {
     if (auto kept = means_.folder.write_frames(step, frames); !kept) return kept;
   }
-  if (auto stored = journal_->append(measured->profile); !stored) return stored;
-  means_.preview.show(frames.lit);
+  if (auto stored = journal_->append(measured->profile, measured->stripe); !stored) return stored;
+  means_.preview.show(std::move(frames.lit));
   means_.preview.add(measured->profile);
   fresh_ = std::move(*measured);
   return {};
@@ -214,8 +216,9 @@ Expected<void> ScanRun::settle() {
   if (!pending_.valid()) return {};
   if (auto stored = pending_.get(); !stored) return stored;
   profiles_.push_back(std::move(fresh_.profile));
-  means_.watch.step_done(steps_done());
-  return lost_->add(fresh_.stripe, steps_done());
+  seen_ = seen_ + fresh_.stripe;
+  means_.watch.step_done(steps_done(), seen_);
+  return stripe_watch_->add(fresh_.stripe, steps_done());
 }
 
 }  // namespace vitrine

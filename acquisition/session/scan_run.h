@@ -13,10 +13,10 @@
 
 #include "acquisition/calibration/calibration.h"
 #include "acquisition/session/live_preview.h"
-#include "acquisition/session/lost_stripe.h"
 #include "acquisition/session/profile_journal.h"
 #include "acquisition/session/scan_folder.h"
 #include "acquisition/session/scanner.h"
+#include "acquisition/session/stripe_watch.h"
 
 namespace vitrine {
 
@@ -40,7 +40,7 @@ class ScanWatch {
   // Returns early when it is interrupted.
   virtual void sleep(std::chrono::milliseconds at_most) = 0;
   virtual void checks_passed() = 0;
-  virtual void step_done(int steps_done) = 0;
+  virtual void step_done(int steps_done, const StripeCount& so_far) = 0;
   virtual void waits_for(const Error& lost) = 0;
 };
 
@@ -92,7 +92,7 @@ class ScanRun {
   Outcome turn(LiveScanner& scanner, int step);
   tl::expected<FramePair, Setback> take(LiveScanner& scanner, int step);
   void measure(int step, FramePair frames);
-  Expected<void> measure_and_store(int step, const FramePair& frames);
+  Expected<void> measure_and_store(int step, FramePair frames);
   Expected<void> settle();
   Expected<void> open_folder();
 
@@ -104,8 +104,9 @@ class ScanRun {
   Calibration calibration_;
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
-  std::optional<LostStripe> lost_;
-  Measured fresh_;  // of step profiles_.size(); the other thread's until pending_ is there
+  std::optional<StripeWatch> stripe_watch_;
+  StripeCount seen_;  // in all profiles_
+  Measured fresh_;    // of step profiles_.size(); the other thread's until pending_ is there
   std::future<Expected<void>> pending_;
   int stands_at_ = 0;  // the step that the table was turned to last, as the journal says, too
   bool is_checked_ = false;

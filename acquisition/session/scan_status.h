@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "acquisition/profile/judge.h"
 #include "codec/core/expected.h"
 
 namespace vitrine {
@@ -25,6 +26,7 @@ std::optional<ScanState> state_of(std::string_view name);
 struct ScanStatus {
   ScanState state = ScanState::kIdle;
   int steps = 0, steps_done = 0;       // done: the profile is on disk
+  StripeCount stripe;                  // in all that are done
   double progress = 0;                 // 0 to 1
   std::optional<double> seconds_left;  // nothing until it can be told
   std::string note;                    // what it waits for: a camera that is gone; mostly empty

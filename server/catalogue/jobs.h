@@ -47,6 +47,14 @@ struct JobRecord {
   bool operator==(const JobRecord&) const = default;
 };
 
+// 0..1: of all rows of the pictures those without a stripe, of the others those that are saturated,
+// and those that show two.
+struct ScannedRows {
+  double empty = 0, saturated = 0, doubled = 0;
+
+  bool operator==(const ScannedRows&) const = default;
+};
+
 struct ScanEntry {
   ScanId id;
   JobId job;  // the newest that scans; others make further models of it
@@ -59,6 +67,7 @@ struct ScanEntry {
   int calibration = 0;  // its number
   std::optional<ModelId> model;
   std::int64_t created = 0;
+  std::optional<ScannedRows> rows;  // nothing: not known yet
 
   bool operator==(const ScanEntry&) const = default;
 };

@@ -48,6 +48,11 @@ CREATE TABLE token (
 ) WITHOUT ROWID;
 CREATE INDEX token_by_prefix ON token(prefix);
 )sql",
+    R"sql(
+ALTER TABLE scan ADD COLUMN empty_rows REAL;
+ALTER TABLE scan ADD COLUMN saturated_rows REAL;
+ALTER TABLE scan ADD COLUMN doubled_rows REAL;
+)sql",
 };
 constexpr std::int64_t kSchemaVersion = std::size(kMigrations);
 

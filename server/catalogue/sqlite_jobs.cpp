@@ -18,7 +18,9 @@ using sqlite::Transaction;
 constexpr std::string_view kJobColumns =
     "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended";
 constexpr std::string_view kScanColumns =
-    "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, created";
+    "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
+    "created, "
+    "empty_rows, saturated_rows, doubled_rows";
 
 void bind_id(Statement& row, const std::optional<ModelId>& id) {
   if (id) {
@@ -50,7 +52,11 @@ Statement& bind_record(Statement& row, const ScanEntry& scan) {
   row.bind(scan.title).bind(scan.parameters).bind(number(scan.steps)).bind(number(scan.step));
   row.bind(number(scan.points)).bind(number(scan.calibration));
   bind_id(row, scan.model);
-  return row.bind(scan.created);
+  row.bind(scan.created);
+  if (!scan.rows) return row.bind_null().bind_null().bind_null();
+  return row.bind_real(scan.rows->empty)
+      .bind_real(scan.rows->saturated)
+      .bind_real(scan.rows->doubled);
 }
 
 void read(const Statement& row, JobRecord& job) {
@@ -81,6 +87,7 @@ void read(const Statement& row, ScanEntry& scan) {
   scan.calibration = static_cast<int>(row.integer(9));
   scan.model = read_id(row, 10);
   scan.created = row.integer(11);
+  if (!row.is_null(12)) scan.rows = {row.real(12), row.real(13), row.real(14)};
 }
 
 // "a = ?1, b = ?2, …" of "a, b, …".
@@ -91,6 +98,14 @@ std::string assignments(std::string_view columns) {
     text += fmt::format("{}{} = ?{}", text.empty() ? "" : ", ", name, i);
     columns.remove_prefix(std::min(columns.size(), name.size() + 2));
   }
+  return text;
+}
+
+// "?,?,…" for "a, b, …".
+std::string places(std::string_view columns) {
+  std::string text = "?";
+  for (auto more = std::ranges::count(columns, ','); more > 0; --more)
+    text += ",?";
   return text;
 }
 
@@ -153,7 +168,7 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
   // Whether the row was written.
   bool insert(std::string_view how, std::string_view columns, const auto& record) {
     Statement row(database_,
-                  fmt::format("{}({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?) RETURNING 1", how, columns));
+                  fmt::format("{}({}) VALUES ({}) RETURNING 1", how, columns, places(columns)));
     return bind_record(row, record).any();
   }
 

@@ -57,7 +57,7 @@ Outcome run_reprocess(const Arguments& arguments) {
     print_note(fmt::format("the scan ended after step {} of {}: the mesh is of these alone",
                            surface->steps, steps));
   }
-  auto report = describe_scanned(*surface, **record, options->calibration, out);
+  auto report = describe_scanned(*surface, surface->stripe, **record, options->calibration, out);
   report["steps_done"] = surface->steps;
   return arguments.has("--json") ? print_json(report) : print(scanned_as_text(report));
 }

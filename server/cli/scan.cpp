@@ -102,7 +102,8 @@ Outcome run_scan(const Arguments& arguments) {
   if (auto written = write_scanned(surface->mesh, *format, out); !written) return written;
   const auto record = (*scan)->folder().record();
   if (!record || !*record) return failed("the scan's record is gone; scan again");
-  const json report = describe_scanned(*surface, **record, (*record)->calibration, out);
+  const json report =
+      describe_scanned(*surface, status.stripe, **record, (*record)->calibration, out);
   const bool keep = (*record)->request.keep_frames;
   const ScanFolder rest = (*scan)->folder();
   scan->reset();

@@ -27,28 +27,35 @@ Outcome write_scanned(const TriangleMesh& mesh, MeshFormat format, const std::st
   return {};
 }
 
-json describe_scanned(const ScannedSurface& surface, const ScanRecord& record, int calibration,
-                      const std::string& out) {
+json describe_scanned(const ScannedSurface& surface, const StripeCount& stripe,
+                      const ScanRecord& record, int calibration, const std::string& out) {
   const SurfaceReport& report = surface.report;
-  return {{"out", out},
-          {"steps", record.request.steps},
-          {"camera", record.camera},
-          {"calibration", calibration},
-          {"vertices", surface.mesh.positions.size()},
-          {"faces", surface.mesh.faces.size()},
-          {"points",
-           {{"measured", report.points},
-            {"outliers", report.outliers},
-            {"isolated", report.isolated},
-            {"filled", report.filled}}},
-          {"spacing", report.spacing}};
+  const RowShares rows = shares(stripe, record.settings.region.height);
+  return {
+      {"out", out},
+      {"steps", record.request.steps},
+      {"camera", record.camera},
+      {"calibration", calibration},
+      {"vertices", surface.mesh.positions.size()},
+      {"faces", surface.mesh.faces.size()},
+      {"points",
+       {{"measured", report.points},
+        {"outliers", report.outliers},
+        {"isolated", report.isolated},
+        {"filled", report.filled}}},
+      {"rows", {{"empty", rows.empty}, {"saturated", rows.saturated}, {"doubled", rows.doubled}}},
+      {"spacing", report.spacing}};
 }
 
 std::string scanned_as_text(const json& r) {
-  return fmt::format("{}: {} vertices, {} faces from {} points in {} steps, calibration {}",
-                     r["out"].get<std::string>(), r["vertices"].get<std::uint64_t>(),
-                     r["faces"].get<std::uint64_t>(), r["points"]["measured"].get<std::uint64_t>(),
-                     r["steps"].get<int>(), r["calibration"].get<int>());
+  return fmt::format(
+      "{}: {} vertices, {} faces from {} points in {} steps, calibration {}; "
+      "{:.1f} % of all rows show no stripe, {:.1f} % of the others are saturated, "
+      "{:.1f} % show two",
+      r["out"].get<std::string>(), r["vertices"].get<std::uint64_t>(),
+      r["faces"].get<std::uint64_t>(), r["points"]["measured"].get<std::uint64_t>(),
+      r["steps"].get<int>(), r["calibration"].get<int>(), 100 * r["rows"]["empty"].get<double>(),
+      100 * r["rows"]["saturated"].get<double>(), 100 * r["rows"]["doubled"].get<double>());
 }
 
 }  // namespace vitrine::cli

@@ -16,9 +16,9 @@ tl::expected<MeshFormat, Fault> scan_output(const std::string& out);
 
 Outcome write_scanned(const TriangleMesh& mesh, MeshFormat format, const std::string& out);
 
-// `calibration`: the number of the one that it was made with.
-nlohmann::json describe_scanned(const ScannedSurface& surface, const ScanRecord& record,
-                                int calibration, const std::string& out);
+// `stripe`: in all of its pictures; `calibration`: the number of the one that it was made with.
+nlohmann::json describe_scanned(const ScannedSurface& surface, const StripeCount& stripe,
+                                const ScanRecord& record, int calibration, const std::string& out);
 std::string scanned_as_text(const nlohmann::json& description);
 
 }  // namespace vitrine::cli

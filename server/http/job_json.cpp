@@ -43,6 +43,11 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
+Json rows_json(const std::optional<ScannedRows>& rows) {
+  if (!rows) return nullptr;
+  return {{"empty", rows->empty}, {"saturated", rows->saturated}, {"doubled", rows->doubled}};
+}
+
 }  // namespace
 
 Json job_json(const JobStatus& job) {
@@ -78,6 +83,7 @@ Json scan_json(const ScanInfo& scan) {
           {"note", text_or_null(scan.job.note)},
           {"calibration", calibration == 0 ? Json(nullptr) : Json(calibration)},
           {"points", entry.points},
+          {"rows", rows_json(entry.rows)},
           {"model", id_or_null(entry.model)},
           {"title", entry.title},
           {"created", entry.created}};

@@ -135,6 +135,11 @@ void JobQueue::stop() {
     lane->finish();
 }
 
+bool JobQueue::is_stopping() const {
+  const std::scoped_lock lock(mutex_);
+  return stopping_;
+}
+
 void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   const Run run = std::make_shared<JobRun>(job);
   run->stops_known_ = stops;

@@ -91,6 +91,7 @@ class JobQueue {
 
   // Every job that runs is put aside, and every lane ends.
   void stop();
+  bool is_stopping() const;
 
   // kState where the scanner is busy; kBadInput where the key was used with another request, and
   // with the same one the job of then is the result. `stops`: JobRun::stops_known().

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "acquisition/session/reprocess.h"
 #include "codec/export/write_mesh.h"
 #include "server/jobs/build_child.h"
 #include "server/jobs/clock.h"
@@ -85,6 +86,7 @@ class ScanService::Listener final : public ScanListener {
     const bool calibration_is_new = entry_.calibration != told.calibration && told.calibration > 0;
     entry_.step = told.step;
     if (calibration_is_new) entry_.calibration = told.calibration;
+    if (told.rows) entry_.rows = told.rows;
     if (view_) entry_.points = view_->points();
     {
       const std::scoped_lock lock(service_.mutex_);
@@ -214,6 +216,12 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
   if (auto unused = check_unused(scan); !unused) return Unexpected(unused.error());
   if (scan.step == 0)
     return fail(ErrorCode::kState, "the scan has no steps to make a model of; resume it first");
+  const auto ordered = order_of(scan);
+  if (!ordered) return Unexpected(ordered.error());
+  const ReprocessOptions options{.processing = order.request.processing,
+                                 .calibration = order.calibration};
+  if (auto kept = check_pictures(ordered->request, scan.calibration, options); !kept)
+    return Unexpected(kept.error());
   JobRecord job = new_job(JobKind::kReprocess, scan.scanner);
   job.scan = scan.id;
   job.parameters = to_json_text(order);
@@ -335,7 +343,7 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
   if (job.kind == JobKind::kReprocess) return reprocess(run, *station);
   station->backend().allow(run.stops_known());
   auto end = job.kind == JobKind::kScan ? work_on_scan(run, *station) : calibrate(run, *station);
-  if (run.wish() != JobWish::kStop) station->look();  // what is known of it may have changed
+  if (!queue_.is_stopping()) station->look();  // what is known of it may have changed
   return end;
 }
 

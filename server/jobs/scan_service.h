@@ -59,7 +59,8 @@ class ScanService {
 
   // `order.scanner` is that of a station.
   Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<OnceKey>& once);
-  // Another model of a scan that nobody works on and that has steps; its own state stays.
+  // Another model of a scan that nobody works on, that has steps, and whose pictures were kept
+  // where the order needs them; its own state stays.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
                                   const std::optional<OnceKey>& once);
   Expected<void> pause(const ScanEntry& scan);

@@ -13,6 +13,7 @@
 #include "acquisition/device/camera.h"
 #include "acquisition/frame/frame.h"
 #include "codec/mesh/triangle_mesh.h"
+#include "server/catalogue/jobs.h"
 #include "server/jobs/scan_order.h"
 
 namespace vitrine {
@@ -29,7 +30,8 @@ struct ScanTold {
   double progress = 0;             // 0..1 of the stages above
   std::optional<double> eta;       // seconds
   int calibration = 0;             // its number; 0: not known yet
-  std::string note;                // what it waits for: a camera that is gone; mostly empty
+  std::optional<ScannedRows> rows;
+  std::string note;  // what it waits for: a camera that is gone; mostly empty
 };
 
 // What is to be seen of a scan while it grows and afterwards. Thread-safe; nobody waits for long.

@@ -30,6 +30,7 @@ ScanTold told_of(const ScanStatus& status) {
           .progress = status.progress,
           .eta = status.seconds_left,
           .calibration = 0,
+          .rows = std::nullopt,
           .note = status.note};
 }
 
@@ -38,15 +39,16 @@ class SessionView final : public ScanView {
  public:
   explicit SessionView(std::shared_ptr<const Scan> scan) : scan_(std::move(scan)) {}
 
-  std::shared_ptr<const Frame> frame() const override { return scan_->preview().snapshot().frame; }
+  std::shared_ptr<const Frame> frame() const override { return scan_->preview().frame().frame; }
   std::vector<std::array<double, 2>> profile() const override {
     std::vector<std::array<double, 2>> points;
-    for (const ProfilePoint& point : scan_->preview().snapshot().profile.points)
+    const Profile profile = scan_->preview().profile();
+    for (const ProfilePoint& point : profile.points)
       points.push_back({point.at.rho, point.at.z});
     return points;
   }
   ScanTold told() const override { return told_of(scan_->status()); }
-  std::size_t points() const override { return scan_->preview().snapshot().cloud_size; }
+  std::size_t points() const override { return scan_->preview().cloud_size(); }
   std::vector<std::array<float, 3>> points_from(std::size_t first) const override {
     return scan_->preview().cloud_from(first);
   }
@@ -55,21 +57,28 @@ class SessionView final : public ScanView {
   const std::shared_ptr<const Scan> scan_;
 };
 
-int calibration_of(const Scan& scan) {
-  const auto record = scan.folder().record();
-  return record && *record ? (*record)->calibration : 0;
+// What the scan's record adds, which is there from the first step on.
+ScanTold told_of(const ScanStatus& status, const ScanRecord& record) {
+  const RowShares rows = shares(status.stripe, record.settings.region.height);
+  ScanTold told = told_of(status);
+  told.calibration = record.calibration;
+  told.rows = {rows.empty, rows.saturated, rows.doubled};
+  return told;
+}
+
+std::optional<ScanRecord> record_of(const Scan& scan) {
+  auto record = scan.folder().record();
+  return record ? std::move(*record) : std::nullopt;
 }
 
 // Waits for the scan and carries words both ways; returns how it ended.
 ScanStatus follow(Scan& scan, ScanListener& listener) {
   bool asked = false;
-  int calibration = 0;
+  std::optional<ScanRecord> record;
   for (;;) {
     const ScanStatus status = scan.wait(kTick);
-    if (calibration == 0 && status.steps_done > 0) calibration = calibration_of(scan);
-    ScanTold told = told_of(status);
-    told.calibration = calibration;
-    listener.told(told);
+    if (!record && status.steps_done > 0) record = record_of(scan);
+    listener.told(record ? told_of(status, *record) : told_of(status));
     if (!is_under_way(status.state)) return status;
     if (asked || !listener.is_interrupted()) continue;
     // One that meshes by now cannot be paused, and ends by itself.

@@ -41,7 +41,8 @@ ScanEntry scan(std::uint8_t value, std::uint8_t job) {
           .points = 123'456'789'012,
           .calibration = 3,
           .model = id_of(9),
-          .created = 1'700'000'000'000};
+          .created = 1'700'000'000'000,
+          .rows = ScannedRows{.empty = .5, .saturated = .25, .doubled = .125}};
 }
 
 class JobsSuite : public testing::Test {
@@ -74,6 +75,7 @@ TEST_F(JobsSuite, an_update_writes_over_the_whole_record) {
   ScanEntry grown = scan(100, 1);
   grown.step = 700;
   grown.model = std::nullopt;
+  grown.rows = std::nullopt;
   ASSERT_TRUE(jobs_->update(changed));
   ASSERT_TRUE(jobs_->update(grown));
   EXPECT_EQ(jobs_->find_job(id_of(1)).value(), changed);

@@ -125,7 +125,11 @@ class FakeBackend final : public ScannerBackend {
       view->add_step(step);
       ++world_.steps;
     }
-    listener.told({.stage = "meshing", .step = step, .progress = 0.9, .calibration = 1});
+    listener.told({.stage = "meshing",
+                   .step = step,
+                   .progress = 0.9,
+                   .calibration = 1,
+                   .rows = ScannedRows{.empty = .5, .saturated = .25, .doubled = .125}});
     return torus(40, 20);
   }
 

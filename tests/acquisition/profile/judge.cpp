@@ -35,6 +35,16 @@ TEST(Judge, ARowThatShowsTwoSurfacesIsOneRow) {
   EXPECT_EQ(two.doubled, 1);
 }
 
+TEST(Judge, SharesAreOfAllRowsAndOfThoseWithAStripe) {
+  const std::vector<StripeCount> steps = {count(stripe(60, kSaturated)), count(stripe(20, kDouble)),
+                                          count({})};
+  const RowShares rows = shares(sum(steps), 100);
+  EXPECT_DOUBLE_EQ(rows.empty, 220. / 300);
+  EXPECT_DOUBLE_EQ(rows.saturated, .75);
+  EXPECT_DOUBLE_EQ(rows.doubled, .25);
+  EXPECT_EQ(shares({}, 100).doubled, 0);
+}
+
 TEST(Judge, NoStripeNamesWhatToDo) {
   EXPECT_THAT(verdict(judge(count({}) + count({}))),
               AllOf(StartsWith("no stripe: 0 rows of 2 pictures"), HasSubstr("laser is on"),

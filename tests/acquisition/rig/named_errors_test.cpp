@@ -47,6 +47,13 @@ TEST_F(NamedErrors, TheOtherLaserMakesTwoStripes) {
               AllOf(StartsWith("vitrine: two stripes: "), HasSubstr("switch the other laser off")));
 }
 
+TEST_F(NamedErrors, TheOtherLaserIsNoticedAmidTheScan) {
+  EXPECT_THAT(
+      error_of(at_rig(kScan, {"--mesh", VITRINE_SOURCE_DIR "/tests/models/skull.obj", "--fault",
+                              "second-stripe@6"})),
+      AllOf(HasSubstr("of the scan, two stripes: "), HasSubstr("switch the other laser off")));
+}
+
 TEST_F(NamedErrors, LongExposureIsAllSaturated) {
   EXPECT_THAT(error_of(with_object(kScan + " --exposure 100000")),
               AllOf(StartsWith("vitrine: all saturated: "), HasSubstr("lower the exposure")));

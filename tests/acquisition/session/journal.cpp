@@ -3,6 +3,8 @@
 #include <fstream>
 
 #include "acquisition/session/profile_journal.h"
+#include "codec/core/byte_cursor.h"
+#include "codec/core/sha256.h"
 #include "codec/files/read_file.h"
 #include "support/temporary_folder.h"
 
@@ -19,7 +21,7 @@ class Journal : public testing::Test {
     for (int i = 0; i < profiles; ++i) {
       ASSERT_TRUE(journal->note_turn(i));
       ends_.push_back(std::filesystem::file_size(path_));
-      ASSERT_TRUE(journal->append(profile(i)));
+      ASSERT_TRUE(journal->append(profile(i), stripe(i)));
       ends_.push_back(std::filesystem::file_size(path_));
     }
   }
@@ -30,11 +32,17 @@ class Journal : public testing::Test {
           {{1.0 / (i + 3), -0.1 * i, 0.3 * i}, i / 2, i % 2 ? kSecond : kDouble});
     return profile;
   }
+  static StripeCount stripe(std::uint64_t i) {
+    return {1, 3 * i, 2 * i, i, 5'000'000'000 + i, 7 * i};
+  }
   std::vector<std::uint8_t> bytes() const { return *read_file(path_, 1 << 20); }
 
-  static void expect_profiles(const std::vector<Profile>& profiles, std::size_t count) {
+  static void expect_profiles(const JournalContents& contents, std::size_t count) {
+    const auto& [profiles, stripes, stands_at, size] = contents;
     ASSERT_EQ(profiles.size(), count);
+    ASSERT_EQ(stripes.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(stripes[i], stripe(i));
       const Profile wanted = profile(static_cast<int>(i));
       EXPECT_EQ(profiles[i].theta, wanted.theta);
       ASSERT_EQ(profiles[i].points.size(), wanted.points.size());
@@ -64,7 +72,7 @@ TEST_F(Journal, cut_at_any_byte_it_holds_all_whole_profiles) {
   for (std::size_t size = 0; size <= file.size(); ++size) {
     const JournalContents contents = read_journal(std::span(file).first(size));
     const std::size_t records = whole_records(size);
-    expect_profiles(contents.profiles, records / 2);
+    expect_profiles(contents, records / 2);
     EXPECT_EQ(contents.bytes, records == 0 ? 0 : ends_[records - 1]);
     EXPECT_EQ(contents.stands_at.has_value(), records > 0);
     if (records > 0) {
@@ -73,13 +81,31 @@ TEST_F(Journal, cut_at_any_byte_it_holds_all_whole_profiles) {
   }
 }
 
+TEST_F(Journal, a_profile_of_an_older_version_has_no_counts_and_is_read) {
+  constexpr std::uint32_t kPoints = 3, kPointBytes = 29;
+  ByteWriter out;
+  out.u32(1), out.u32(8 + kPoints * kPointBytes);
+  out.f64(0.5);
+  out.bytes(std::vector<std::uint8_t>(kPoints * kPointBytes, 7));
+  std::vector<std::uint8_t> file = out.take();
+  const Sha256 digest = sha256(file);
+  file.insert(file.end(), digest.begin(), digest.begin() + 8);
+  const JournalContents contents = read_journal(file);
+  ASSERT_EQ(contents.profiles.size(), 1u);
+  EXPECT_EQ(contents.profiles[0].theta, 0.5);
+  EXPECT_EQ(contents.profiles[0].points.size(), kPoints);
+  EXPECT_EQ(contents.profiles[0].points[2].row, 0x07070707);
+  EXPECT_EQ(contents.stripes[0], (StripeCount{.frames = 1, .rows = kPoints}));
+  EXPECT_EQ(contents.bytes, file.size());
+}
+
 TEST_F(Journal, damage_in_any_byte_costs_what_follows_it_and_no_more) {
   write(4);
   const auto file = bytes();
   for (std::size_t at = 0; at < file.size(); ++at) {
     auto damaged = file;
     damaged[at] ^= 0x10;
-    expect_profiles(read_journal(damaged).profiles, whole_records(at) / 2);
+    expect_profiles(read_journal(damaged), whole_records(at) / 2);
   }
 }
 
@@ -92,8 +118,8 @@ TEST_F(Journal, cut_at_any_byte_it_is_gone_on_with) {
     auto journal = ProfileJournal::open(path_, contents);
     ASSERT_TRUE(journal);
     for (int i = static_cast<int>(contents.profiles.size()); i < 5; ++i)
-      ASSERT_TRUE(journal->append(profile(i)));
-    expect_profiles(read_journal(bytes()).profiles, 5);
+      ASSERT_TRUE(journal->append(profile(i), stripe(i)));
+    expect_profiles(read_journal(bytes()), 5);
     std::ofstream(path_, std::ios::binary)
         .write(reinterpret_cast<const char*>(file.data()),
                static_cast<std::streamsize>(file.size()));

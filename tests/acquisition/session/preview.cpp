@@ -6,20 +6,21 @@ namespace {
 
 TEST_F(ScanTest, the_preview_shows_frame_profile_and_a_cloud_that_grows) {
   auto scan = this->scan();
-  EXPECT_EQ(scan->preview().snapshot().frame, nullptr);
+  EXPECT_EQ(scan->preview().frame().frame, nullptr);
   std::size_t before = 0;
   world_.meanwhile = [&](const std::string&, int) {
-    const std::size_t size = scan->preview().snapshot().cloud_size;
+    const std::size_t size = scan->preview().cloud_size();
     EXPECT_GE(size, before);
     before = size;
   };
   ASSERT_EQ(run(*scan), ScanState::kDone);
-  const ScanPreview preview = scan->preview().snapshot();
-  ASSERT_TRUE(preview.frame);
-  EXPECT_EQ(preview.frame->width, kFakeWidth);
-  EXPECT_EQ(preview.frame_scale, 1);
-  EXPECT_EQ(preview.profile.points.size(), static_cast<std::size_t>(kFakeHeight));
-  EXPECT_EQ(preview.cloud_size, static_cast<std::size_t>(kSteps * kFakeHeight));
+  const LivePreview& preview = scan->preview();
+  const PreviewFrame shown = preview.frame();
+  ASSERT_TRUE(shown.frame);
+  EXPECT_EQ(shown.frame->width, kFakeWidth);
+  EXPECT_EQ(shown.scale, 1);
+  EXPECT_EQ(preview.profile().points.size(), static_cast<std::size_t>(kFakeHeight));
+  EXPECT_EQ(preview.cloud_size(), static_cast<std::size_t>(kSteps * kFakeHeight));
   const auto all = scan->preview().cloud_from(0);
   const auto rest = scan->preview().cloud_from(100);
   ASSERT_EQ(rest.size(), all.size() - 100);
@@ -33,8 +34,8 @@ TEST(LivePreview, a_large_frame_is_shrunk_and_its_thin_stripe_stays) {
   for (int v = 0; v < frame.height; ++v)
     frame.pixels[static_cast<std::size_t>(v) * 1300 + 601] = 200;
   preview.show(frame);
-  const ScanPreview shown = preview.snapshot();
-  EXPECT_EQ(shown.frame_scale, 2);
+  const PreviewFrame shown = preview.frame();
+  EXPECT_EQ(shown.scale, 2);
   EXPECT_EQ(shown.frame->width, 650);
   EXPECT_EQ(shown.frame->height, 515);
   for (int v = 0; v < shown.frame->height; ++v) {
@@ -50,14 +51,13 @@ TEST(LivePreview, a_long_scan_has_no_larger_cloud) {
   profile.points.resize(1'030);
   for (int i = 0; i < kManySteps; ++i)
     preview.add(profile);
-  EXPECT_LE(preview.snapshot().cloud_size, kCloudPoints);
-  EXPECT_GT(preview.snapshot().cloud_size, kCloudPoints / 2);
+  EXPECT_LE(preview.cloud_size(), kCloudPoints);
+  EXPECT_GT(preview.cloud_size(), kCloudPoints / 2);
 }
 
 TEST_F(ScanTest, a_reopened_scan_shows_what_it_has) {
   run(*scan());
-  EXPECT_EQ(reopened()->preview().snapshot().cloud_size,
-            static_cast<std::size_t>(kSteps * kFakeHeight));
+  EXPECT_EQ(reopened()->preview().cloud_size(), static_cast<std::size_t>(kSteps * kFakeHeight));
 }
 
 }  // namespace

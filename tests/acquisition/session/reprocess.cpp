@@ -31,6 +31,26 @@ TEST_F(Reprocess, with_the_same_parameters_the_mesh_is_the_same) {
   EXPECT_EQ(surface->steps, kSteps);
 }
 
+TEST_F(Reprocess, what_the_stripe_showed_is_told_as_the_scan_told_it_paused_or_not) {
+  world_.object = FakeObject::kTwoSurfaces;
+  auto scan = this->scan("scan", {.steps = kSteps, .keep_frames = true});
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call == "turn" && count == 5) (void)scan->pause();
+  };
+  ASSERT_EQ(run(*scan), ScanState::kPaused);
+  ASSERT_EQ(run(*scan), ScanState::kDone);
+  constexpr StripeCount kAll{.frames = kSteps,
+                             .rows = kSteps * kFakeHeight,
+                             .saturated = 0,
+                             .doubled = kSteps * (kFakeHeight - kFakeOtherRow),
+                             .pixels = 2 * kSteps * kFakeWidth * kFakeHeight};
+  EXPECT_EQ(scan->status().stripe, kAll);
+  EXPECT_EQ(reopened()->status().stripe, kAll);
+  EXPECT_EQ(again({})->stripe, kAll);
+  ASSERT_TRUE(CalibrationStore(calibrations_).add(fake_calibration()));
+  EXPECT_EQ(again({.calibration = 2})->stripe, kAll) << "measured anew";
+}
+
 TEST_F(Reprocess, another_sampling_needs_no_pictures) {
   scan_once(false);
   const auto surface =
@@ -112,9 +132,9 @@ TEST_F(Reprocess, kept_pictures_measured_again_give_the_same_profiles) {
 TEST_F(Reprocess, two_surfaces_in_a_row_are_both_kept) {
   world_.object = FakeObject::kTwoSurfaces;
   scan_once(true);
-  const auto profiles = ScanFolder::open(path())->profiles();
-  ASSERT_TRUE(profiles);
-  for (const Profile& profile : *profiles) {
+  const auto scan = ScanFolder::open(path())->measured();
+  ASSERT_TRUE(scan);
+  for (const Profile& profile : scan->profiles) {
     const auto second = std::ranges::count_if(
         profile.points, [](const ProfilePoint& p) { return (p.flags & kSecond) != 0; });
     EXPECT_EQ(second, kFakeHeight - kFakeOtherRow);

@@ -14,6 +14,7 @@
 namespace vitrine::test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -107,7 +108,7 @@ TEST_F(ScanTest, cancelling_keeps_what_was_measured) {
   EXPECT_FALSE(scan->pause());
   const auto again = reopened();
   EXPECT_EQ(again->status().state, ScanState::kCancelled);
-  EXPECT_EQ(again->folder().profiles()->size(), 5u);
+  EXPECT_EQ(again->folder().measured()->profiles.size(), 5u);
 }
 
 TEST_F(ScanTest, what_a_state_does_not_allow_is_refused_with_the_state) {
@@ -309,6 +310,63 @@ TEST_F(ScanTest, a_stripe_that_is_lost_on_the_way_stops_the_scan_once) {
   EXPECT_EQ(scan->status().steps_done, 15);
   expect_dark(world_);
   EXPECT_EQ(run(*scan), ScanState::kDone) << "the operator went on";
+}
+
+// Where it stops depends on the steps alone, not on whether somebody paused among them.
+TEST_F(ScanTest, a_pause_while_the_stripe_is_lost_does_not_hide_that) {
+  constexpr int kManySteps = 40;
+  const auto run_with_pause_at = [&](int pause) {
+    auto scan = this->scan(fmt::format("paused-{}", pause), {.steps = kManySteps});
+    world_.calls.clear();
+    world_.degrees = 0;
+    world_.meanwhile = [&](const std::string& call, int count) {
+      if (call == "turn" && count == pause) (void)scan->pause();
+      if (call != "capture") return;
+      const std::lock_guard lock(world_.mutex);
+      const bool is_lost = world_.degrees >= 99 && world_.degrees < 180;
+      world_.object = is_lost ? FakeObject::kNothing : FakeObject::kColumn;
+    };
+    EXPECT_EQ(run(*scan), pause > 0 ? ScanState::kPaused : ScanState::kFailed);
+    if (pause > 0) {
+      EXPECT_EQ(run(*scan), ScanState::kFailed) << pause;
+    }
+    EXPECT_EQ(scan->status().steps_done, 16) << pause;
+    return scan->status().error.value_or(Error{}).message;
+  };
+  const std::string undisturbed = run_with_pause_at(0);
+  EXPECT_THAT(undisturbed, HasSubstr("the stripe is lost since step 12 of the scan, no stripe"));
+  for (const int pause : {10, 13, 14, 15})
+    EXPECT_EQ(run_with_pause_at(pause), undisturbed) << pause;
+}
+
+TEST_F(ScanTest, a_second_laser_that_comes_on_on_the_way_stops_the_scan_once) {
+  auto scan = this->scan("scan", {.steps = 40});
+  world_.meanwhile = [&](const std::string& call, int) {
+    if (call != "capture") return;
+    const std::lock_guard lock(world_.mutex);
+    const bool is_on = world_.degrees >= 180 && world_.degrees < 300;
+    world_.object = is_on ? FakeObject::kTwoStripes : FakeObject::kColumn;
+  };
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  EXPECT_THAT(
+      scan->status().error.value_or(Error{}).message,
+      AllOf(HasSubstr("the stripe has changed since step 19 of the scan, two stripes: 72 of "
+                      "120 rows"),
+            HasSubstr("switch the other laser off; then start a new scan")));
+  EXPECT_EQ(scan->status().steps_done, 23);
+  EXPECT_EQ(scan->folder().measured()->profiles.size(), 23u) << "nothing is lost";
+  expect_dark(world_);
+  EXPECT_EQ(run(*scan), ScanState::kDone) << "the operator went on";
+}
+
+TEST_F(ScanTest, one_side_that_is_saturated_does_not_stop_the_scan) {
+  auto scan = this->scan("scan", {.steps = 40});
+  world_.meanwhile = [&](const std::string& call, int) {
+    if (call != "capture") return;
+    const std::lock_guard lock(world_.mutex);
+    world_.object = world_.degrees >= 180 ? FakeObject::kSaturated : FakeObject::kColumn;
+  };
+  EXPECT_EQ(run(*scan), ScanState::kDone) << scan->status().error->message;
 }
 
 TEST_F(ScanTest, a_few_steps_without_stripe_are_the_object_s_shape) {

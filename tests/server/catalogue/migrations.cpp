@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "server/catalogue/sqlite_catalogue.h"
+#include "server/catalogue/sqlite_jobs.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine {
@@ -28,6 +29,14 @@ TEST_F(Migrations, opening_twice_keeps_what_is_there) {
   model.id = ModelId::generate();
   ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
   EXPECT_TRUE(open_sqlite_catalogue(file_).value()->find(model.id).value());
+}
+
+TEST_F(Migrations, a_scan_of_an_older_version_does_not_know_its_rows) {
+  const ScanEntry scan{.id = ScanId::generate(), .job = JobId::generate(), .steps = 720};
+  ASSERT_TRUE(open_sqlite_jobs(file_).value()->add({.id = scan.job}, scan, {}));
+  run("ALTER TABLE scan DROP COLUMN empty_rows; ALTER TABLE scan DROP COLUMN saturated_rows;"
+      "ALTER TABLE scan DROP COLUMN doubled_rows; DELETE FROM migration WHERE version = 4");
+  EXPECT_EQ(open_sqlite_jobs(file_).value()->find_scan(scan.id).value(), scan);
 }
 
 TEST_F(Migrations, a_catalogue_of_a_newer_version_is_refused_and_left_alone) {

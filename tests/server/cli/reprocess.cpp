@@ -22,8 +22,9 @@ class ReprocessCommand : public VitrineCommand {
     EXPECT_TRUE(CalibrationStore(path("calibrations")).add(fake_calibration()));
   }
 
-  void scan(bool keep_frames) {
+  void scan(bool keep_frames, FakeObject object = FakeObject::kColumn) {
     FakeWorld world;
+    world.object = object;
     const auto scan = Scan::create(fake_scanner(world, path("calibrations")),
                                    {.steps = 12, .keep_frames = keep_frames}, path("scan"));
     ASSERT_TRUE(scan) << scan.error().message;
@@ -40,15 +41,23 @@ class ReprocessCommand : public VitrineCommand {
 };
 
 TEST_F(ReprocessCommand, the_scans_own_parameters_are_the_default) {
-  scan(false);
+  scan(false, FakeObject::kTwoSurfaces);
   const auto same = vitrine_json(words("same.ply")),
              said = vitrine_json(words("said.ply", {"--sampling", "adaptive", "--length", "5"}));
   EXPECT_EQ(same["calibration"], 1);
   EXPECT_EQ(same["steps"], 12);
   EXPECT_EQ(same["steps_done"], 12);
+  EXPECT_EQ(same["rows"], nlohmann::json::parse(R"({"empty":0.0,"saturated":0.0,"doubled":0.5})"));
   EXPECT_EQ(read("same.ply"), read("said.ply"));
   const auto coarse = vitrine_json(words("coarse.ply", {"--length", "20"}));
   EXPECT_LT(coarse["vertices"], same["vertices"]);
+}
+
+TEST_F(ReprocessCommand, the_summary_tells_what_the_rows_showed) {
+  scan(false, FakeObject::kTwoSurfaces);
+  EXPECT_THAT(vitrine(words("out.ply")).output,
+              HasSubstr("calibration 1; 0.0 % of all rows show no stripe, 0.0 % of the others are "
+                        "saturated, 50.0 % show two\n"));
 }
 
 TEST_F(ReprocessCommand, another_stripe_or_calibration_is_measured_in_the_pictures) {

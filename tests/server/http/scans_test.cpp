@@ -221,6 +221,7 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   EXPECT_EQ(scan["steps"], 12);
   EXPECT_EQ(scan["title"], "A ring");
   EXPECT_EQ(scan["points"], 50);
+  EXPECT_EQ(scan["rows"], nullptr);
   EXPECT_EQ(json::parse(get("/scanners/rig").body)["scan"], started["id"]);
   const HttpAnswer points = get(scan_path(started) + "/points?from=48");
   ASSERT_EQ(points.body.size(), 2 * 12u);
@@ -237,6 +238,7 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   scan = json::parse(get(scan_path(started)).body);
   EXPECT_EQ(scan["state"], "done") << scan;
   EXPECT_EQ(scan["progress"], 1);
+  EXPECT_EQ(scan["rows"], json::parse(R"({"empty":0.5,"saturated":0.25,"doubled":0.125})"));
   ASSERT_TRUE(scan["model"].is_string());
   const std::string model = "/models/" + scan["model"].get<std::string>();
   EXPECT_EQ(ask("GET", model + "/export.ply", "").status, 404);
@@ -293,9 +295,24 @@ TEST_F(ScanRoutes, WhatTheScannerOrTheStateDoesNotAllowIsAConflict) {
   EXPECT_EQ(fault_of(post(scan_path(started) + "/reprocess", {{"steps", 5}})), "steps");
 }
 
+TEST_F(ScanRoutes, WithoutPicturesOtherPointsAreAConflictAtOnce) {
+  const json started = begin();
+  settle();
+  for (const json& body : {json{{"stripe", "blais-rioux"}}, json{{"calibration", 2}}}) {
+    const HttpAnswer answer = post(scan_path(started) + "/reprocess", body);
+    EXPECT_EQ(answer.status, 409) << body;
+    EXPECT_EQ(answer.field("content-type"), "application/problem+json");
+    EXPECT_NE(answer.body.find("which were not kept; scan again"), std::string::npos);
+  }
+  EXPECT_EQ(json::parse(get("/jobs").body)["jobs"].size(), 1u);
+  const json same = {{"stripe", "derivative-of-gaussian"}, {"calibration", 1}};
+  EXPECT_EQ(post(scan_path(started) + "/reprocess", same).status, 202);
+  settle("");
+}
+
 TEST_F(ScanRoutes, AScanIsPausedResumedCancelledAndReprocessed) {
   HeldAtStep held(world_, 3);
-  const json started = begin();
+  const json started = begin({{"keep_frames", true}});
   held.await();
   EXPECT_EQ(post(scan_path(started) + "/pause").status, 202);
   held.open();

@@ -448,6 +448,20 @@ TEST_F(Scans, a_calibration_by_hand_waits_for_each_pose_and_a_stop_ends_it) {
   EXPECT_EQ(station().status().state, ScannerState::kIdle);
 }
 
+TEST_F(Scans, a_daemon_that_stops_while_a_calibration_waits_opens_no_device) {
+  world_.by_hand = true;
+  const auto job = service_->calibrate(station(), {.poses = 3}, {});
+  ASSERT_TRUE(job);
+  const auto run = service_->jobs().run(job->id);
+  while (run->job().state != JobState::kPaused)
+    std::this_thread::yield();
+  const int calls = world_.calls;
+  service_->stop();
+  EXPECT_EQ(world_.calls, calls);
+  EXPECT_FALSE(world_.open);
+  EXPECT_EQ(run->job().state, JobState::kPaused);
+}
+
 TEST_F(Scans, a_job_whose_scanner_is_not_configured_any_more_says_so) {
   HeldAtStep held(world_, 1);
   const auto started = begin(order_);

@@ -58,6 +58,23 @@ TEST_F(SessionDevices, AScanWhoseListenerThrowsHasEnded) {
   EXPECT_FALSE(world_.laser || world_.motor);
 }
 
+TEST_F(SessionDevices, AScanTellsWhatItsRowsShowed) {
+  struct Listener final : ScanListener {
+    void begins(std::shared_ptr<const ScanView>) override {}
+    void told(const ScanTold& told) override { last = told; }
+    bool is_interrupted() const override { return false; }
+    bool is_cancelled() const override { return false; }
+    ScanTold last;
+  } listener;
+  ASSERT_TRUE(CalibrationStore(folder_.path()).add(fake_calibration()));
+  world_.object = FakeObject::kTwoSurfaces;
+  ScanOrder order;
+  order.request.steps = 12;
+  ASSERT_TRUE(backend_.scan(order, folder_.path() / "scan", listener));
+  EXPECT_EQ(listener.last.calibration, 1);
+  EXPECT_EQ(listener.last.rows, (ScannedRows{.empty = 0, .saturated = 0, .doubled = .5}));
+}
+
 TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsTakenBack) {
   world_.meanwhile = [this](const std::string& call, int) {
     if (call == "open board") backend_.emergency_stop();

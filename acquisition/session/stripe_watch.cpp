@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/stripe_watch.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace vitrine {
+
+Expected<void> StripeWatch::add(const StripeCount& stripe, int steps_done) {
+  last_.push_back(stripe);
+  if (last_.size() > most_) last_.erase(last_.begin());
+  StripeCount seen = sum(last_);
+  seen.saturated = 0;  // one side of an object may be brighter than the others
+  const bool is_lost = !shows_stripe(seen);
+  if (!is_lost) is_lost_ = false;
+  const auto judged = judge(seen);
+  if (judged || last_.size() < most_ || std::exchange(is_lost ? is_lost_ : is_odd_, true))
+    return {};
+  return fail(
+      ErrorCode::kBadInput,
+      fmt::format("the stripe {} since step {} of the scan, {}; then start a new scan, "
+                  "or resume this one where the object just {}",
+                  is_lost ? "is lost" : "has changed", steps_done - static_cast<int>(most_) + 1,
+                  judged.error().message, is_lost ? "leaves the light" : "looks like that"));
+}
+
+}  // namespace vitrine

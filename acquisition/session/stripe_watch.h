@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a scan that began well still shows what it has to show. An object may leave the laser
+// plane for some steps, or show itself twice in them; a laser that has gone out, daylight, and a
+// second laser take the rest of the turn.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "acquisition/profile/judge.h"
+
+namespace vitrine {
+
+class StripeWatch {
+ public:
+  explicit StripeWatch(int steps_of_a_turn)
+      : most_(static_cast<std::size_t>(std::max(steps_of_a_turn / 8, 3))) {}
+
+  // Of the next step, the `steps_done`-th. Fails (kBadInput) at the end of an eighth of a turn that
+  // judge() refuses, be it not for what is saturated: that is told once, who goes on has accepted
+  // it; a stripe that is found and lost again is told again.
+  Expected<void> add(const StripeCount& stripe, int steps_done);
+
+ private:
+  const std::size_t most_;
+  std::vector<StripeCount> last_;
+  bool is_lost_ = false, is_odd_ = false;  // and has been told
+};
+
+}  // namespace vitrine
