@@ -6,6 +6,7 @@
 #include <span>
 
 #include "acquisition/profile/adaptive_windows.h"
+#include "acquisition/profile/fit_polyline.h"
 
 namespace vitrine {
 namespace {
@@ -73,42 +74,87 @@ ProfilePoint end_of(Points points, const Window& window, std::size_t at) {
   return end;
 }
 
-void sample_adaptively(Points points, const SamplingOptions& options,
-                       std::vector<ProfilePoint>& kept) {
-  const auto length = static_cast<std::size_t>(options.window);
-  const auto windows = adaptive_windows(points, {.windows = (points.size() + length - 1) / length,
-                                                 .longest = 4 * length,
-                                                 .noise = options.noise});
+// The points of all profiles, each apart from the one before.
+std::vector<ProfilePoint> chain(std::span<const Profile> profiles) {
+  std::vector<ProfilePoint> points;
+  for (const Profile& profile : profiles) {
+    const std::size_t first = points.size();
+    points.insert(points.end(), profile.points.begin(), profile.points.end());
+    if (first < points.size()) points[first].flags |= kApart;
+  }
+  return points;
+}
+
+// One profile's: its windows' means, and the ends of its parts.
+std::vector<ProfilePoint> corners_of(Points points, std::span<const Window> windows) {
+  std::vector<ProfilePoint> kept;
+  std::vector<Corner> part;
   for (const Window& w : windows) {
     const std::size_t last = w.first + w.count - 1;
-    const bool starts = w.first == 0 || (points[w.first].flags & kApart);
+    const bool starts = points[w.first].flags & kApart;
     const bool ends = last + 1 == points.size() || (points[last + 1].flags & kApart);
-    if (starts) kept.push_back(end_of(points, w, w.first));
-    if (!starts && !ends) kept.push_back(mean_of(points.subspan(w.first, w.count)));
+    const auto from = static_cast<double>(w.first), to = static_cast<double>(last);
+    if (starts) part.push_back({end_of(points, w, w.first), from});
+    if (!starts && !ends)
+      part.push_back({mean_of(points.subspan(w.first, w.count)), (from + to) / 2});
     if (ends && !(starts && w.count == 1)) {
-      kept.push_back(end_of(points, w, last));
-      if (starts) kept.back().flags &= static_cast<std::uint8_t>(~kApart);
+      part.push_back({end_of(points, w, last), to});
+      if (starts) part.back().point.flags &= static_cast<std::uint8_t>(~kApart);
     }
+    if (!ends) continue;
+    fit_polyline(points, part);
+    for (const Corner& corner : part)
+      kept.push_back(corner.point);
+    part.clear();
+  }
+  return kept;
+}
+
+void sample_adaptively(std::span<Profile> profiles, const SamplingOptions& options) {
+  const std::vector<ProfilePoint> points = chain(profiles);
+  const auto length = static_cast<std::size_t>(options.window);
+  const auto windows = adaptive_windows(points, {.windows = (points.size() + length - 1) / length,
+                                                 .longest = 2 * length,
+                                                 .noise = options.noise});
+  auto window = windows.begin();
+  std::size_t behind = 0;
+  for (Profile& profile : profiles) {
+    behind += profile.points.size();
+    const auto first = window;
+    while (window != windows.end() && window->first < behind)
+      ++window;
+    profile.points = corners_of(points, {first, window});
+  }
+}
+
+template <class Sample>
+void sample_each(std::span<Profile> profiles, Sample sample) {
+  for (Profile& profile : profiles) {
+    std::vector<ProfilePoint> kept;
+    sample(profile.points, kept);
+    profile.points = std::move(kept);
   }
 }
 
 }  // namespace
 
-Profile sample(const Profile& profile, const SamplingOptions& options) {
+void sample(std::span<Profile> profiles, const SamplingOptions& options) {
   const auto length = static_cast<std::size_t>(std::max(options.window, 1));
-  Profile sampled{profile.theta, {}};
-  if (length == 1) return profile;
+  if (length == 1) return;
   switch (options.method) {
     case SamplingMethod::kEquidistant:
-      sample_equidistantly(profile.points, length, sampled.points);
+      sample_each(profiles, [=](Points points, std::vector<ProfilePoint>& kept) {
+        sample_equidistantly(points, length, kept);
+      });
       break;
     case SamplingMethod::kPaper:
-      sample_as_paper(profile.points, length, sampled.points);
+      sample_each(profiles, [=](Points points, std::vector<ProfilePoint>& kept) {
+        sample_as_paper(points, length, kept);
+      });
       break;
     case SamplingMethod::kAdaptive:
-      sample_adaptively(profile.points, options, sampled.points);
+      sample_adaptively(profiles, options);
   }
-  return sampled;
 }
 
 }  // namespace vitrine

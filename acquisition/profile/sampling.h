@@ -2,6 +2,8 @@
 // Fewer points a profile (paper, section 2.3, eq. 3-4).
 #pragma once
 
+#include <span>
+
 #include "acquisition/profile/profile.h"
 
 namespace vitrine {
@@ -25,16 +27,18 @@ struct SamplingOptions {
 // all its points stay. The largest possible |rho_i - mean| / s is (n - 1) / sqrt(n): up to L = 10
 // nothing is ever beyond 3 s, and this is plain averaging.
 //
-// kAdaptive keeps at most as many points as kEquidistant (and the ends of the profile's parts) and
-// spends them on detail. Each point stands for a window of neighbours, as their mean; windows
-// differ in length. Starting from single points, the two neighbouring windows are joined that
-// together deviate least from their common line in (rho, z); what is within `noise` does not count
-// as deviation, and among equals the shortest are joined first. So flat parts are averaged over up
-// to 4 L points and detail stays. At the ends of a part (ProfilePoint flag kApart) a window's line
-// is kept at its outermost point instead: nothing shrinks. O(n log n).
+// kAdaptive keeps at most as many points of all profiles as kEquidistant (and the ends of the
+// profiles' parts) and spends them on detail. Each point stands for a window of neighbours; windows
+// differ in length, up to 2 L points. Starting from single points, those two neighbouring windows
+// of any profile are joined that together deviate least from their common line in (rho, z); what is
+// within `noise` does not count as deviation, and among equals the shortest are joined first. The
+// points begin as the windows' means, at the ends of a part (ProfilePoint flag kApart) on the
+// window's line at its outermost point: nothing shrinks. Then they move so that the polyline
+// through them fits all points best (fit_polyline.h): on a bend, means lie on the inner side. O(n
+// log n).
 //
 // A point has the row in the middle of its window, so that rows stay ascending; it is kFilled if
 // all of its window is, and has any other flag if one of them has it.
-Profile sample(const Profile& profile, const SamplingOptions& options);
+void sample(std::span<Profile> profiles, const SamplingOptions& options);
 
 }  // namespace vitrine

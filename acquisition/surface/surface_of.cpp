@@ -45,10 +45,9 @@ std::vector<Profile> without_second_views(const Cloud& cloud, const Spacing& spa
 
 void sample_all(std::vector<Profile>& strands, const SamplingOptions& options,
                 SurfaceReport& report) {
-  for (Profile& strand : strands) {
-    strand = sample(strand, options);
+  sample(strands, options);
+  for (const Profile& strand : strands)
     report.sampled += strand.points.size();
-  }
 }
 
 void drop_unused(TriangleMesh& mesh) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "accuracy.h"
@@ -66,9 +67,31 @@ double error_of(const TriangleMesh& mesh, const TriangleMesh& object, const Tria
   return std::max(distances(mesh, object).rms, distances(all, mesh).rms);
 }
 
+double vertices_of(const Sampled& sampled) {
+  return static_cast<double>(sampled.mesh.positions.size());
+}
+
+// What adaptive sampling errs by at so many vertices: between the two lengths that give fewer and
+// more, each error taken as a power of the count.
+template <class Error>
+double error_at(double vertices, int length, const Sampler& sampler, const Error& error) {
+  Sampled few = sampler.by(SamplingMethod::kAdaptive, length);
+  while (--length > 0 && vertices_of(few) < vertices) {
+    Sampled more = sampler.by(SamplingMethod::kAdaptive, length);
+    if (vertices_of(more) >= vertices) {
+      const double part =
+          std::log(vertices / vertices_of(few)) / std::log(vertices_of(more) / vertices_of(few));
+      return std::pow(error(few.mesh), 1 - part) * std::pow(error(more.mesh), part);
+    }
+    few = std::move(more);
+  }
+  return error(few.mesh);
+}
+
 // `noisy` against `clean` profiles of one object.
 void judge_errors(Report& report, const std::string& what, const Sampler& sampler,
                   const TriangleMesh& object, const TriangleMesh& all, bool noisy) {
+  const auto error = [&](const TriangleMesh& mesh) { return error_of(mesh, object, all); };
   for (const int length : kLengths) {
     const Sampled paper = sampler.by(SamplingMethod::kPaper, length);
     const Sampled adaptive = sampler.by(SamplingMethod::kAdaptive, length);
@@ -77,10 +100,9 @@ void judge_errors(Report& report, const std::string& what, const Sampler& sample
       report.add({row, key, ours, peer, ours / peer, limit});
     };
     constexpr double kEqual = 1.01, kHalf = 0.5, kNoWorse = 1, kLong = 15;
-    ratio("vertices_ratio_to_paper", static_cast<double>(adaptive.mesh.positions.size()),
-          static_cast<double>(paper.mesh.positions.size()), kEqual);
-    ratio("rms_ratio_to_paper", error_of(adaptive.mesh, object, all),
-          error_of(paper.mesh, object, all),
+    ratio("vertices_ratio_to_paper", vertices_of(adaptive), vertices_of(paper), kEqual);
+    ratio("rms_at_equal_vertices_ratio_to_paper",
+          error_at(vertices_of(paper), length, sampler, error), error(paper.mesh),
           noisy             ? kNoWorse
           : length >= kLong ? kHalf
                             : kNoThreshold);
