@@ -20,6 +20,8 @@ inline constexpr char kMotorOn[] = "M17", kMotorOff[] = "M18";
 // The feed rate is all that a restart forgets and a program can both set and ask for. So it says
 // whether the counter means something: moves are made at one of two speeds, in degrees a second.
 inline constexpr int kCountedSpeed = 200, kUncountedSpeed = 100;
+// Degrees a second: a table may turn slower than it is asked to, yet hardly as slow as this.
+inline constexpr int kSlowestSpeed = 10;
 
 std::string turn(double degrees, int speed);
 std::string speed(int degrees_per_second);

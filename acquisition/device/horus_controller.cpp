@@ -174,7 +174,7 @@ Expected<void> HorusController::turn(double degrees, int speed) {
     if (auto on = command(horus::kMotorOn, patience_); !on) return on;
     motor_ = true;
   }
-  const double seconds = 2 * std::abs(degrees - *from) / speed;
+  const double seconds = std::abs(degrees - *from) / horus::kSlowestSpeed;
   return command(horus::turn(degrees, speed),
                  patience_ + milliseconds(static_cast<std::int64_t>(1000 * seconds)));
 }

@@ -86,6 +86,15 @@ TEST_P(EveryBoard, TurnsAndLights) {
   EXPECT_NEAR(rig_.table() - before, -30, 360.0 / 3200);
 }
 
+TEST_P(EveryBoard, WaitsForATableThatTurnsSlowly) {
+  ASSERT_EQ(rig_.ask("plug " + name() + " 40"), "ok");
+  auto board = open();
+  ASSERT_TRUE(board) << board.error().message;
+  ASSERT_TRUE((*board)->set_position(0));
+  const auto turned = (*board)->turn_to(60);
+  EXPECT_TRUE(turned) << turned.error().message;
+}
+
 TEST_P(EveryBoard, IsDarkAfterItWasClosed) {
   ASSERT_EQ(rig_.ask("plug " + name()), "ok");
   {
