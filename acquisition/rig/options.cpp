@@ -24,6 +24,8 @@ that only COMMAND sees. Runs COMMAND and exits as it does.
   --steps N            the scanner's steps a turn, for --write-config (default 720)
   --degrees-per-second N
                        how fast the table turns (default: it is there at once)
+  --table FILE         keeps where the table stands for the next rig, so that it can go on with a scan
+                       (default: each begins at 0 degrees)
   --fault NAME[@STEP]  what goes wrong, at that motion of the table; may be repeated: lost-packets,
                        camera-unplug, usb-unplug, motor-stall, missed-trigger, drift,
                        laser-out, second-stripe
@@ -96,7 +98,7 @@ class Parser {
                                            "--seed",        "--steps",   "--degrees-per-second",
                                            "--fault",       "--stripe",  "--speckle",
                                            "--address",     "--dialect", "--write-config",
-                                           "--write-truth", "--name"};
+                                           "--write-truth", "--name",    "--table"};
     return std::find(std::begin(kNames), std::end(kNames), word) != std::end(kNames);
   }
 
@@ -148,6 +150,7 @@ class Parser {
     if (option == "--write-config") options_.write_config = value;
     if (option == "--name") options_.name = value;
     if (option == "--write-truth") options_.write_truth = value;
+    if (option == "--table") options_.table = value;
     return {};
   }
 

@@ -75,7 +75,8 @@ Expected<int> serve(const RigOptions& options, const Subject* object) {
                                  .faults = options.faults,
                                  .camera_address = options.address,
                                  .fabscan = options.dialect == "fabscan",
-                                 .degrees_per_second = options.degrees_per_second});
+                                 .degrees_per_second = options.degrees_per_second,
+                                 .table = options.table});
   if (!scanner) return Unexpected(scanner.error());
   auto door = open_door(folder.socket(), (*scanner)->stage());
   if (!door) return Unexpected(door.error());

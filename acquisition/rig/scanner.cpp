@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "acquisition/rig/noise.h"
+#include "acquisition/rig/table_file.h"
 
 namespace vitrine::rig {
 
@@ -26,19 +27,24 @@ void tell(const Expected<void>& outcome) {
 
 }  // namespace
 
-Scanner::Scanner(const ScannerOptions& options)
+Scanner::Scanner(const ScannerOptions& options, double degrees)
     : options_(options),
+      degrees_(degrees),
       renderer_(optics_of(options.realism.seed), options.object, options.realism),
       stage_([this](int turns) { turned(turns); }),
-      board_({.on_move = [this](double degrees) { stage_.passes(degrees); },
-              .on_turn = [this](double degrees) { stage_.turned_to(degrees); },
+      board_({.on_move = [this](double moved) { stage_.passes(degrees_ + moved); },
+              .on_turn = [this](double moved) { stands(degrees_ + moved); },
               .on_laser = [this](bool on) { stage_.laser(on); },
               .on_motor = [this](bool on) { stage_.motor(on); }}),
       camera_cable_([this] { camera_->unplug(); }, [this] { tell(camera_->plug_in()); }),
-      board_cable_([this] { board_.unplug(); }, [this] { tell(plug_board()); }) {}
+      board_cable_([this] { board_.unplug(); }, [this] { tell(plug_board()); }) {
+  stage_.passes(degrees);
+}
 
 Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options) {
-  std::unique_ptr<Scanner> scanner(new Scanner(options));
+  const auto degrees = options.table.empty() ? 0 : read_table(options.table);
+  if (!degrees) return Unexpected(degrees.error());
+  std::unique_ptr<Scanner> scanner(new Scanner(options, *degrees));
   auto camera = GigeCamera::plug_in(
       {options.camera_address, camera_serial(options.realism.seed)},
       [self = scanner.get()](const Exposure& exposure, const SensorRegion& region) {
@@ -54,6 +60,11 @@ Expected<void> Scanner::plug_board() {
   UsbBoardSettings settings = board_settings(options_.realism.seed, options_.fabscan);
   settings.firmware.degrees_per_second = options_.degrees_per_second;
   return board_.plug(settings);
+}
+
+void Scanner::stands(double degrees) {
+  if (!options_.table.empty()) tell(write_table(options_.table, degrees));
+  stage_.turned_to(degrees);
 }
 
 void Scanner::turned(int turns) {

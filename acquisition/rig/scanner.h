@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -25,6 +26,7 @@ struct ScannerOptions {
   std::string camera_address = "127.0.0.1";
   bool fabscan = false;           // the board, instead of Horus
   double degrees_per_second = 0;  // of the table; 0: it is there at once
+  std::filesystem::path table;    // keeps where it stands; empty: it stands at 0 degrees at first
 };
 
 // The same for the same seed: a rig that is started anew is the rig it was.
@@ -39,14 +41,16 @@ class Scanner {
   Stage& stage() { return stage_; }
 
  private:
-  explicit Scanner(const ScannerOptions& options);
+  Scanner(const ScannerOptions& options, double degrees);
   Expected<void> plug_board();
+  void stands(double degrees);
   void turned(int turns);
   Exposed expose(const Exposure& exposure, const SensorRegion& region);
   Delivery delivery(int turns);
 
   const ScannerOptions options_;
-  Renderer renderer_;  // of the camera's thread alone, as are the next two
+  const double degrees_;  // of the table, where the board counts from 0
+  Renderer renderer_;     // of the camera's thread alone, as are the next two
   std::uint64_t frames_ = 0;
   int missed_at_ = -1;  // motions, when a trigger was missed last
   Stage stage_;

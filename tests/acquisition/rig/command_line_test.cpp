@@ -133,6 +133,20 @@ TEST(RigCommandLine, TheConfigSaysWhereThingsAreAndNothingOfTheOptics) {
   EXPECT_EQ(json.size(), 10U);
 }
 
+TEST(RigCommandLine, AFileThatHoldsNoAngleOfATableIsNamed) {
+  const TemporaryFolder folder;
+  const auto table = folder.path() / "table";
+  for (const std::string text : {"", "12", "12 \n", "north\n", "nan\n"}) {
+    std::ofstream(table) << text;
+    const ProgramResult result = rig_with("true", {"--table", table});
+    EXPECT_EQ(result.exit_code, 1) << text;
+    EXPECT_THAT(result.errors, HasSubstr(table.string() + " holds no angle of a table; remove it"));
+    EXPECT_EQ(lines(result.errors), 1) << result.errors;
+  }
+  std::ofstream(table) << "-12.5\n";
+  EXPECT_EQ(rig_with("true", {"--table", table}).exit_code, 0);
+}
+
 TEST(RigCommandLine, TheTruthStandsOnTheTableAtItsHeight) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "truth.ply";

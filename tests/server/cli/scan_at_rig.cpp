@@ -137,6 +137,17 @@ TEST_F(ScanAtRig, killed_or_interrupted_and_resumed_it_is_the_same_mesh) {
   }
 }
 
+TEST_F(ScanAtRig, a_rig_that_was_started_anew_goes_on_where_its_table_stands) {
+  calibrate();
+  const std::string expected = undisturbed();
+  const std::vector<std::string> table = {"--table", path("table")};
+  ProgramResult result = at_rig(stopped_amid("INT", "out.ply"), table);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  result = at_rig(scan_to("out.ply", "--resume"), table);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(read("out.ply") == expected);
+}
+
 // Its table stands at motor steps, of which 53.3 are a step of the scan.
 TEST_F(ScanAtRig, a_board_that_does_not_count_goes_on_at_the_very_motor_step) {
   calibrate();
