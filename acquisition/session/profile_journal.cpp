@@ -15,8 +15,9 @@
 namespace vitrine {
 namespace {
 
-// A record: kind, size of its body, body, and the first eight bytes of the SHA-256 of all these.
-constexpr std::uint32_t kUncounted = 1, kTurn = 2, kProfile = 3;  // the first: by older versions
+// kUncounted: a profile by older versions. A record: kind, size of its body, body, and the first
+// eight bytes of the SHA-256 of all these.
+constexpr std::uint32_t kUncounted = 1, kTurn = 2, kProfile = 3, kGivenUp = 4;
 constexpr std::size_t kHeadBytes = 8, kChecksumBytes = 8, kPointBytes = 3 * 8 + 4 + 1;
 constexpr std::size_t kThetaBytes = 8, kCountBytes = 5 * 8;
 
@@ -76,6 +77,14 @@ void add_profile(JournalContents& contents, std::uint32_t kind,
   contents.stripes.push_back(stripe);
 }
 
+void give_up(JournalContents& contents, std::span<const std::uint8_t> body) {
+  ByteReader in(body);
+  const std::size_t kept = std::min<std::size_t>(in.u32(), contents.profiles.size());
+  contents.profiles.resize(kept);
+  contents.stripes.resize(kept);
+  contents.given_up_at = static_cast<int>(in.u32());
+}
+
 // The next whole record's body, empty at the end or where it is torn.
 std::span<const std::uint8_t> next_record(std::span<const std::uint8_t> rest, std::uint32_t& kind) {
   ByteReader in(rest);
@@ -103,6 +112,8 @@ JournalContents read_journal(std::span<const std::uint8_t> file) {
       add_profile(contents, kind, body);
     } else if (kind == kTurn && body.size() == 4) {
       contents.stands_at = static_cast<int>(ByteReader(body).u32());
+    } else if (kind == kGivenUp && body.size() == 8) {
+      give_up(contents, body);
     } else {
       return contents;
     }
@@ -128,15 +139,25 @@ Expected<ProfileJournal> ProfileJournal::open(const std::filesystem::path& path,
 }
 
 Expected<void> ProfileJournal::append(const Profile& profile, const StripeCount& stripe) {
-  if (auto written = write(kProfile, body_of(profile, stripe)); !written) return written;
-  if (::fdatasync(file_.get()) != 0) return refused("write", path_, errno);
-  return {};
+  return write(kProfile, body_of(profile, stripe)).and_then([this] { return sync(); });
+}
+
+Expected<void> ProfileJournal::give_up(int kept, int steps_done) {
+  ByteWriter body;
+  body.u32(static_cast<std::uint32_t>(kept));
+  body.u32(static_cast<std::uint32_t>(steps_done));
+  return write(kGivenUp, body.take()).and_then([this] { return sync(); });
 }
 
 Expected<void> ProfileJournal::note_turn(int step) {
   ByteWriter body;
   body.u32(static_cast<std::uint32_t>(step));
   return write(kTurn, body.take());
+}
+
+Expected<void> ProfileJournal::sync() {
+  if (::fdatasync(file_.get()) != 0) return refused("write", path_, errno);
+  return {};
 }
 
 Expected<void> ProfileJournal::write(std::uint32_t kind, std::vector<std::uint8_t> body) {

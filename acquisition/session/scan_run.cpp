@@ -52,11 +52,11 @@ Expected<void> ScanRun::open_folder() {
   journal_ = std::move(*journal);
   profiles_ = std::move(contents.profiles);
   stands_at_ = contents.stands_at.value_or(0);
-  stripe_watch_.emplace(means_.request.steps);
-  for (int step = 0; step < steps_done(); ++step) {
-    seen_ = seen_ + contents.stripes[step];
-    (void)stripe_watch_->add(contents.stripes[step], step + 1);  // what it says was said then
-  }
+  stripes_ = std::move(contents.stripes);
+  seen_ = sum(stripes_);
+  stripe_watch_.emplace(means_.request.steps, contents.given_up_at);
+  for (int step = 0; step < steps_done(); ++step)
+    (void)stripe_watch_->add(stripes_[step], step + 1);  // what it says was said then
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
@@ -216,9 +216,24 @@ Expected<void> ScanRun::settle() {
   if (!pending_.valid()) return {};
   if (auto stored = pending_.get(); !stored) return stored;
   profiles_.push_back(std::move(fresh_.profile));
+  stripes_.push_back(fresh_.stripe);
   seen_ = seen_ + fresh_.stripe;
   means_.watch.step_done(steps_done(), seen_);
-  return stripe_watch_->add(fresh_.stripe, steps_done());
+  const auto judged = stripe_watch_->add(fresh_.stripe, steps_done());
+  if (judged) return {};
+  if (auto noted = give_up(stripe_watch_->span()); !noted) return noted;
+  return judged;
+}
+
+// The last steps are measured again by whoever goes on: the laser may be back.
+Expected<void> ScanRun::give_up(int steps) {
+  const int kept = steps_done() - steps;
+  if (auto noted = journal_->give_up(kept, steps_done()); !noted) return noted;
+  profiles_.resize(static_cast<std::size_t>(kept));
+  stripes_.resize(static_cast<std::size_t>(kept));
+  seen_ = sum(stripes_);
+  means_.watch.step_done(kept, seen_);
+  return {};
 }
 
 }  // namespace vitrine

@@ -94,6 +94,7 @@ class ScanRun {
   void measure(int step, FramePair frames);
   Expected<void> measure_and_store(int step, FramePair frames);
   Expected<void> settle();
+  Expected<void> give_up(int steps);
   Expected<void> open_folder();
 
   CameraSettings settings() const;
@@ -105,8 +106,9 @@ class ScanRun {
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
   std::optional<StripeWatch> stripe_watch_;
-  StripeCount seen_;  // in all profiles_
-  Measured fresh_;    // of step profiles_.size(); the other thread's until pending_ is there
+  std::vector<StripeCount> stripes_;  // of profiles_
+  StripeCount seen_;                  // in all of them
+  Measured fresh_;  // of step profiles_.size(); the other thread's until pending_ is there
   std::future<Expected<void>> pending_;
   int stands_at_ = 0;  // the step that the table was turned to last, as the journal says, too
   bool is_checked_ = false;

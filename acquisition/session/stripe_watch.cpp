@@ -15,14 +15,16 @@ Expected<void> StripeWatch::add(const StripeCount& stripe, int steps_done) {
   const bool is_lost = !shows_stripe(seen);
   if (!is_lost) is_lost_ = false;
   const auto judged = judge(seen);
-  if (judged || last_.size() < most_ || std::exchange(is_lost ? is_lost_ : is_odd_, true))
+  if (judged || last_.size() < most_ || std::exchange(is_lost ? is_lost_ : is_odd_, true) ||
+      steps_done <= accepted_)
     return {};
   return fail(
       ErrorCode::kBadInput,
-      fmt::format("the stripe {} since step {} of the scan, {}; then start a new scan, "
-                  "or resume this one where the object just {}",
-                  is_lost ? "is lost" : "has changed", steps_done - static_cast<int>(most_) + 1,
-                  judged.error().message, is_lost ? "leaves the light" : "looks like that"));
+      fmt::format(
+          "the stripe {} since step {} of the scan, {}; then start a new scan, "
+          "or resume this one: it measures from there again, and takes an object that just {}",
+          is_lost ? "is lost" : "has changed", steps_done - static_cast<int>(most_) + 1,
+          judged.error().message, is_lost ? "leaves the light" : "looks like that"));
 }
 
 }  // namespace vitrine

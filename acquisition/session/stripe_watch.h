@@ -13,16 +13,21 @@ namespace vitrine {
 
 class StripeWatch {
  public:
-  explicit StripeWatch(int steps_of_a_turn)
-      : most_(static_cast<std::size_t>(std::max(steps_of_a_turn / 8, 3))) {}
+  // `accepted`: nothing is told before so many steps are done.
+  StripeWatch(int steps_of_a_turn, int accepted)
+      : most_(static_cast<std::size_t>(std::max(steps_of_a_turn / 8, 3))), accepted_(accepted) {}
 
   // Of the next step, the `steps_done`-th. Fails (kBadInput) at the end of an eighth of a turn that
   // judge() refuses, be it not for what is saturated: that is told once, who goes on has accepted
   // it; a stripe that is found and lost again is told again.
   Expected<void> add(const StripeCount& stripe, int steps_done);
 
+  // How many steps it judges, and refuses.
+  int span() const { return static_cast<int>(most_); }
+
  private:
   const std::size_t most_;
+  const int accepted_;
   std::vector<StripeCount> last_;
   bool is_lost_ = false, is_odd_ = false;  // and has been told
 };

@@ -38,7 +38,7 @@ class Journal : public testing::Test {
   std::vector<std::uint8_t> bytes() const { return *read_file(path_, 1 << 20); }
 
   static void expect_profiles(const JournalContents& contents, std::size_t count) {
-    const auto& [profiles, stripes, stands_at, size] = contents;
+    const auto& [profiles, stripes, stands_at, given_up_at, size] = contents;
     ASSERT_EQ(profiles.size(), count);
     ASSERT_EQ(stripes.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -79,6 +79,22 @@ TEST_F(Journal, cut_at_any_byte_it_holds_all_whole_profiles) {
       EXPECT_EQ(*contents.stands_at, static_cast<int>((records - 1) / 2));
     }
   }
+}
+
+TEST_F(Journal, what_is_given_up_is_gone_and_what_follows_takes_its_place) {
+  write(5);
+  JournalContents contents;
+  auto journal = ProfileJournal::open(path_, contents);
+  ASSERT_TRUE(journal);
+  EXPECT_EQ(contents.given_up_at, 0);
+  ASSERT_TRUE(journal->give_up(2, 5));
+  contents = read_journal(bytes());
+  expect_profiles(contents, 2);
+  EXPECT_EQ(contents.given_up_at, 5);
+  EXPECT_EQ(contents.stands_at, 4) << "the table has not moved";
+  EXPECT_EQ(contents.bytes, bytes().size());
+  ASSERT_TRUE(journal->append(profile(2), stripe(2)));
+  expect_profiles(read_journal(bytes()), 3);
 }
 
 TEST_F(Journal, a_profile_of_an_older_version_has_no_counts_and_is_read) {
