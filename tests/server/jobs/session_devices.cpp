@@ -7,6 +7,7 @@
 
 #include "../../acquisition/session/fake_scanner.h"
 #include "acquisition/calibration/calibration_store.h"
+#include "acquisition/session/scan_folder.h"
 #include "server/jobs/session_backend.h"
 #include "support/temporary_folder.h"
 
@@ -56,6 +57,23 @@ TEST_F(SessionDevices, AScanWhoseListenerThrowsHasEnded) {
   const std::lock_guard lock(world_.mutex);
   EXPECT_EQ(world_.open_boards, 0);
   EXPECT_FALSE(world_.laser || world_.motor);
+}
+
+struct SilentListener final : ScanListener {
+  void begins(std::shared_ptr<const ScanView>) override {}
+  void told(const ScanTold&) override {}
+  bool is_interrupted() const override { return false; }
+  bool is_cancelled() const override { return false; }
+};
+
+TEST_F(SessionDevices, AScanUsesTheCalibrationThatWasOrdered) {
+  for (int number = 1; number <= 2; ++number)
+    ASSERT_TRUE(CalibrationStore(folder_.path()).add(fake_calibration()));
+  ScanOrder order{.calibration = 1};
+  order.request.steps = 12;
+  SilentListener listener;
+  ASSERT_TRUE(backend_.scan(order, folder_.path() / "scan", listener));
+  EXPECT_EQ((*ScanFolder::open(folder_.path() / "scan")->record())->calibration, 1);
 }
 
 TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsTakenBack) {
