@@ -209,6 +209,13 @@ Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Axi
     const int next = static_cast<int>(numbers.size());
     p.pose = numbers.try_emplace(p.pose, next).first->second;
   }
+  constexpr std::size_t kLeastPoses = 3;  // each is judged by the others
+  if (numbers.size() < kLeastPoses) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("the points are of {} poses, {} are the least to judge a calibration "
+                            "by; number those measured at one time by one pose, and add others",
+                            numbers.size(), kLeastPoses));
+  }
   const auto validation = cross_validate(
       static_cast<int>(numbers.size()), options.degree,
       [&](const std::vector<bool>& left_out, int degree) -> Expected<std::vector<HeldOutPoint>> {

@@ -79,8 +79,17 @@ class Reader {
     return {value == nullptr ? nothing : *value, fault_};
   }
 
+  // `known`: all keys that the object may have.
+  void only(std::initializer_list<std::string_view> known) {
+    for (const auto& [key, value] : object_.items()) {
+      if (fault_.empty() && std::ranges::find(known, key) == known.end())
+        fault_ = fmt::format("\"{}\" is not known here", key);
+    }
+  }
+
   void wrong(const char* key) {
-    if (fault_.empty()) fault_ = fmt::format("\"{}\" is missing or out of range", key);
+    if (fault_.empty())
+      fault_ = fmt::format("\"{}\" is missing, out of range or of a wrong type", key);
   }
 
  private:
@@ -135,21 +144,20 @@ bool is_convex(std::span<const double> hull) {
   return true;
 }
 
-Expected<Json> parse_object(std::string_view text, const std::string& name) {
+// `remedy`: what to do about a file that is none.
+Expected<Json> parse_object(std::string_view text, const std::string& name,
+                            std::string_view remedy) {
   Json object = Json::parse(text, nullptr, false);
-  if (object.is_discarded() || !object.is_object()) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("{} is no whole JSON object: it is damaged or cut; restore it from a "
-                            "backup, or remove it and calibrate anew",
-                            name));
-  }
-  return object;
+  if (!object.is_discarded() && object.is_object()) return object;
+  return fail(ErrorCode::kBadInput, fmt::format("{} is no whole JSON object{}", name, remedy));
 }
 
+constexpr std::string_view kRestore = "; restore it from a backup, or remove it and calibrate anew";
+constexpr std::string_view kStateAxis =
+    "; state a and offset (mm), b and tilt (mm per mm, -1 to 1) and clockwise (true or false)";
+
 Unexpected faulty(const std::string& name, const std::string& fault) {
-  return fail(ErrorCode::kBadInput,
-              fmt::format("{}: {}; restore it from a backup, or remove it and calibrate anew", name,
-                          fault));
+  return fail(ErrorCode::kBadInput, fmt::format("{}: {}{}", name, fault, kRestore));
 }
 
 }  // namespace
@@ -206,7 +214,7 @@ std::string to_json(const Calibration& c) {
 }
 
 Expected<Calibration> calibration_from_json(std::string_view text, const std::string& name) {
-  const auto object = parse_object(text, name);
+  const auto object = parse_object(text, name, fmt::format(": it is damaged or cut{}", kRestore));
   if (!object) return tl::make_unexpected(object.error());
   std::string fault;
   Reader in(*object, fault);
@@ -229,15 +237,14 @@ Expected<Calibration> calibration_from_json(std::string_view text, const std::st
 }
 
 Expected<Axis> axis_from_json(std::string_view text, const std::string& name) {
-  const auto object = parse_object(text, name);
+  const auto object = parse_object(text, name, kStateAxis);
   if (!object) return tl::make_unexpected(object.error());
   std::string fault;
-  const Axis axis = read_axis(Reader(*object, fault));
-  if (!fault.empty()) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("{}: {}; state a, b, offset, tilt and clockwise", name, fault));
-  }
-  return axis;
+  Reader in(*object, fault);
+  in.only({"a", "b", "offset", "tilt", "clockwise"});
+  const Axis axis = read_axis(in);
+  if (fault.empty()) return axis;
+  return fail(ErrorCode::kBadInput, fmt::format("{}: {}{}", name, fault, kStateAxis));
 }
 
 }  // namespace vitrine

@@ -15,7 +15,8 @@ std::string to_json(const Calibration& calibration);
 // `name` is what errors (kBadInput) call it by; they tell what is wrong with which key.
 Expected<Calibration> calibration_from_json(std::string_view text, const std::string& name);
 
-// {"a": …, "b": …, "offset": …, "tilt": …, "clockwise": false}, as in a calibration.
+// {"a": …, "b": …, "offset": …, "tilt": …, "clockwise": false}, as in a calibration; people write
+// it, so that what else it holds is a fault.
 Expected<Axis> axis_from_json(std::string_view text, const std::string& name);
 
 }  // namespace vitrine

@@ -17,7 +17,7 @@ Expected<Calibration> chosen(const ScanRecord& record, const std::filesystem::pa
   if (number == record.calibration) return calibration_of(record, calibrations);
   auto calibration = CalibrationStore(calibrations).load(number);
   if (!calibration) return calibration;
-  if (auto possible = fits(*calibration, record); !possible)
+  if (auto possible = fits(*calibration, record.camera, record.settings.region); !possible)
     return tl::unexpected(possible.error());
   return calibration;
 }

@@ -16,9 +16,9 @@ std::string digest_of(const Calibration& calibration) {
   return to_hex(sha256(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())));
 }
 
-Expected<void> fits(const Calibration& calibration, const ScanRecord& record) {
-  if (calibration.camera == record.camera && calibration.region == record.settings.region)
-    return {};
+Expected<void> fits(const Calibration& calibration, const std::string& camera,
+                    const SensorRegion& region) {
+  if (calibration.camera == camera && calibration.region == region) return {};
   return fail(ErrorCode::kBadInput,
               fmt::format("calibration {} is not of the camera and region of the scan; choose "
                           "another",
@@ -31,7 +31,7 @@ Expected<Calibration> calibration_of(const ScanRecord& record,
   if (!calibration) return calibration;
   const bool is_same = record.calibration_digest.empty() ||  // a scan of an earlier version
                        record.calibration_digest == digest_of(*calibration);
-  if (is_same && fits(*calibration, record)) return calibration;
+  if (is_same && fits(*calibration, record.camera, record.settings.region)) return calibration;
   return fail(ErrorCode::kBadInput,
               fmt::format("calibration {} in {} is not the one that the scan was begun with; bring "
                           "that one back or start a new scan",

@@ -133,7 +133,7 @@ Expected<ScanRecord> scan_record_of(std::string_view text, const std::string& pl
   record.settings.gain_db = members.number("gain_db", -100, 100, 0);
   record.settings.region = region_in(members);
   record.board = members.text("board");
-  record.calibration = members.whole("calibration", 0, 1'000'000'000, 0);
+  record.calibration = members.whole("calibration", 0, kMostCalibration, 0);
   record.calibration_digest = members.text("calibration_digest");
   record.request.exposure_us = record.settings.exposure_us;
   if (!members.has("steps")) members.fault("steps", "is missing");

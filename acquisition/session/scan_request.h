@@ -13,6 +13,7 @@
 namespace vitrine {
 
 inline constexpr int kLeastSteps = 8, kMostSteps = 36'000;
+inline constexpr int kMostCalibration = 1'000'000'000;       // number
 inline constexpr double kMostExposure = 1e6;                 // microseconds
 inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // degrees, mm
 
@@ -27,6 +28,7 @@ inline constexpr std::array kSamplingLengths = {5, 10, 15, 20};  // points
 struct ScanRequest {
   int steps = 720;                    // of one turn of the table, kLeastSteps to kMostSteps
   std::optional<double> exposure_us;  // nothing: the scanner's
+  int calibration = 0;                // its number; 0: the newest of that camera and region
   bool keep_frames = false;           // for other ways to find the stripe afterwards
   Processing processing;
 };

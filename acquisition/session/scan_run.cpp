@@ -130,9 +130,12 @@ ScanRun::Outcome ScanRun::prepare(LiveScanner& scanner) {
 // The calibration that this camera is to be used with.
 Expected<void> ScanRun::identify(const LiveScanner& scanner) {
   if (record_) return same_camera(*record_, scanner);
-  auto calibration = CalibrationStore(means_.scanner.calibrations)
-                         .for_camera(scanner.camera().serial, scanner.region());
+  const CalibrationStore store(means_.scanner.calibrations);
+  const int chosen = means_.request.calibration;
+  const std::string& serial = scanner.camera().serial;
+  auto calibration = chosen == 0 ? store.for_camera(serial, scanner.region()) : store.load(chosen);
   if (!calibration) return tl::unexpected(calibration.error());
+  if (auto possible = fits(*calibration, serial, scanner.region()); !possible) return possible;
   calibration_ = std::move(*calibration);
   return {};
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/scanner_config.h"
 
+#include <arpa/inet.h>
+#include <fmt/format.h>
+
 #include <charconv>
+#include <regex>
 
 #include "acquisition/session/region_json.h"
 #include "acquisition/session/scan_request.h"
@@ -28,6 +32,9 @@ CameraSelector camera_in(JsonMembers& root) {
   CameraSelector camera{.address = members.text("address"), .serial = members.text("serial")};
   if (camera.address.empty() == camera.serial.empty())
     members.fault("serial", "or \"address\" must name the camera, one of them");
+  in_addr address{};
+  if (!camera.address.empty() && ::inet_pton(AF_INET, camera.address.c_str(), &address) != 1)
+    members.fault("address", "must be the camera's IP address, such as \"192.168.0.20\"");
   root.adopt(members);
   return camera;
 }
@@ -45,21 +52,36 @@ BoardSelector board_in(JsonMembers& root) {
   board.product = usb_number(members, "product");
   board.serial = members.text("serial");
   board.port = members.text("port");
+  static const std::regex kPort("([0-9]+-[0-9]+(\\.[0-9]+)*)?");
+  if (!std::regex_match(board.port, kPort))
+    members.fault("port", "must be the bus, then the sockets, such as \"1-2.4\"");
   board.steps_per_turn = members.whole("steps_per_turn", 8, 1 << 20, board.steps_per_turn);
   root.adopt(members);
   return board;
 }
 
+void check_members(const Target& target, JsonMembers& members) {
+  for (const char* key : {"squares_x", "squares_y"}) {
+    if (!members.has(key)) members.fault(key, "is missing");
+  }
+  if (!(target.marker_mm > 0 && target.marker_mm < target.square_mm))
+    members.fault("marker_mm", "must be larger than 0 and smaller than \"square_mm\"");
+  if (const auto known = check_target(target); !known)
+    members.fault("dictionary", fmt::format("does not fit: {}", known.error().message));
+}
+
+// A scanner that is calibrated by points that are known needs none.
 Target target_in(JsonMembers& root) {
-  constexpr int kMostSquares = 100;
+  constexpr int kLeastSquares = 3, kMostSquares = 64;
   constexpr double kLargest = 1'000;  // mm
   auto members =
       root.object("target", {"squares_x", "squares_y", "square_mm", "marker_mm", "dictionary"});
-  Target target{.squares_x = members.whole("squares_x", 0, kMostSquares, 0),
-                .squares_y = members.whole("squares_y", 0, kMostSquares, 0),
+  Target target{.squares_x = members.whole("squares_x", kLeastSquares, kMostSquares, 0),
+                .squares_y = members.whole("squares_y", kLeastSquares, kMostSquares, 0),
                 .square_mm = members.number("square_mm", 0, kLargest, 0),
                 .marker_mm = members.number("marker_mm", 0, kLargest, 0),
                 .dictionary = members.text("dictionary")};
+  if (root.has("target")) check_members(target, members);
   root.adopt(members);
   return target;
 }

@@ -103,6 +103,11 @@ void add_uncovered(TriangleMesh& mesh, const TriangleMesh& scan, double reach) {
 
 }  // namespace
 
+bool is_doubtful(const Merged& merged, std::size_t k, const MergeOptions& options) {
+  constexpr double kLeastShare = .2, kMostSpread = .4;
+  return merged.shares[k] < kLeastShare || merged.rms[k] > kMostSpread * options.overlap;
+}
+
 Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const RigidMotion> starts,
                        const MergeOptions& options) {
   if (scans.empty() || scans.size() != starts.size())
@@ -113,7 +118,7 @@ Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const Rigi
     if (scans[k].faces.empty())
       return fail(ErrorCode::kBadInput, fmt::format("scan {} has no face: leave it out", k + 1));
   }
-  Merged merged{{scans[0].positions, scans[0].faces, {}}, {RigidMotion{}}, {0}};
+  Merged merged{{scans[0].positions, scans[0].faces, {}}, {RigidMotion{}}, {0}, {1}};
   for (std::size_t k = 1; k < scans.size(); ++k) {
     const Target target(merged.mesh);
     const std::vector<Vec3> points = some_of(scans[k].positions);
@@ -132,6 +137,7 @@ Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const Rigi
       p = motion(p);
     add_uncovered(merged.mesh, moved, options.overlap);
     merged.motions.push_back(motion), merged.rms.push_back(rms_of(pairs));
+    merged.shares.push_back(static_cast<double>(pairs.size()) / static_cast<double>(points.size()));
   }
   return merged;
 }

@@ -18,7 +18,13 @@ struct Merged {
   TriangleMesh mesh;                 // in the frame of the first scan, mm; without colours
   std::vector<RigidMotion> motions;  // of each scan; that of the first is none
   std::vector<double> rms;           // mm: of each scan to those before it where they overlap
+  std::vector<double> shares;        // of each scan's points, that overlap; of the first 1
 };
+
+// Whether scan k may well lie where it does by chance: it overlaps in less than a fifth of its
+// points, or their distances are spread as evenly over `overlap` as those of surfaces that cross
+// each other (rms .58 of it).
+bool is_doubtful(const Merged& merged, std::size_t k, const MergeOptions& options);
 
 // What is done: from `starts` (one a scan, the operator's: correct within the object's features,
 // some mm and degrees) each scan is moved onto those before it by iterated closest points over the

@@ -88,17 +88,23 @@ Expected<CalibrationInput> take_pictures(const ScannerConfig& config) {
                         [&](double share) { report("pictures of the target", share); });
 }
 
+// Of pictures of the target; points that were measured by other means are all used.
+std::string left_out(const CalibrationReport& report) {
+  return fmt::format(
+      "left out: {} points off the line ({:.2f} %), {} pictures without a clear line\n",
+      report.strays, 100 * report.stray_share(), report.unclear);
+}
+
 std::string as_text(const Calibration& calibration, const CalibrationReport& report,
-                    const std::string& plot) {
+                    bool has_pictures, const std::string& plot) {
   const auto& [rms, p95, max] = calibration.residuals;
   return fmt::format(
       "calibration {} of camera {}: over held-out poses rms {:.4f} mm, p95 {:.4f} mm, max {:.4f} "
-      "mm\n{} pictures, {} points on the laser's line, polynomial of degree {}; covers {:.0f} % of "
-      "the picture\nleft out: {} points off the line ({:.2f} %), {} pictures without a clear line\n"
-      "residuals: {}",
-      calibration.number, calibration.camera, rms, p95, max, report.pictures, report.points,
-      calibration.map.degree(), 100 * report.coverage.image_share, report.strays,
-      100 * report.stray_share(), report.unclear, plot);
+      "mm\n{} {}, {} points on the laser's line, polynomial of degree {}; covers {:.0f} % of "
+      "the picture\n{}residuals: {}",
+      calibration.number, calibration.camera, rms, p95, max, report.pictures,
+      has_pictures ? "pictures" : "poses", report.points, calibration.map.degree(),
+      100 * report.coverage.image_share, has_pictures ? left_out(report) : "", plot);
 }
 
 tl::expected<CalibrationOptions, Fault> options_of(const Arguments& arguments) {
@@ -141,7 +147,10 @@ Outcome run_calibrate(const Arguments& arguments) {
   const auto stored = keep_calibration(config->calibrations, *calibrated);
   if (!stored) return failed(stored.error());
   const std::string plot = residuals_file(config->calibrations, stored->number).string();
-  if (!arguments.has("--json")) return print(as_text(*stored, calibrated->report, plot));
+  if (!arguments.has("--json")) return {
+      const bool has_pictures = !arguments.has("--correspondences");
+      return print(as_text(*stored, calibrated->report, has_pictures, plot));
+    }
   json object = json::parse(report_json(*stored, calibrated->report), nullptr, false);
   object.update({{"rms", stored->residuals.rms},  // mm, over held-out poses
                  {"p95", stored->residuals.p95},
@@ -153,7 +162,7 @@ Outcome run_calibrate(const Arguments& arguments) {
 constexpr Flag kCalibrateFlags[] = {
     {"--config", "rig.json", "the scanner"},
     {"--correspondences", "FILE.csv",
-     "instead of the target: lines u,v,x,y,pose of points known in the laser plane"},
+     "instead of the target: the line u,v,x,y,pose, then points known in the laser plane"},
     {"--axis", "FILE.json", "with them: the table's axis, {a, b, offset, tilt, clockwise}"},
     {"--degree", "auto|2..5", "of the polynomial (default auto: by the held-out poses)"},
     {"--json", "", "print one JSON object"}};

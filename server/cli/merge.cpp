@@ -28,13 +28,16 @@ tl::expected<std::vector<InputFile>, Fault> open_all(const std::vector<std::stri
   return files;
 }
 
-json describe(const Merged& merged, const std::vector<std::string>& paths) {
+json describe(const Merged& merged, const std::vector<std::string>& paths,
+              const MergeOptions& options) {
   const auto numbers = [](const Vec3& v) { return json{v.x, v.y, v.z}; };
   json scans = json::array();
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const auto& [rows, shift] = merged.motions[k];
     scans.push_back({{"file", paths[k]},
                      {"rms", merged.rms[k]},
+                     {"overlap", merged.shares[k]},
+                     {"doubtful", is_doubtful(merged, k, options)},
                      {"rotation", {numbers(rows[0]), numbers(rows[1]), numbers(rows[2])}},
                      {"shift", numbers(shift)}});
   }
@@ -58,7 +61,7 @@ Expected<Product> merge_files(const std::vector<InputFile>& files,
   if (!merged) return tl::unexpected(merged.error());
   auto file = write_mesh(merged->mesh, format, "mm");
   if (!file) return tl::unexpected(file.error());
-  return Product{describe(*merged, paths), std::move(*file)};
+  return Product{describe(*merged, paths, options), std::move(*file)};
 }
 
 std::string as_text(const json& r) {
@@ -67,10 +70,21 @@ std::string as_text(const json& r) {
                   r["vertices"].get<std::uint64_t>(), r["faces"].get<std::uint64_t>());
   for (std::size_t k = 1; k < r["scans"].size(); ++k) {
     const json& scan = r["scans"][k];
-    text += fmt::format("\n{}: rms {:.4f} mm to those before it", scan["file"].get<std::string>(),
-                        scan["rms"].get<double>());
+    text += fmt::format("\n{}: rms {:.4f} mm to those before it, where {:.0f} % of it overlaps",
+                        scan["file"].get<std::string>(), scan["rms"].get<double>(),
+                        100 * scan["overlap"].get<double>());
   }
   return text;
+}
+
+void note_doubts(const json& report) {
+  for (const json& scan : report["scans"]) {
+    if (!scan["doubtful"].get<bool>()) continue;
+    print_note(
+        fmt::format("{} may not lie as it should: too little of it overlaps with those before "
+                    "it, or too loosely; look at the mesh, or give a better start",
+                    scan["file"].get<std::string>()));
+  }
 }
 
 Outcome run_merge(const Arguments& arguments) {
@@ -101,6 +115,7 @@ Outcome run_merge(const Arguments& arguments) {
   if (const auto written = write_file_atomically(out, product->file); !written)
     return failed(written.error());
   product->report["out"] = out;
+  note_doubts(product->report);
   return arguments.has("--json") ? print_json(product->report) : print(as_text(product->report));
 }
 

@@ -16,7 +16,8 @@ inline constexpr Flag kLengthFlag = {"--length", "5|10|15|20",
                                      "points that become one, about (a new scan's: 5)"};
 inline constexpr Flag kLargestAngleFlag = {
     "--largest-angle", "DEGREES",
-    "phi_max, up to which surfaces that the laser grazes are joined (a new scan's: 75)"};
+    "phi_max, up to which a step in depth of four spacings and more is joined, what is smaller "
+    "always (a new scan's: 75)"};
 inline constexpr Flag kLargestHoleFlag = {"--largest-hole", "MM",
                                           "that is filled; 0: none (a new scan's: 2)"};
 

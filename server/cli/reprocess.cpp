@@ -12,13 +12,11 @@
 namespace vitrine::cli {
 namespace {
 
-constexpr std::uint64_t kMostNumber = 1'000'000'000;
-
 tl::expected<ReprocessOptions, Fault> options_of(const Arguments& arguments,
                                                  const ScanRecord& record) {
   const auto processing = processing_options(arguments, record.request.processing);
   if (!processing) return tl::unexpected(processing.error());
-  const auto number = arguments.number("--calibration", 1, kMostNumber);
+  const auto number = arguments.number("--calibration", 1, kMostCalibration);
   if (!number) return tl::unexpected(number.error());
   return ReprocessOptions{.processing = *processing,
                           .calibration = static_cast<int>(

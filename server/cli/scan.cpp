@@ -16,8 +16,9 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kRequestFlags[] = {
-    "--steps",          "--exposure",     "--keep-frames",        kStripeFlag.name,
-    kSamplingFlag.name, kLengthFlag.name, kLargestAngleFlag.name, kLargestHoleFlag.name};
+    "--calibration",      "--steps",          "--exposure",     "--keep-frames",
+    kStripeFlag.name,     kSamplingFlag.name, kLengthFlag.name, kLargestAngleFlag.name,
+    kLargestHoleFlag.name};
 
 tl::expected<ScanRequest, Fault> request_of(const Arguments& arguments,
                                             const ScannerConfig& config) {
@@ -28,7 +29,10 @@ tl::expected<ScanRequest, Fault> request_of(const Arguments& arguments,
   if (!exposure) return tl::unexpected(exposure.error());
   const auto processing = processing_options(arguments, {});
   if (!processing) return tl::unexpected(processing.error());
+  const auto calibration = arguments.number("--calibration", 1, kMostCalibration);
+  if (!calibration) return tl::unexpected(calibration.error());
   ScanRequest request;
+  request.calibration = static_cast<int>(calibration->value_or(0));
   request.processing = *processing;
   request.steps = static_cast<int>(steps->value_or(static_cast<std::uint64_t>(config.steps)));
   if (*exposure) request.exposure_us = static_cast<double>(**exposure);
@@ -121,6 +125,7 @@ constexpr Flag kScanFlags[] = {
     kLargestAngleFlag,
     kLargestHoleFlag,
     {"--exposure", "US", "microseconds (default: the scanner's)"},
+    {"--calibration", "N", "its number (default: the newest of this camera and region)"},
     {"--keep-frames", "", "keep OUT.ply.scan with all pictures"},
     {"--resume", "", "go on with the scan in OUT.ply.scan; it is there until it is done"},
     {"--json", "", "print one JSON object"}};

@@ -12,12 +12,19 @@ namespace {
 
 constexpr std::string_view kActions[] = {"create", "revoke"};
 
+// A mistyped name makes no new installation.
+Expected<Installation> open_existing(const std::string& data) {
+  if (const auto usable = check_installation(data); !usable) return tl::unexpected(usable.error());
+  if (const auto there = check_data_folder(data); !there) return tl::unexpected(there.error());
+  return open_installation(data);
+}
+
 Outcome create(const Arguments& arguments) {
   if (!arguments.has("--role")) return misused("--role is missing; give viewer, operator or admin");
   if (arguments.has("--id")) return misused("--id goes with revoke; leave it out");
   const auto choice = arguments.choice("--role", kRoleNames);
   if (!choice) return tl::unexpected(choice.error());
-  const auto installation = open_installation(arguments.text("--data"));
+  const auto installation = open_existing(arguments.text("--data"));
   if (!installation) return failed(installation.error());
   const Role role = *parse_role(kRoleNames[*choice]);
   const auto token = create_token(*installation->catalogue, role, arguments.text("--label"));
@@ -38,7 +45,7 @@ Outcome revoke(const Arguments& arguments) {
     return misused("--role and --label go with create; leave them out");
   const auto id = ModelId::parse(arguments.text("--id"));
   if (!id) return misused("--id is missing or no id; give the one that create has printed");
-  const auto installation = open_installation(arguments.text("--data"));
+  const auto installation = open_existing(arguments.text("--data"));
   if (!installation) return failed(installation.error());
   if (const auto revoked = installation->catalogue->revoke_token(*id); !revoked)
     return failed(revoked.error());
@@ -60,13 +67,14 @@ Outcome change_tokens(const Arguments& arguments) {
 }
 
 constexpr std::string_view kOperands[] = {"create|revoke"};
-constexpr Flag kFlags[] = {{"--data", "DIR", "the daemon's data folder; it may be running"},
-                           {"--role", "R", "create: viewer, operator or admin"},
-                           {"--label", "L", "create: whose token it is, for people"},
-                           {"--id", "ID", "revoke: the id that create has printed"},
-                           {"--server", "URL", "a remote server (not in this version)"},
-                           {"--token", "T", "its access token (not in this version)"},
-                           {"--json", "", "print one JSON object: id, role, label and token"}};
+constexpr Flag kFlags[] = {
+    {"--data", "DIR", "the daemon's data folder, or an empty one; it may be running"},
+    {"--role", "R", "create: viewer, operator or admin"},
+    {"--label", "L", "create: whose token it is, for people"},
+    {"--id", "ID", "revoke: the id that create has printed"},
+    {"--server", "URL", "a remote server (not in this version)"},
+    {"--token", "T", "its access token (not in this version)"},
+    {"--json", "", "print one JSON object: id, role, label and token"}};
 
 }  // namespace
 

@@ -19,7 +19,6 @@ using Json = nlohmann::json;
 
 constexpr double kLeastExposure = 1;  // microseconds
 constexpr std::size_t kMaxTextBytes = 4096;
-constexpr int kMostCalibration = 1'000'000'000;
 constexpr std::string_view kPlacements[] = {"midpoint", "pyramid"};
 
 std::string joined(std::span<const std::string_view> names) {
@@ -148,6 +147,7 @@ void read_processing(Fields& fields, const Json& body, Processing& processing) {
 }
 
 void read_model(Fields& fields, const Json& body, ScanOrder& order, FieldFaults& faults) {
+  fields.whole("calibration", 1, kMostCalibration, order.calibration);
   read_processing(fields, body, order.request.processing);
   read_bits(fields, body, order.bits);
   fields.choice("placement", kPlacements, order.placement);
@@ -163,16 +163,11 @@ void read_scan(Fields& fields, const Json& body, ScanOrder& order) {
   fields.flag("keep_frames", order.request.keep_frames);
 }
 
-void read_calibration(Fields& fields, int& number) {
-  fields.whole("calibration", 1, kMostCalibration, number);
-}
-
 // What may be said, by whom.
 constexpr std::string_view kOfScan[] = {"scanner", "steps", "exposure", "keep_frames"};
-constexpr std::string_view kOfReprocessing[] = {"calibration"};
-constexpr std::string_view kOfModel[] = {"stripe",        "sampling",     "length",
-                                         "largest_angle", "largest_hole", "bits",
-                                         "placement",     "metadata",     "publish"};
+constexpr std::string_view kOfModel[] = {"calibration",   "stripe",       "sampling", "length",
+                                         "largest_angle", "largest_hole", "bits",     "placement",
+                                         "metadata",      "publish"};
 
 std::vector<std::string_view> names(std::initializer_list<std::span<const std::string_view>> sets) {
   std::vector<std::string_view> all;
@@ -204,8 +199,7 @@ tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const Json& body,
   FieldFaults faults;
   Fields fields(body, "", faults);
   ScanOrder order = scan;
-  fields.only(names({kOfReprocessing, kOfModel}));
-  read_calibration(fields, order.calibration);
+  fields.only(names({kOfModel}));
   read_model(fields, body, order, faults);
   return result(std::move(order), std::move(faults));
 }
@@ -228,9 +222,8 @@ tl::expected<ScanOrder, FieldFaults> parse_kept_order(const Json& kept) {
   FieldFaults faults;
   Fields fields(kept, "", faults);
   ScanOrder order;
-  fields.only(names({kOfScan, kOfReprocessing, kOfModel}));
+  fields.only(names({kOfScan, kOfModel}));
   read_scan(fields, kept, order);
-  read_calibration(fields, order.calibration);
   read_model(fields, kept, order, faults);
   return result(std::move(order), std::move(faults));
 }

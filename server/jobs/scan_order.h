@@ -17,7 +17,7 @@ namespace vitrine {
 struct ScanOrder {
   std::string scanner;  // its name
   ScanRequest request;
-  int calibration = 0;  // its number, of a scan that is made anew; 0: the scan's own
+  int calibration = 0;  // its number; 0: the newest, or the own of a scan that is made anew
 
   int bits = 0;  // as in BuildOptions
   Placement placement = Placement::kMidpoint;

@@ -183,8 +183,9 @@ Expected<std::shared_ptr<Scan>> SessionBackend::open_scan(const ScanOrder& order
                                                           const std::filesystem::path& folder) {
   std::error_code error;
   const bool is_begun = std::filesystem::exists(folder / "scan.json", error);
-  auto scan =
-      is_begun ? Scan::reopen(scanner_, folder) : Scan::create(scanner_, order.request, folder);
+  ScanRequest request = order.request;
+  request.calibration = order.calibration;
+  auto scan = is_begun ? Scan::reopen(scanner_, folder) : Scan::create(scanner_, request, folder);
   if (!scan) return Unexpected(scan.error());
   return std::shared_ptr<Scan>(std::move(*scan));
 }

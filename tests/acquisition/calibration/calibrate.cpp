@@ -310,7 +310,7 @@ TEST(Calibrate, RefusesTooFewMeasuredPosesAndUnknownDegrees) {
   EXPECT_EQ(message(points, 3), "calibrated");
   EXPECT_THAT(message(points, 6), HasSubstr("choose 2 to 5, or 0 for the best"));
   EXPECT_THAT(message(std::span(points).first(26), 3),
-              HasSubstr("seen on 2 poses, 3 are the least"));
+              HasSubstr("the points are of 2 poses, 3 are the least"));
   std::vector<Correspondence> apart;  // each pose outside the hull of the others
   for (int i = 0; i < 75; ++i) {
     const int pose = i / 25;

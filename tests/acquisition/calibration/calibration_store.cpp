@@ -40,6 +40,8 @@ Calibration example(const std::string& camera = "CAM-1", const SensorRegion& reg
           .noise = 0.011};
 }
 
+const Coverage kCovered{.x_low = -30, .x_high = 30, .y_low = 0, .y_high = 80};  // 100 mm across
+
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -90,7 +92,7 @@ TEST(CalibrationJson, OutOfBoundsIsNamed) {
   EXPECT_THAT(with("\"vitrine_calibration\": 1", "\"vitrine_calibration\": 2"),
               HasSubstr("0007.json: it is no calibration that this program can read"));
   EXPECT_THAT(with("\"camera\"", "\"kamera\""), HasSubstr("\"camera\" is missing"));
-  EXPECT_THAT(with("\"degree\": 3", "\"degree\": 5"), HasSubstr("\"terms\" is missing or out"));
+  EXPECT_THAT(with("\"degree\": 3", "\"degree\": 5"), HasSubstr("\"terms\" is missing, out"));
   EXPECT_THAT(with("\"degree\": 3", "\"degree\": 1000000000"), HasSubstr("\"degree\""));
   EXPECT_THAT(with("\"degree\": 3", "\"degree\": 3.5"), HasSubstr("\"degree\""));
   EXPECT_THAT(with("\"width\": 1300", "\"width\": -1"), HasSubstr("\"width\""));
@@ -112,8 +114,13 @@ TEST(CalibrationJson, AxisComesFromAFileOfItsOwn) {
   EXPECT_EQ(axis->b, -0.01);
   EXPECT_EQ(axis->offset, 0.2);
   EXPECT_TRUE(axis->clockwise);
-  EXPECT_THAT(message(axis_from_json(R"({"a": 1.5})", "axis.json")),
-              HasSubstr("axis.json: \"b\" is missing or out of range; state a, b, offset"));
+  const auto fault = [](const char* text) { return message(axis_from_json(text, "axis.json")); };
+  EXPECT_THAT(fault(R"({"a": 1.5})"), HasSubstr("axis.json: \"b\" is missing, out of range or"));
+  EXPECT_THAT(fault(R"({"a": 0, "b": 0, "offset": 0, "tilt": 0, "clockwise": "no"})"),
+              HasSubstr("\"clockwise\" is missing, out of range or of a wrong type; state a and"));
+  EXPECT_THAT(fault(R"({"a": 0, "b": 0, "offset": 0, "tilt": 0, "clockwise": true, "z": 1})"),
+              HasSubstr("axis.json: \"z\" is not known here; state a and offset (mm)"));
+  EXPECT_EQ(fault("x").find("backup"), std::string::npos);
 }
 
 TEST(CalibrationStore, NumbersWhatIsAddedAndNeverChangesIt) {
@@ -201,12 +208,26 @@ TEST(CalibrationStore, TheNewestWholeOneIsTakenWhereANewerOneIsDamaged) {
 
 TEST(CalibrationStore, ReportAndResidualsAreKeptBesideACalibration) {
   const TemporaryFolder folder;
-  const auto kept = keep_calibration(folder.path(), {example(), {.pictures = 31}});
+  const auto kept =
+      keep_calibration(folder.path(), {example(), {.pictures = 31, .coverage = kCovered}});
   ASSERT_TRUE(kept) << kept.error().message;
   EXPECT_EQ(kept->number, 1);
   EXPECT_TRUE(CalibrationStore(folder.path()).load(1));
   EXPECT_THAT(text_of(report_file(folder.path(), 1)), HasSubstr("31"));
   EXPECT_THAT(text_of(residuals_file(folder.path(), 1)), HasSubstr("<svg"));
+}
+
+TEST(CalibrationStore, OneThatIsFarOffOnHeldOutPosesIsNotKept) {
+  const TemporaryFolder folder;
+  const auto kept_with = [&](double rms) {
+    return keep_calibration(folder.path(),
+                            {example(), {.residuals = {.rms = rms}, .coverage = kCovered}});
+  };
+  for (const double rms : {1.01, 39., std::nan("")}) {
+    EXPECT_THAT(message(kept_with(rms)), HasSubstr("1 % of the 100 mm that it covers; check"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  }
+  EXPECT_TRUE(kept_with(.99));
 }
 
 TEST(CalibrationStore, DoesNotKeepWhatItCouldNotReadAgain) {

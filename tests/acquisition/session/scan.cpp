@@ -217,6 +217,19 @@ TEST_F(ScanTest, without_a_calibration_of_this_camera_and_region_nothing_begins)
   refused("is calibrated for the region");
 }
 
+TEST_F(ScanTest, it_is_measured_with_the_calibration_that_was_asked_for) {
+  Calibration newer = fake_calibration(), other = newer;
+  newer.axis.a += 1, other.camera = "fake-2";
+  ASSERT_EQ(CalibrationStore(calibrations_).add(newer)->number, 2);
+  ASSERT_EQ(CalibrationStore(calibrations_).add(other)->number, 3);
+  const auto older = scan("older", {.steps = kSteps, .calibration = 1});
+  EXPECT_EQ(run(*older), ScanState::kDone);
+  EXPECT_EQ((*older->folder().record())->calibration, 1);
+  const auto of_another = scan("another", {.steps = kSteps, .calibration = 3});
+  EXPECT_EQ(run(*of_another), ScanState::kFailed);
+  EXPECT_THAT(of_another->status().error->message, HasSubstr("calibration 3 is not of"));
+}
+
 TEST_F(ScanTest, a_newer_calibration_does_not_touch_a_scan_that_has_begun) {
   const std::string expected = undisturbed();
   auto scan = this->scan();

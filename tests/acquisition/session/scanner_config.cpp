@@ -66,6 +66,13 @@ TEST(ScannerConfig, a_fault_names_file_and_key_and_what_is_expected) {
   EXPECT_THAT(fault("/region/width", 1e9), HasSubstr("rig.json: region: \"width\" must be"));
   EXPECT_THAT(fault("/steps", 3), HasSubstr("\"steps\""));
   EXPECT_THAT(fault("/target/squares_x", "9"), HasSubstr("\"squares_x\" must be a whole number"));
+  EXPECT_THAT(fault("/target/squares_x", 1), HasSubstr("\"squares_x\" must be a whole number"));
+  EXPECT_THAT(fault("/target/marker_mm", 9), HasSubstr("rig.json: target: \"marker_mm\" must be"));
+  EXPECT_THAT(fault("/target/dictionary", "FOO"), HasSubstr("\"dictionary\" does not fit"));
+  EXPECT_THAT(fault("/target", json::object()), HasSubstr("\"squares_x\" is missing"));
+  EXPECT_THAT(fault("/camera/address", "nonsense"), HasSubstr("\"address\" must be the camera's"));
+  EXPECT_THAT(fault("/board/port", "zz"), HasSubstr("\"port\" must be the bus"));
+  EXPECT_EQ(fault("/board/port", "3-1.4.2"), "accepted");
   EXPECT_THAT(fault("/rig", json::object()), HasSubstr("\"socket\" must name"));
   EXPECT_THAT(fault("/laser", 1), HasSubstr("\"laser\" is not known here (known are name"));
   EXPECT_EQ(fault("/steps", 100), "accepted");

@@ -64,6 +64,10 @@ TEST(Merge, TwoPosesOfOneObjectBecomeOneSurface) {
   EXPECT_LT(worst, .1);
   EXPECT_LT(low, -.99);
   EXPECT_LT(merged->rms[1], .05);
+  // Both reach .4 beyond the middle, .8 of the 1.4 that each shows.
+  EXPECT_EQ(merged->shares[0], 1);
+  EXPECT_NEAR(merged->shares[1], .8 / 1.4, .05);
+  EXPECT_FALSE(is_doubtful(*merged, 1, {}));
   // What the first scan shows is not shown again.
   EXPECT_GT(merged->mesh.faces.size(), top.faces.size());
   EXPECT_LT(merged->mesh.faces.size(), top.faces.size() + bottom.faces.size() * 4 / 5);
@@ -100,6 +104,15 @@ TEST(Merge, ScansThatDoNotMeetAreRefused) {
       merge(std::vector{top, top}, std::vector{RigidMotion{}, turned_over(0, {500, 0, 0})});
   ASSERT_FALSE(merged.has_value());
   EXPECT_THAT(merged.error().message, testing::HasSubstr("scan 2 overlaps"));
+}
+
+TEST(Merge, AScanThatOverlapsInLittleOrLooselyIsDoubtful) {
+  const auto doubtful = [](double share, double rms) {
+    return is_doubtful({.rms = {0, rms}, .shares = {1, share}}, 1, {.overlap = .5});
+  };
+  EXPECT_FALSE(doubtful(.6, .093));
+  EXPECT_TRUE(doubtful(.6, .275));
+  EXPECT_TRUE(doubtful(.1, .093));
 }
 
 TEST(Merge, OneStartAScanIsNeeded) {

@@ -87,8 +87,8 @@ void emergency_stop(Report& report, const Object& object) {
   const RigFolder folder;
   at_rig(
       folder, object, kSteps,
-      program("vitrine") + " token create --role operator --data data --json > token.json\n" +
-          program("vitrined") +
+      "mkdir data\n" + program("vitrine") +
+          " token create --role operator --data data --json > token.json\n" + program("vitrined") +
           " --listen 127.0.0.1:0 --port-file port --data data --scanners rig.json > log 2>&1 &\n" +
           program("bench-scan") + " --emergency-stops . > stops\nkill $!\nwait $!\n",
       "--degrees-per-second 100");

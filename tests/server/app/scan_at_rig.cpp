@@ -47,6 +47,7 @@ class DaemonAtRig : public testing::Test {
     std::ofstream(path("object.ply"), std::ios::binary)
         .write(reinterpret_cast<const char*>(mesh.data()),
                static_cast<std::streamsize>(mesh.size()));
+    std::filesystem::create_directory(path("data"));
     const ProgramResult made = run_program({VITRINE_BIN_DIR "/vitrine", "token", "create", "--role",
                                             "operator", "--data", path("data"), "--json"});
     token_ = json::parse(made.output)["token"];

@@ -58,6 +58,8 @@ TEST_F(Merge, a_scan_of_the_object_in_another_pose_is_moved_onto_the_first) {
   EXPECT_NEAR(merged["scans"][1]["rotation"][1][1].get<double>(), -1, 1e-3);
   const ProgramResult said = vitrine(words());
   EXPECT_THAT(said.output, HasSubstr("b.ply: rms 0.000"));
+  EXPECT_THAT(said.output, HasSubstr("where 100 % of it overlaps"));
+  EXPECT_EQ(merged["scans"][1]["doubtful"], false);
   // A note says that a.ply states no unit.
   const ProgramResult measured = vitrine({"measure", path("out.ply"), path("a.ply"), "--json"});
   EXPECT_LT(json::parse(measured.output)["rms"].get<double>(), 1e-3);
@@ -68,6 +70,13 @@ TEST_F(Merge, a_start_that_is_far_off_is_refused_and_nothing_is_written) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.errors, HasSubstr("scan 2 overlaps"));
   EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+}
+
+TEST_F(Merge, a_scan_that_overlaps_by_chance_is_noted) {
+  // The torus from above over the one that stands upright: they cross each other.
+  const ProgramResult result = vitrine(words(R"({"axis": {"y": 1}, "degrees": 90})"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.errors, HasSubstr("b.ply may not lie as it should"));
 }
 
 TEST_F(Merge, each_scan_but_the_first_needs_a_start) {

@@ -35,6 +35,7 @@ TEST_F(ScannerCommands, wrong_usage_is_exit_code_2) {
       {"scan", "--config", rig, "-o", path("out.xyz")},
       {"scan", "--config", rig, "-o", out, "--steps", "7"},
       {"scan", "--config", rig, "-o", out, "--steps", "36001"},
+      {"scan", "--config", rig, "-o", out, "--calibration", "0"},
       {"scan", "--config", rig, "-o", out, "--length", "6"},
       {"scan", "--config", rig, "-o", out, "--sampling", "best"},
       {"scan", "--config", rig, "-o", out, "--exposure", "0"},
@@ -43,6 +44,7 @@ TEST_F(ScannerCommands, wrong_usage_is_exit_code_2) {
       {"scan", "--config", rig, "-o", out, "--largest-hole", "-1"},
       {"scan", "--config", rig, "-o", out, "--resume", "--steps", "100"},
       {"scan", "--config", rig, "-o", out, "--resume", "--keep-frames"},
+      {"scan", "--config", rig, "-o", out, "--resume", "--calibration", "1"},
       {"scan", "--config", rig, "-o", out, "--resume", "--stripe", "blais-rioux"},
   };
   for (const auto& words : lines) {

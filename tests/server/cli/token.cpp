@@ -17,6 +17,7 @@ std::optional<Caller> find(const std::string& data, const std::string& token) {
 }
 
 TEST_F(VitrineCommand, a_token_is_created_offline_and_shown_once) {
+  std::filesystem::create_directory(path("data"));
   const ProgramResult result =
       vitrine({"token", "create", "--role", "admin", "--data", path("data")});
   expect_fault(result, 0);  // the note's form is a fault's
@@ -29,6 +30,7 @@ TEST_F(VitrineCommand, a_token_is_created_offline_and_shown_once) {
 }
 
 TEST_F(VitrineCommand, a_token_as_json_says_all_there_is_to_it) {
+  std::filesystem::create_directory(path("data"));
   const nlohmann::json token = vitrine_json(
       {"token", "create", "--role", "viewer", "--data", path("data"), "--label", "Anna"});
   EXPECT_EQ(token["role"], "viewer");
@@ -39,12 +41,26 @@ TEST_F(VitrineCommand, a_token_as_json_says_all_there_is_to_it) {
 }
 
 TEST_F(VitrineCommand, a_revoked_token_is_nobodys) {
+  std::filesystem::create_directory(path("data"));
   const nlohmann::json token =
       vitrine_json({"token", "create", "--role", "operator", "--data", path("data")});
   const std::string id = token["id"].get<std::string>();
   EXPECT_EQ(vitrine({"token", "revoke", "--id", id, "--data", path("data")}).output, id + "\n");
   EXPECT_FALSE(find(path("data"), token["token"].get<std::string>()));
   expect_fault(vitrine({"token", "revoke", "--id", id, "--data", path("data")}), 1);
+}
+
+TEST_F(VitrineCommand, a_token_for_a_mistyped_folder_makes_no_installation) {
+  std::filesystem::create_directory(path("photos"));
+  write("photos/a.jpg", "");
+  for (const char* name : {"mistyped", "photos"}) {
+    const ProgramResult result =
+        vitrine({"token", "create", "--role", "admin", "--data", path(name)});
+    expect_fault(result, 1);
+    EXPECT_THAT(result.errors, HasSubstr("check its name"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("mistyped")));
+  EXPECT_FALSE(std::filesystem::exists(path("photos/objects")));
 }
 
 TEST_F(VitrineCommand, a_token_needs_an_action_a_role_and_a_place) {

@@ -32,6 +32,7 @@ TEST(ScanOrder, what_was_ordered_is_read_back_from_its_text) {
   const Json body = {
       {"scanner", "rig"},
       {"steps", 90},
+      {"calibration", 2},
       {"exposure", 2500.5},
       {"keep_frames", true},
       {"stripe", "blais-rioux"},
@@ -65,7 +66,7 @@ TEST(ScanOrder, each_fault_names_its_field) {
       {"length", {0, 1, 6, 25, 10.0, "ten"}},
       {"largest_angle", {-1, 91, "steep"}},
       {"largest_hole", {-0.5, 1001, true}},
-      {"calibration", {1}},
+      {"calibration", {0, "newest"}},
       {"bits", {9, 17, 12.5, "many"}},
       {"placement", {"anywhere", 2}},
       {"keep_frames", {1, "yes"}},

@@ -7,6 +7,7 @@
 
 #include "../../acquisition/session/fake_scanner.h"
 #include "acquisition/calibration/calibration_store.h"
+#include "acquisition/session/scan_folder.h"
 #include "server/jobs/session_backend.h"
 #include "support/temporary_folder.h"
 
@@ -73,6 +74,23 @@ TEST_F(SessionDevices, AScanTellsWhatItsRowsShowed) {
   ASSERT_TRUE(backend_.scan(order, folder_.path() / "scan", listener));
   EXPECT_EQ(listener.last.calibration, 1);
   EXPECT_EQ(listener.last.rows, (ScannedRows{.empty = 0, .saturated = 0, .doubled = .5}));
+}
+
+struct SilentListener final : ScanListener {
+  void begins(std::shared_ptr<const ScanView>) override {}
+  void told(const ScanTold&) override {}
+  bool is_interrupted() const override { return false; }
+  bool is_cancelled() const override { return false; }
+};
+
+TEST_F(SessionDevices, AScanUsesTheCalibrationThatWasOrdered) {
+  for (int number = 1; number <= 2; ++number)
+    ASSERT_TRUE(CalibrationStore(folder_.path()).add(fake_calibration()));
+  ScanOrder order{.calibration = 1};
+  order.request.steps = 12;
+  SilentListener listener;
+  ASSERT_TRUE(backend_.scan(order, folder_.path() / "scan", listener));
+  EXPECT_EQ((*ScanFolder::open(folder_.path() / "scan")->record())->calibration, 1);
 }
 
 TEST_F(SessionDevices, AStopWhileTheBoardIsOpenedHoldsUntilItIsTakenBack) {
