@@ -62,6 +62,7 @@ struct Route {
   Place place;
   Role role = Role::kNone;       // the least that a caller needs; kNone: everybody may
   QuickHandler quick = nullptr;  // tried first, on the connection's own thread, for everybody
+  bool reads_body = true;        // of a POST; else whatever the body is does not matter
 };
 
 // Whether other origins' pages may read the answers.

@@ -376,6 +376,22 @@ TEST_F(ScanRoutes, WhatIsNotThereIsNotFound) {
   EXPECT_EQ(get("/jobs?limit=0").status, 400);
 }
 
+TEST_F(ScanRoutes, AStopIsObeyedWhateverItsBodyIs) {
+  const std::pair<std::string, std::string> bodies[] = {
+      {"application/json", "{garbage"},
+      {"application/x-www-form-urlencoded", "press=1"},
+      {"application/octet-stream", std::string(3 << 20, 'x')}};
+  for (const auto& [type, body] : bodies) {
+    const auto before = world_.stops.load();
+    HttpClient client(server_.port());
+    client.send("POST /api/v1/scanners/rig/stop HTTP/1.1\r\nHost: a\r\n" + operator_ +
+                "Content-Type: " + type + "\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
+    EXPECT_EQ(client.receive().status, 200) << type;
+    EXPECT_EQ(world_.stops, before + 1) << type;
+  }
+}
+
 TEST_F(ScanRoutes, ListsHavePages) {
   for (int i = 0; i < 3; ++i) {
     begin();
