@@ -179,7 +179,8 @@ ScannerStation* ScanService::scanner(std::string_view name) {
 
 Expected<Frame> ScanService::picture(ScannerStation& scanner) {
   const auto job = queue_.job_of(scanner.name());
-  if (!job || !job->record.scan) return scanner.picture();
+  const bool scans = job && job->record.scan && job->record.state != JobState::kPaused;
+  if (!scans) return scanner.picture();
   const std::scoped_lock lock(mutex_);
   const auto live = live_.find(*job->record.scan);
   const auto frame =

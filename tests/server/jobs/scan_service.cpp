@@ -448,6 +448,19 @@ TEST_F(Scans, a_calibration_by_hand_waits_for_each_pose_and_a_stop_ends_it) {
   EXPECT_EQ(station().status().state, ScannerState::kIdle);
 }
 
+TEST_F(Scans, while_a_scan_is_paused_its_scanner_takes_pictures) {
+  HeldAtStep held(world_, 4);
+  const auto started = begin(order_);
+  held.await();
+  ASSERT_TRUE(service_->pause(info(started.scan).entry));
+  held.open();
+  settle();
+  const auto picture = service_->picture(station());
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(*picture, (Frame{1, 2, {3, 4}}));
+  EXPECT_EQ(station().jog(10).error().code, ErrorCode::kState);
+}
+
 TEST_F(Scans, a_job_whose_scanner_is_not_configured_any_more_says_so) {
   HeldAtStep held(world_, 1);
   const auto started = begin(order_);
