@@ -140,3 +140,5 @@ Response reprocess_scan(const Request& request, Services& services) {
 }
 
 }  // namespace vitrine
+    const bool is_whole = scan.entry.step == scan.entry.steps;
+    before->publish = before->publish && is_whole;  // half an object: where that is said anew

@@ -413,8 +413,11 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   run.made(model->id);
   auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));
   if (!entry || !*entry) return JobEnd::kDone;
-  (*entry)->model = model->id;
-  (*entry)->is_public = (*entry)->is_public || order.publish;
+  const auto before = std::exchange((*entry)->model, model->id);
+  if (order.publish && before && *before != model->id) {  // one of a scan is enough for visitors
+    auto hidden = means_.catalogue.set_state(*before, ModelState::kDraft);
+    if (!hidden) return Unexpected(hidden.error());
+  }
   keep(**entry);
   return JobEnd::kDone;
 }

@@ -392,6 +392,31 @@ TEST_F(ScanRoutes, AStopIsObeyedWhateverItsBodyIs) {
   }
 }
 
+TEST_F(ScanRoutes, AScanIsShownOnceItsDraftIsPublished) {
+  const json started = begin();
+  settle();
+  EXPECT_EQ(ask("GET", scan_path(started), "").status, 401);
+  const std::string model = json::parse(get(scan_path(started)).body)["model"];
+  EXPECT_EQ(post("/models/" + model + "/publish").status, 200);
+  for (const std::string& path : {scan_path(started), scan_path(started) + "/points"})
+    EXPECT_EQ(ask("GET", path, "").status, 200) << path;
+}
+
+TEST_F(ScanRoutes, AModelOfHalfAnObjectIsPublicWhereThatIsSaidAnew) {
+  HeldAtStep held(world_, 3);
+  const json started = begin({{"publish", true}});
+  held.await();
+  EXPECT_EQ(ask("DELETE", job_path(started), operator_).status, 202);
+  held.open();
+  settle();
+  EXPECT_EQ(post(scan_path(started) + "/reprocess").status, 202);
+  settle("");
+  EXPECT_FALSE(world_.anew.publish);
+  EXPECT_EQ(post(scan_path(started) + "/reprocess", {{"publish", true}}).status, 202);
+  settle("");
+  EXPECT_TRUE(world_.anew.publish);
+}
+
 TEST_F(ScanRoutes, ListsHavePages) {
   for (int i = 0; i < 3; ++i) {
     begin();
