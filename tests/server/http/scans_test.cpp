@@ -417,6 +417,13 @@ TEST_F(ScanRoutes, AModelOfHalfAnObjectIsPublicWhereThatIsSaidAnew) {
   EXPECT_TRUE(world_.anew.publish);
 }
 
+TEST_F(ScanRoutes, WhatIsNoIdIsNotFoundWhateverTheMethod) {
+  EXPECT_EQ(get("/scans/nonsense").status, 404);
+  EXPECT_EQ(post("/scans/nonsense/pause").status, 404);
+  EXPECT_EQ(post("/scans/" + ModelId::generate().to_string() + "/nonsense").status, 404);
+  EXPECT_EQ(ask("DELETE", "/jobs/nonsense", operator_).status, 404);
+}
+
 TEST_F(ScanRoutes, ListsHavePages) {
   for (int i = 0; i < 3; ++i) {
     begin();
