@@ -48,6 +48,14 @@ std::optional<std::size_t> read_from(const Query& query) {
 
 std::string little_endian(std::span<const std::array<float, 3>> points) {
   static_assert(std::endian::native == std::endian::little);
+// Of a scanner that is not configured any more nothing is known: the job will say so.
+bool knows_calibration(const ScanOrder& order, Services& services) {
+  ScannerStation* scanner = services.scans.scanner(order.scanner);
+  if (order.calibration == 0 || scanner == nullptr) return true;
+  const auto report = scanner->backend().calibration_report(order.calibration);
+  return !report || *report;
+}
+
   return {reinterpret_cast<const char*>(points.data()), points.size_bytes()};
 }
 
@@ -136,6 +144,8 @@ Response reprocess_scan(const Request& request, Services& services) {
     if (!once) return once.error();
     const auto job = services.scans.reprocess(scan.entry, *order, *once);
     return job ? started(*job) : refused(job.error(), request, services);
+    if (!knows_calibration(*order, services))
+      return invalid({{"calibration", "the number of one of the scanner's calibrations"}}, request);
   });
 }
 

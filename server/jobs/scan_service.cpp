@@ -55,6 +55,15 @@ Expected<ScanOrder> stored_order(const std::string& parameters) {
                                              order.error().front().field));
 }
 
+Expected<void> check_calibrated(ScannerBackend& scanner) {
+  const auto all = scanner.calibrations();
+  if (!all) return Unexpected(all.error());
+  if (std::ranges::any_of(*all, [](const auto& one) { return one.problem.empty(); })) return {};
+  return fail(ErrorCode::kState, fmt::format("scanner {0} has no calibration; POST "
+                                             "/api/v1/scanners/{0}/calibrations first",
+                                             scanner.name()));
+}
+
 // One that an earlier version has left has no parameters.
 CalibrationOrder calibration_order(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
@@ -207,6 +216,8 @@ Expected<ScanStarted> ScanService::add(JobRecord job, ScanEntry scan,
 
 Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
                                         const std::optional<OnceKey>& once) {
+  auto calibrated = check_calibrated(scanner(order.scanner)->backend());
+  if (!calibrated) return Unexpected(calibrated.error());
   return add(new_job(JobKind::kScan, order.scanner), new_scan(order), once);
 }
 

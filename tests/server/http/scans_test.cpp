@@ -424,6 +424,19 @@ TEST_F(ScanRoutes, WhatIsNoIdIsNotFoundWhateverTheMethod) {
   EXPECT_EQ(ask("DELETE", "/jobs/nonsense", operator_).status, 404);
 }
 
+TEST_F(ScanRoutes, WhatNeedsACalibrationThatIsNotThereIsRefusedAtOnce) {
+  const json started = begin();
+  settle();
+  const HttpAnswer unknown = post(scan_path(started) + "/reprocess", {{"calibration", 7}});
+  EXPECT_EQ(unknown.status, 422);
+  EXPECT_EQ(fault_of(unknown), "calibration");
+  world_.calibrations = 0;
+  world_.damaged = 9;
+  const HttpAnswer refused = post("/scans", {{"scanner", "rig"}});
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_NE(refused.body.find("/api/v1/scanners/rig/calibrations"), std::string::npos);
+}
+
 TEST_F(ScanRoutes, ListsHavePages) {
   for (int i = 0; i < 3; ++i) {
     begin();
