@@ -17,7 +17,9 @@ template <class Answer>
 Response with_scan(const Request& request, Services& services, Answer&& answer) {
   const auto scan = services.scans.find(request.parameters.id);
   if (!scan) return internal_error(scan.error(), request, services);
-  if (*scan && (request.caller || is_public((*scan)->entry, services))) return answer(**scan);
+  if (*scan && request.caller) return answer(**scan);
+  if (*scan && is_public((*scan)->entry, services))
+    return answer(ScanInfo{(*scan)->entry, without_reasons((*scan)->job)});
   if (!request.caller) return token_needed(request);  // which scans there are is nobody's business
   return problem(404, "there is no such scan", request.id);
 }
@@ -46,8 +48,6 @@ std::optional<std::size_t> read_from(const Query& query) {
   return from;
 }
 
-std::string little_endian(std::span<const std::array<float, 3>> points) {
-  static_assert(std::endian::native == std::endian::little);
 // Of a scanner that is not configured any more nothing is known: the job will say so.
 bool knows_calibration(const ScanOrder& order, Services& services) {
   ScannerStation* scanner = services.scans.scanner(order.scanner);
@@ -56,6 +56,8 @@ bool knows_calibration(const ScanOrder& order, Services& services) {
   return !report || *report;
 }
 
+std::string little_endian(std::span<const std::array<float, 3>> points) {
+  static_assert(std::endian::native == std::endian::little);
   return {reinterpret_cast<const char*>(points.data()), points.size_bytes()};
 }
 
@@ -136,19 +138,19 @@ Response resume_scan(const Request& request, Services& services) {
 
 Response reprocess_scan(const Request& request, Services& services) {
   return with_scan(request, services, [&](const ScanInfo& scan) {
-    const auto before = ScanService::order_of(scan.entry);
+    auto before = ScanService::order_of(scan.entry);
     if (!before) return refused(before.error(), request, services);
+    const bool is_whole = scan.entry.step == scan.entry.steps;
+    before->publish = before->publish && is_whole;  // half an object: where that is said anew
     const auto order = parse_reprocess_order(request.body, *before);
     if (!order) return invalid(order.error(), request);
+    if (!knows_calibration(*order, services))
+      return invalid({{"calibration", "the number of one of the scanner's calibrations"}}, request);
     const auto once = once_key(request);
     if (!once) return once.error();
     const auto job = services.scans.reprocess(scan.entry, *order, *once);
     return job ? started(*job) : refused(job.error(), request, services);
-    if (!knows_calibration(*order, services))
-      return invalid({{"calibration", "the number of one of the scanner's calibrations"}}, request);
   });
 }
 
 }  // namespace vitrine
-    const bool is_whole = scan.entry.step == scan.entry.steps;
-    before->publish = before->publish && is_whole;  // half an object: where that is said anew

@@ -437,6 +437,34 @@ TEST_F(ScanRoutes, WhatNeedsACalibrationThatIsNotThereIsRefusedAtOnce) {
   EXPECT_NE(refused.body.find("/api/v1/scanners/rig/calibrations"), std::string::npos);
 }
 
+TEST_F(ScanRoutes, WhyAPublicScanFailsIsToldToCallersAlone) {
+  const std::string path = "/srv/vitrine/calibrations";
+  world_.note = path + " is gone; mount it";
+  HeldAtStep held(world_, 3);
+  world_.before_step = [this, hold = world_.before_step](int step) -> std::optional<Error> {
+    hold(step);
+    if (step < 3) return std::nullopt;
+    return Error{ErrorCode::kIo, world_.note};
+  };
+  const json started = begin({{"publish", true}});
+  held.await();
+  const auto expect_told_to_callers = [&] {
+    for (const std::string& what : {scan_path(started), job_path(started)}) {
+      EXPECT_NE(get(what).body.find(path), std::string::npos) << what;
+      const HttpAnswer seen = ask("GET", what, "");
+      EXPECT_EQ(seen.status, 200) << what;
+      EXPECT_EQ(seen.body.find(path), std::string::npos) << seen.body;
+    }
+  };
+  expect_told_to_callers();
+  held.open();
+  settle();
+  expect_told_to_callers();
+  EXPECT_NE(json::parse(ask("GET", scan_path(started), "").body)["error"], nullptr);
+  const HttpAnswer events = ask("GET", job_path(started) + "/events", "");
+  EXPECT_EQ(events.body.find(path), std::string::npos) << events.body;
+}
+
 TEST_F(ScanRoutes, ListsHavePages) {
   for (int i = 0; i < 3; ++i) {
     begin();
