@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scanners, calibrations, scans and jobs over HTTP, at a scanner without devices.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -463,6 +464,22 @@ TEST_F(ScanRoutes, WhyAPublicScanFailsIsToldToCallersAlone) {
   EXPECT_NE(json::parse(ask("GET", scan_path(started), "").body)["error"], nullptr);
   const HttpAnswer events = ask("GET", job_path(started) + "/events", "");
   EXPECT_EQ(events.body.find(path), std::string::npos) << events.body;
+}
+
+TEST_F(ScanRoutes, TimesAreTextAsThoseOfModelsAre) {
+  HeldAtStep held(world_, 1);
+  const json started = begin();
+  held.await();
+  const json running = json::parse(get(job_path(started)).body);
+  EXPECT_EQ(running["ended"], nullptr);
+  held.open();
+  settle();
+  const json scan = json::parse(get(scan_path(started)).body);
+  const json job = json::parse(get(job_path(started)).body);
+  for (const json& time : {scan["created"], job["created"], job["ended"]}) {
+    ASSERT_TRUE(time.is_string()) << time;
+    EXPECT_THAT(time.get<std::string>(), testing::MatchesRegex("20..-..-..T..:..:..[.]...Z"));
+  }
 }
 
 TEST_F(ScanRoutes, ListsHavePages) {
