@@ -112,7 +112,7 @@ class Session {
   asio::awaitable<bool> serve_one() {
     Parser parser;
     parser.header_limit(kMaxHeader);
-    parser.body_limit(boost::none);  // read_body() has one
+    parser.body_limit(boost::none);  // receive_body() sets one
     Exchange exchange;
     const ReadResult result = co_await read_header(parser, exchange);
     if (result == ReadResult::kClosed) co_return false;
