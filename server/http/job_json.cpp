@@ -9,6 +9,7 @@
 
 #include "server/http/http_header.h"
 #include "server/http/published.h"
+#include "server/http/timestamp.h"
 
 namespace vitrine {
 namespace {
@@ -50,6 +51,12 @@ Json rows_json(const std::optional<ScannedRows>& rows) {
 
 }  // namespace
 
+JobStatus without_reasons(JobStatus job) {
+  if (!job.record.error.empty()) job.record.error = "whoever has a token is told why";
+  if (!job.note.empty()) job.note = "the scanner is waited for";
+  return job;
+}
+
 Json job_json(const JobStatus& job) {
   const JobRecord& record = job.record;
   return {{"id", record.id.to_string()},
@@ -63,8 +70,8 @@ Json job_json(const JobStatus& job) {
           {"scanner", record.scanner},
           {"scan", id_or_null(record.scan)},
           {"model", id_or_null(record.model)},
-          {"created", record.created},
-          {"ended", record.ended == 0 ? Json(nullptr) : Json(record.ended)}};
+          {"created", timestamp(record.created)},
+          {"ended", record.ended == 0 ? Json(nullptr) : Json(timestamp(record.ended))}};
 }
 
 Json scan_json(const ScanInfo& scan) {
@@ -86,7 +93,7 @@ Json scan_json(const ScanInfo& scan) {
           {"rows", rows_json(entry.rows)},
           {"model", id_or_null(entry.model)},
           {"title", entry.title},
-          {"created", entry.created}};
+          {"created", timestamp(entry.created)}};
 }
 
 Json scanner_json(const ScannerStatus& scanner) {

@@ -11,6 +11,9 @@
 
 namespace vitrine {
 
+// As everybody may see it: the server's own words may tell its paths.
+JobStatus without_reasons(JobStatus job);
+
 nlohmann::ordered_json job_json(const JobStatus& job);
 nlohmann::ordered_json scan_json(const ScanInfo& scan);
 nlohmann::ordered_json scanner_json(const ScannerStatus& scanner);

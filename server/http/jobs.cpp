@@ -13,11 +13,11 @@ namespace {
 // A job as events, from now to its end.
 class JobEvents final : public EventSource {
  public:
-  JobEvents(JobStatus first, std::shared_ptr<const JobRun> run)
-      : newest_(std::move(first)), run_(std::move(run)) {}
+  JobEvents(JobStatus first, std::shared_ptr<const JobRun> run, bool with_reasons)
+      : newest_(std::move(first)), run_(std::move(run)), with_reasons_(with_reasons) {}
 
   std::optional<Event> next() override {
-    if (run_) newest_ = run_->status();
+    if (run_) newest_ = with_reasons_ ? run_->status() : without_reasons(run_->status());
     if (told_ == newest_) return std::nullopt;
     told_ = newest_;
     return Event{"job",
@@ -29,10 +29,10 @@ class JobEvents final : public EventSource {
   JobStatus newest_;
   std::optional<JobStatus> told_;
   const std::shared_ptr<const JobRun> run_;
+  const bool with_reasons_;
 };
 
-bool is_readable(const JobRecord& job, const Request& request, Services& services) {
-  if (request.caller) return true;
+bool is_public(const JobRecord& job, Services& services) {
   if (!job.scan) return false;
   const auto scan = services.scans.find(*job.scan);
   return scan && *scan && is_public((*scan)->entry, services);
@@ -43,7 +43,8 @@ template <class Answer>
 Response with_job(const Request& request, Services& services, Answer&& answer) {
   const auto job = services.scans.jobs().find(request.parameters.id);
   if (!job) return internal_error(job.error(), request, services);
-  if (*job && is_readable((*job)->record, request, services)) return answer(**job);
+  if (*job && request.caller) return answer(**job);
+  if (*job && is_public((*job)->record, services)) return answer(without_reasons(**job));
   if (!request.caller) return token_needed(request);  // which jobs there are is nobody's business
   return problem(404, "there is no such job", request.id);
 }
@@ -91,7 +92,8 @@ Response show_job_events(const Request& request, Services& services) {
   return with_job(request, services, [&](const JobStatus& job) {
     Response response;
     response.type = "text/event-stream";
-    response.events = std::make_shared<JobEvents>(job, services.scans.jobs().run(job.record.id));
+    response.events = std::make_shared<JobEvents>(job, services.scans.jobs().run(job.record.id),
+                                                  request.caller.has_value());
     return response;
   });
 }

@@ -19,9 +19,9 @@ inline Response internal_error(const Error& error, const Request& request, Servi
   return problem(500, "", request.id);
 }
 
-// A public scan is there for everybody to see, once there is a model of it as long as that is.
+// Everybody may see a public scan grow; once there is a model, a scan is shown as long as that is.
 inline bool is_public(const ScanEntry& scan, Services& services) {
-  if (!scan.is_public || !scan.model) return scan.is_public;
+  if (!scan.model) return scan.is_public;
   const auto model = services.models.find(*scan.model);
   return model && *model != nullptr;
 }

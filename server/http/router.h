@@ -62,6 +62,7 @@ struct Route {
   Place place;
   Role role = Role::kNone;       // the least that a caller needs; kNone: everybody may
   QuickHandler quick = nullptr;  // tried first, on the connection's own thread, for everybody
+  bool reads_body = true;        // of a POST; else whatever the body is does not matter
 };
 
 // Whether other origins' pages may read the answers.
@@ -86,6 +87,10 @@ class Router {
   std::optional<RouteMatch> match(std::string_view path) const;  // the first that fits
   // The route for `method` with the template of `match`.
   std::optional<std::size_t> find(const RouteMatch& match, Method method) const;
+  // Whether `match` tells nothing of what is at the path.
+  bool is_for_what_is_left(const RouteMatch& match) const {
+    return routes_[match.index].path.ends_with("{rest}");
+  }
   // The value of the Allow field of what `match` has matched.
   std::string allow(const RouteMatch& match) const;
 

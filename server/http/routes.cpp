@@ -27,7 +27,8 @@ constexpr Route kPublic[] = {
     {kPost, "/api/v1/scanners/{name}/jog", jog_scanner, kDevice, Role::kOperator},
     {kPost, "/api/v1/scanners/{name}/laser", switch_laser, kDevice, Role::kOperator},
     // Not behind those who wait for devices.
-    {kPost, "/api/v1/scanners/{name}/stop", stop_scanner, kWorker, Role::kOperator},
+    {kPost, "/api/v1/scanners/{name}/stop", stop_scanner, kWorker, Role::kOperator, nullptr,
+     /*reads_body=*/false},
     {kGet, "/api/v1/scanners/{name}/preview", show_preview, kDevice, Role::kOperator},
     {kGet, "/api/v1/scanners/{name}/calibrations", list_calibrations, kWorker, Role::kViewer},
     {kPost, "/api/v1/scanners/{name}/calibrations", start_calibration, kWorker, Role::kOperator},

@@ -75,7 +75,7 @@ Response switch_laser(const Request& request, Services& services) {
   });
 }
 
-// Whatever the body is: nobody who presses this button is to be taught.
+// Its body is not even read: nobody who presses this button is to be taught.
 Response stop_scanner(const Request& request, Services& services) {
   return with_scanner(request, services, [](ScannerStation& scanner) {
     scanner.stop();

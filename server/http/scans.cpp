@@ -17,7 +17,9 @@ template <class Answer>
 Response with_scan(const Request& request, Services& services, Answer&& answer) {
   const auto scan = services.scans.find(request.parameters.id);
   if (!scan) return internal_error(scan.error(), request, services);
-  if (*scan && (request.caller || is_public((*scan)->entry, services))) return answer(**scan);
+  if (*scan && request.caller) return answer(**scan);
+  if (*scan && is_public((*scan)->entry, services))
+    return answer(ScanInfo{(*scan)->entry, without_reasons((*scan)->job)});
   if (!request.caller) return token_needed(request);  // which scans there are is nobody's business
   return problem(404, "there is no such scan", request.id);
 }
@@ -44,6 +46,14 @@ std::optional<std::size_t> read_from(const Query& query) {
   const auto [end, fault] = std::from_chars(text->data(), text->data() + text->size(), from);
   if (fault != std::errc{} || end != text->data() + text->size()) return std::nullopt;
   return from;
+}
+
+// Of a scanner that is not configured any more nothing is known: the job will say so.
+bool knows_calibration(const ScanOrder& order, Services& services) {
+  ScannerStation* scanner = services.scans.scanner(order.scanner);
+  if (order.calibration == 0 || scanner == nullptr) return true;
+  const auto report = scanner->backend().calibration_report(order.calibration);
+  return !report || *report;
 }
 
 std::string little_endian(std::span<const std::array<float, 3>> points) {
@@ -128,10 +138,14 @@ Response resume_scan(const Request& request, Services& services) {
 
 Response reprocess_scan(const Request& request, Services& services) {
   return with_scan(request, services, [&](const ScanInfo& scan) {
-    const auto before = ScanService::order_of(scan.entry);
+    auto before = ScanService::order_of(scan.entry);
     if (!before) return refused(before.error(), request, services);
+    const bool is_whole = scan.entry.step == scan.entry.steps;
+    before->publish = before->publish && is_whole;  // half an object: where that is said anew
     const auto order = parse_reprocess_order(request.body, *before);
     if (!order) return invalid(order.error(), request);
+    if (!knows_calibration(*order, services))
+      return invalid({{"calibration", "the number of one of the scanner's calibrations"}}, request);
     const auto once = once_key(request);
     if (!once) return once.error();
     const auto job = services.scans.reprocess(scan.entry, *order, *once);

@@ -112,7 +112,7 @@ class Session {
   asio::awaitable<bool> serve_one() {
     Parser parser;
     parser.header_limit(kMaxHeader);
-    parser.body_limit(kMaxRequestBody);
+    parser.body_limit(boost::none);  // receive_body() sets one
     Exchange exchange;
     const ReadResult result = co_await read_header(parser, exchange);
     if (result == ReadResult::kClosed) co_return false;
@@ -169,6 +169,11 @@ class Session {
   }
 
   asio::awaitable<ReadResult> receive_body(Parser& parser, Exchange& exchange) {
+    if (parser.content_length().value_or(0) > kMaxRequestBody) {
+      reject(exchange, 413, "the body is too large");
+      co_return ReadResult::kRejected;
+    }
+    parser.body_limit(kMaxRequestBody);  // of one that comes in chunks
     if (parser.get().count(field::expect) > 0) {
       if (!beast::iequals(parser.get()[field::expect], "100-continue")) {
         reject(exchange, 417, "the only expectation met is 100-continue");
@@ -230,6 +235,8 @@ class Session {
       const auto get = router.find(*match, Method::kGet);
       exchange.public_read = get && is_public_read(router.routes()[*get]);
       exchange.response = options(router.allow(*match), exchange.public_read);
+    } else if (router.is_for_what_is_left(*match)) {
+      exchange.response = problem(404, "there is nothing at this path", exchange.id);
     } else {
       exchange.response = not_allowed(router.allow(*match), exchange.id);
     }
@@ -253,7 +260,7 @@ class Session {
       const bool authorised = co_await authorise_caller(message, exchange);
       if (!authorised) co_return true;
     }
-    if (route.method == Method::kPost) {
+    if (route.method == Method::kPost && route.reads_body) {
       const ReadResult read = co_await read_body(parser, exchange);
       if (read != ReadResult::kRequest) co_return read == ReadResult::kRejected;
     }

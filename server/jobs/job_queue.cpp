@@ -187,10 +187,13 @@ Expected<void> JobQueue::check_free(const std::string& scanner) const {
                           busy->job().id.to_string()));
 }
 
-Expected<void> JobQueue::post_command(const std::string& scanner, std::function<void()> command) {
+Expected<void> JobQueue::post_command(const std::string& scanner, std::function<void()> command,
+                                      bool beside_paused) {
   const std::scoped_lock lock(mutex_);
   if (stopping_) return stopping();
-  if (auto is_free = check_free(scanner); !is_free) return is_free;
+  const Run busy = run_of(scanner);
+  const bool is_aside = busy && busy->job().state == JobState::kPaused && !busy->is_at_work();
+  if (auto is_free = check_free(scanner); !is_free && !(beside_paused && is_aside)) return is_free;
   lane_of(scanner).post(std::move(command));
   return {};
 }

@@ -116,8 +116,9 @@ class JobQueue {
   std::optional<JobStatus> job_on(const ScanId& scan) const;
 
   // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
-  // is done, where it is busy.
-  Expected<void> post_command(const std::string& scanner, std::function<void()> command);
+  // is done, where it is busy; a job that is put aside is in the way unless `beside_paused`.
+  Expected<void> post_command(const std::string& scanner, std::function<void()> command,
+                              bool beside_paused = false);
 
   // Where the scanner's devices are used.
   Lane& lane(const std::string& scanner);

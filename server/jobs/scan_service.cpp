@@ -56,6 +56,15 @@ Expected<ScanOrder> stored_order(const std::string& parameters) {
                                              order.error().front().field));
 }
 
+Expected<void> check_calibrated(ScannerBackend& scanner) {
+  const auto all = scanner.calibrations();
+  if (!all) return Unexpected(all.error());
+  if (std::ranges::any_of(*all, [](const auto& one) { return one.problem.empty(); })) return {};
+  return fail(ErrorCode::kState, fmt::format("scanner {0} has no calibration; POST "
+                                             "/api/v1/scanners/{0}/calibrations first",
+                                             scanner.name()));
+}
+
 // One that an earlier version has left has no parameters.
 CalibrationOrder calibration_order(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
@@ -181,7 +190,8 @@ ScannerStation* ScanService::scanner(std::string_view name) {
 
 Expected<Frame> ScanService::picture(ScannerStation& scanner) {
   const auto job = queue_.job_of(scanner.name());
-  if (!job || !job->record.scan) return scanner.picture();
+  const bool scans = job && job->record.scan && job->record.state != JobState::kPaused;
+  if (!scans) return scanner.picture();
   const std::scoped_lock lock(mutex_);
   const auto live = live_.find(*job->record.scan);
   const auto frame =
@@ -208,6 +218,8 @@ Expected<ScanStarted> ScanService::add(JobRecord job, ScanEntry scan,
 
 Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
                                         const std::optional<OnceKey>& once) {
+  auto calibrated = check_calibrated(scanner(order.scanner)->backend());
+  if (!calibrated) return Unexpected(calibrated.error());
   return add(new_job(JobKind::kScan, order.scanner), new_scan(order), once);
 }
 
@@ -420,8 +432,11 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   run.made(model->id);
   auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));
   if (!entry || !*entry) return JobEnd::kDone;
-  (*entry)->model = model->id;
-  (*entry)->is_public = (*entry)->is_public || order.publish;
+  const auto before = std::exchange((*entry)->model, model->id);
+  if (order.publish && before && *before != model->id) {  // one of a scan is enough for visitors
+    auto hidden = means_.catalogue.set_state(*before, ModelState::kDraft);
+    if (!hidden) return Unexpected(hidden.error());
+  }
   keep(**entry);
   return JobEnd::kDone;
 }

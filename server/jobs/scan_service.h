@@ -52,7 +52,7 @@ class ScanService {
 
   std::vector<ScannerStatus> scanners();
   ScannerStation* scanner(std::string_view name);  // null where there is none of that name
-  // A fresh picture, the latest of the scan while there is one.
+  // A fresh picture, the latest of the scan while one is under way.
   Expected<Frame> picture(ScannerStation& scanner);
   Expected<JobRecord> calibrate(ScannerStation& scanner, const CalibrationOrder& order,
                                 const std::optional<OnceKey>& once);

@@ -80,9 +80,10 @@ ScannerStatus ScannerStation::status() {
 }
 
 template <class Task>
-auto ScannerStation::in_lane(Task task) -> decltype(task()) {
+auto ScannerStation::in_lane(Task task, bool beside_paused) -> decltype(task()) {
   std::promise<decltype(task())> done;
-  const auto posted = jobs_.post_command(name(), [&] { done.set_value(task()); });
+  const auto posted = jobs_.post_command(
+      name(), [&] { done.set_value(task()); }, beside_paused);
   if (!posted) return Unexpected(posted.error());
   return done.get_future().get();
 }
@@ -107,11 +108,12 @@ Expected<void> ScannerStation::laser(bool on) {
 }
 
 Expected<Frame> ScannerStation::picture() {
-  return in_lane([&] {
+  const auto capture = [&] {
     auto frame = caught([this] { return backend_.picture(); });
     if (!frame) remember(Unexpected(frame.error()));
     return frame;
-  });
+  };
+  return in_lane(capture, /*beside_paused=*/true);
 }
 
 void ScannerStation::stop() {

@@ -41,7 +41,7 @@ class ScannerStation {
 
   Expected<void> jog(double degrees);
   Expected<void> laser(bool on);
-  Expected<Frame> picture();  // takes no stop back
+  Expected<Frame> picture();  // takes no stop back; also beside a scan that is paused
 
   // Laser and motor off at once, whatever is under way; a scan is paused, and a
   // calibration ends.
@@ -58,7 +58,7 @@ class ScannerStation {
   auto caught(Task task) -> decltype(task());
   // Has `task` done by the scanner's lane, and returns what it returns.
   template <class Task>
-  auto in_lane(Task task) -> decltype(task());
+  auto in_lane(Task task, bool beside_paused = false) -> decltype(task());
   // Does `action` with devices that are open, unless they are stopped between now and then.
   template <class Action>
   auto command(Action action) -> decltype(action());

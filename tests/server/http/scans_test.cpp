@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scanners, calibrations, scans and jobs over HTTP, at a scanner without devices.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -391,6 +392,111 @@ TEST_F(ScanRoutes, WhatIsNotThereIsNotFound) {
   EXPECT_EQ(post("/scans/" + id + "/pause").status, 404);
   EXPECT_EQ(ask("DELETE", "/jobs/" + id, operator_).status, 404);
   EXPECT_EQ(get("/jobs?limit=0").status, 400);
+}
+
+TEST_F(ScanRoutes, AStopIsObeyedWhateverItsBodyIs) {
+  const std::pair<std::string, std::string> bodies[] = {
+      {"application/json", "{garbage"},
+      {"application/x-www-form-urlencoded", "press=1"},
+      {"application/octet-stream", std::string(3 << 20, 'x')}};
+  for (const auto& [type, body] : bodies) {
+    const auto before = world_.stops.load();
+    HttpClient client(server_.port());
+    client.send("POST /api/v1/scanners/rig/stop HTTP/1.1\r\nHost: a\r\n" + operator_ +
+                "Content-Type: " + type + "\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
+    EXPECT_EQ(client.receive().status, 200) << type;
+    EXPECT_EQ(world_.stops, before + 1) << type;
+  }
+}
+
+TEST_F(ScanRoutes, AScanIsShownOnceItsDraftIsPublished) {
+  const json started = begin();
+  settle();
+  EXPECT_EQ(ask("GET", scan_path(started), "").status, 401);
+  const std::string model = json::parse(get(scan_path(started)).body)["model"];
+  EXPECT_EQ(post("/models/" + model + "/publish").status, 200);
+  for (const std::string& path : {scan_path(started), scan_path(started) + "/points"})
+    EXPECT_EQ(ask("GET", path, "").status, 200) << path;
+}
+
+TEST_F(ScanRoutes, AModelOfHalfAnObjectIsPublicWhereThatIsSaidAnew) {
+  HeldAtStep held(world_, 3);
+  const json started = begin({{"publish", true}});
+  held.await();
+  EXPECT_EQ(ask("DELETE", job_path(started), operator_).status, 202);
+  held.open();
+  settle();
+  EXPECT_EQ(post(scan_path(started) + "/reprocess").status, 202);
+  settle("");
+  EXPECT_FALSE(world_.anew.publish);
+  EXPECT_EQ(post(scan_path(started) + "/reprocess", {{"publish", true}}).status, 202);
+  settle("");
+  EXPECT_TRUE(world_.anew.publish);
+}
+
+TEST_F(ScanRoutes, WhatIsNoIdIsNotFoundWhateverTheMethod) {
+  EXPECT_EQ(get("/scans/nonsense").status, 404);
+  EXPECT_EQ(post("/scans/nonsense/pause").status, 404);
+  EXPECT_EQ(post("/scans/" + ModelId::generate().to_string() + "/nonsense").status, 404);
+  EXPECT_EQ(ask("DELETE", "/jobs/nonsense", operator_).status, 404);
+}
+
+TEST_F(ScanRoutes, WhatNeedsACalibrationThatIsNotThereIsRefusedAtOnce) {
+  const json started = begin();
+  settle();
+  const HttpAnswer unknown = post(scan_path(started) + "/reprocess", {{"calibration", 7}});
+  EXPECT_EQ(unknown.status, 422);
+  EXPECT_EQ(fault_of(unknown), "calibration");
+  world_.calibrations = 0;
+  world_.damaged = 9;
+  const HttpAnswer refused = post("/scans", {{"scanner", "rig"}});
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_NE(refused.body.find("/api/v1/scanners/rig/calibrations"), std::string::npos);
+}
+
+TEST_F(ScanRoutes, WhyAPublicScanFailsIsToldToCallersAlone) {
+  const std::string path = "/srv/vitrine/calibrations";
+  world_.note = path + " is gone; mount it";
+  HeldAtStep held(world_, 3);
+  world_.before_step = [this, hold = world_.before_step](int step) -> std::optional<Error> {
+    hold(step);
+    if (step < 3) return std::nullopt;
+    return Error{ErrorCode::kIo, world_.note};
+  };
+  const json started = begin({{"publish", true}});
+  held.await();
+  const auto expect_told_to_callers = [&] {
+    for (const std::string& what : {scan_path(started), job_path(started)}) {
+      EXPECT_NE(get(what).body.find(path), std::string::npos) << what;
+      const HttpAnswer seen = ask("GET", what, "");
+      EXPECT_EQ(seen.status, 200) << what;
+      EXPECT_EQ(seen.body.find(path), std::string::npos) << seen.body;
+    }
+  };
+  expect_told_to_callers();
+  held.open();
+  settle();
+  expect_told_to_callers();
+  EXPECT_NE(json::parse(ask("GET", scan_path(started), "").body)["error"], nullptr);
+  const HttpAnswer events = ask("GET", job_path(started) + "/events", "");
+  EXPECT_EQ(events.body.find(path), std::string::npos) << events.body;
+}
+
+TEST_F(ScanRoutes, TimesAreTextAsThoseOfModelsAre) {
+  HeldAtStep held(world_, 1);
+  const json started = begin();
+  held.await();
+  const json running = json::parse(get(job_path(started)).body);
+  EXPECT_EQ(running["ended"], nullptr);
+  held.open();
+  settle();
+  const json scan = json::parse(get(scan_path(started)).body);
+  const json job = json::parse(get(job_path(started)).body);
+  for (const json& time : {scan["created"], job["created"], job["ended"]}) {
+    ASSERT_TRUE(time.is_string()) << time;
+    EXPECT_THAT(time.get<std::string>(), testing::MatchesRegex("20..-..-..T..:..:..[.]...Z"));
+  }
 }
 
 TEST_F(ScanRoutes, ListsHavePages) {

@@ -462,6 +462,45 @@ TEST_F(Scans, a_daemon_that_stops_while_a_calibration_waits_opens_no_device) {
   EXPECT_EQ(run->job().state, JobState::kPaused);
 }
 
+TEST_F(Scans, while_a_scan_is_paused_its_scanner_takes_pictures) {
+  HeldAtStep held(world_, 4);
+  const auto started = begin(order_);
+  held.await();
+  ASSERT_TRUE(service_->pause(info(started.scan).entry));
+  held.open();
+  settle();
+  const auto picture = service_->picture(station());
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(*picture, (Frame{1, 2, {3, 4}}));
+  EXPECT_EQ(station().jog(10).error().code, ErrorCode::kState);
+}
+
+TEST_F(Scans, a_model_that_is_published_anew_takes_the_place_of_the_one_before) {
+  ScanOrder order = order_;
+  order.publish = true;
+  const auto started = begin(order);
+  settle();
+  const auto anew = [&] {
+    EXPECT_TRUE(service_->reprocess(info(started.scan).entry, order, {}));
+    service_->jobs().lane("").run([] {});
+    return *info(started.scan).entry.model;
+  };
+  const auto state_of = [&](const ModelId& id) {
+    return installation_.catalogue->find(id).value()->state;
+  };
+  const ModelId first = *info(started.scan).entry.model;
+  EXPECT_EQ(anew(), first) << "the same bytes";
+  EXPECT_EQ(state_of(first), ModelState::kPublished);
+  order.bits = 11;
+  const ModelId second = anew();
+  EXPECT_EQ(state_of(first), ModelState::kDraft);
+  EXPECT_EQ(state_of(second), ModelState::kPublished);
+  order.bits = 10;
+  order.publish = false;
+  EXPECT_EQ(state_of(anew()), ModelState::kDraft);
+  EXPECT_EQ(state_of(second), ModelState::kPublished);
+}
+
 TEST_F(Scans, a_job_whose_scanner_is_not_configured_any_more_says_so) {
   HeldAtStep held(world_, 1);
   const auto started = begin(order_);
