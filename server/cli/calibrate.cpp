@@ -147,10 +147,10 @@ Outcome run_calibrate(const Arguments& arguments) {
   const auto stored = keep_calibration(config->calibrations, *calibrated);
   if (!stored) return failed(stored.error());
   const std::string plot = residuals_file(config->calibrations, stored->number).string();
-  if (!arguments.has("--json")) return {
-      const bool has_pictures = !arguments.has("--correspondences");
-      return print(as_text(*stored, calibrated->report, has_pictures, plot));
-    }
+  if (!arguments.has("--json")) {
+    const bool has_pictures = !arguments.has("--correspondences");
+    return print(as_text(*stored, calibrated->report, has_pictures, plot));
+  }
   json object = json::parse(report_json(*stored, calibrated->report), nullptr, false);
   object.update({{"rms", stored->residuals.rms},  // mm, over held-out poses
                  {"p95", stored->residuals.p95},
