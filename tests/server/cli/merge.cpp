@@ -72,13 +72,6 @@ TEST_F(Merge, a_start_that_is_far_off_is_refused_and_nothing_is_written) {
   EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
 }
 
-TEST_F(Merge, a_scan_that_overlaps_by_chance_is_noted) {
-  // The torus from above over the one that stands upright: they cross each other.
-  const ProgramResult result = vitrine(words(R"({"axis": {"y": 1}, "degrees": 90})"));
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.errors, HasSubstr("b.ply may not lie as it should"));
-}
-
 TEST_F(Merge, each_scan_but_the_first_needs_a_start) {
   const ProgramResult result = vitrine(words("{}, {}"));
   expect_fault(result, 1);
