@@ -110,7 +110,7 @@ std::vector<ProfilePoint> corners_of(Points points, std::span<const Window> wind
   return kept;
 }
 
-void sample_adaptively(std::span<Profile> profiles, const SamplingOptions& options) {
+void share_points(std::span<Profile> profiles, const SamplingOptions& options) {
   const std::vector<ProfilePoint> points = chain(profiles);
   const auto length = static_cast<std::size_t>(options.window);
   const auto windows = adaptive_windows(points, {.windows = (points.size() + length - 1) / length,
@@ -124,6 +124,18 @@ void sample_adaptively(std::span<Profile> profiles, const SamplingOptions& optio
     while (window != windows.end() && window->first < behind)
       ++window;
     profile.points = corners_of(points, {first, window});
+  }
+}
+
+// In blocks, which bounds what this takes of the heap.
+void sample_adaptively(std::span<Profile> profiles, const SamplingOptions& options) {
+  constexpr std::size_t kBlock = 2'000'000;  // points; a profile at least
+  while (!profiles.empty()) {
+    std::size_t count = 1, points = profiles[0].points.size();
+    while (count < profiles.size() && (points += profiles[count].points.size()) <= kBlock)
+      ++count;
+    share_points(profiles.first(count), options);
+    profiles = profiles.subspan(count);
   }
 }
 

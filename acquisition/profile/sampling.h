@@ -28,14 +28,14 @@ struct SamplingOptions {
 // nothing is ever beyond 3 s, and this is plain averaging.
 //
 // kAdaptive keeps at most as many points of all profiles as kEquidistant (and the ends of the
-// profiles' parts) and spends them on detail. Each point stands for a window of neighbours; windows
-// differ in length, up to 2 L points. Starting from single points, those two neighbouring windows
-// of any profile are joined that together deviate least from their common line in (rho, z); what is
-// within `noise` does not count as deviation, and among equals the shortest are joined first. The
-// points begin as the windows' means, at the ends of a part (ProfilePoint flag kApart) on the
-// window's line at its outermost point: nothing shrinks. Then they move so that the polyline
-// through them fits all points best (fit_polyline.h): on a bend, means lie on the inner side. O(n
-// log n).
+// profiles' parts) and spends them on detail; profiles of more than 2,000,000 points share them by
+// blocks. Each point stands for a window of neighbours; windows differ in length, up to 2 L points.
+// Starting from single points, those two neighbouring windows of any profile are joined that
+// together deviate least from their common line in (rho, z); what is within `noise` does not count
+// as deviation, and among equals the shortest are joined first. The points begin as the windows'
+// means, at the ends of a part (ProfilePoint flag kApart) on the window's line at its outermost
+// point: nothing shrinks. Then they move so that the polyline through them fits all points best
+// (fit_polyline.h): on a bend, means lie on the inner side. O(n log n).
 //
 // A point has the row in the middle of its window, so that rows stay ascending; it is kFilled if
 // all of its window is, and has any other flag if one of them has it.

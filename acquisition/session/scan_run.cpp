@@ -55,8 +55,10 @@ Expected<void> ScanRun::open_folder() {
   stripes_ = std::move(contents.stripes);
   seen_ = sum(stripes_);
   stripe_watch_.emplace(means_.request.steps, contents.given_up_at);
+  Expected<void> judged;
   for (int step = 0; step < steps_done(); ++step)
-    (void)stripe_watch_->add(stripes_[step], step + 1);  // what it says was said then
+    judged = stripe_watch_->add(stripes_[step], step + 1);
+  if (!judged) return refuse(judged.error());  // a crash came between the last step and this
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
@@ -223,20 +225,18 @@ Expected<void> ScanRun::settle() {
   seen_ = seen_ + fresh_.stripe;
   means_.watch.step_done(steps_done(), seen_);
   const auto judged = stripe_watch_->add(fresh_.stripe, steps_done());
-  if (judged) return {};
-  if (auto noted = give_up(stripe_watch_->span()); !noted) return noted;
-  return judged;
+  return judged ? Expected<void>{} : refuse(judged.error());
 }
 
-// The last steps are measured again by whoever goes on: the laser may be back.
-Expected<void> ScanRun::give_up(int steps) {
-  const int kept = steps_done() - steps;
+// The steps that were judged are measured again by whoever goes on: the laser may be back.
+Expected<void> ScanRun::refuse(const Error& judgement) {
+  const int kept = steps_done() - stripe_watch_->span();
   if (auto noted = journal_->give_up(kept, steps_done()); !noted) return noted;
   profiles_.resize(static_cast<std::size_t>(kept));
   stripes_.resize(static_cast<std::size_t>(kept));
   seen_ = sum(stripes_);
   means_.watch.step_done(kept, seen_);
-  return {};
+  return tl::unexpected(judgement);
 }
 
 }  // namespace vitrine

@@ -94,7 +94,7 @@ class ScanRun {
   void measure(int step, FramePair frames);
   Expected<void> measure_and_store(int step, FramePair frames);
   Expected<void> settle();
-  Expected<void> give_up(int steps);
+  Expected<void> refuse(const Error& judgement);
   Expected<void> open_folder();
 
   CameraSettings settings() const;

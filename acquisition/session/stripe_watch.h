@@ -19,7 +19,7 @@ class StripeWatch {
 
   // Of the next step, the `steps_done`-th. Fails (kBadInput) at the end of an eighth of a turn that
   // judge() refuses, be it not for what is saturated: that is told once, who goes on has accepted
-  // it; a stripe that is found and lost again is told again.
+  // it; what went away and came again is told again.
   Expected<void> add(const StripeCount& stripe, int steps_done);
 
   // How many steps it judges, and refuses.

@@ -56,6 +56,10 @@ bool knows_calibration(const ScanOrder& order, Services& services) {
   return !report || *report;
 }
 
+Response unknown_calibration(const Request& request) {
+  return invalid({{"calibration", "the number of one of the scanner's calibrations"}}, request);
+}
+
 std::string little_endian(std::span<const std::array<float, 3>> points) {
   static_assert(std::endian::native == std::endian::little);
   return {reinterpret_cast<const char*>(points.data()), points.size_bytes()};
@@ -68,6 +72,7 @@ Response start_scan(const Request& request, Services& services) {
   if (!order) return invalid(order.error(), request);
   if (services.scans.scanner(order->scanner) == nullptr)
     return invalid({{"scanner", "the name of one of /api/v1/scanners"}}, request);
+  if (!knows_calibration(*order, services)) return unknown_calibration(request);
   const auto once = once_key(request);
   if (!once) return once.error();
   const auto scan = services.scans.scan(*order, *once);
@@ -144,8 +149,7 @@ Response reprocess_scan(const Request& request, Services& services) {
     before->publish = before->publish && is_whole;  // half an object: where that is said anew
     const auto order = parse_reprocess_order(request.body, *before);
     if (!order) return invalid(order.error(), request);
-    if (!knows_calibration(*order, services))
-      return invalid({{"calibration", "the number of one of the scanner's calibrations"}}, request);
+    if (!knows_calibration(*order, services)) return unknown_calibration(request);
     const auto once = once_key(request);
     if (!once) return once.error();
     const auto job = services.scans.reprocess(scan.entry, *order, *once);

@@ -235,7 +235,7 @@ class Session {
       const auto get = router.find(*match, Method::kGet);
       exchange.public_read = get && is_public_read(router.routes()[*get]);
       exchange.response = options(router.allow(*match), exchange.public_read);
-    } else if (router.is_for_what_is_left(*match)) {
+    } else if (target->path.starts_with("/api/") && router.is_for_what_is_left(*match)) {
       exchange.response = problem(404, "there is nothing at this path", exchange.id);
     } else {
       exchange.response = not_allowed(router.allow(*match), exchange.id);

@@ -154,22 +154,24 @@ void JobQueue::post(const Run& run) {
   lane_of(lane_name(run->job())).post([this, run] { work(run); });
 }
 
+Expected<std::optional<JobRecord>> JobQueue::begun_by(const std::optional<OnceKey>& once) const {
+  if (!once) return std::nullopt;
+  const auto earlier = catalogue_.find_once(once->key);
+  if (!earlier) return Unexpected(earlier.error());
+  if (!*earlier) return std::nullopt;
+  if ((*earlier)->request != once->request) {
+    return fail(ErrorCode::kBadInput,
+                "the key was used for another request; give each request a key of its own");
+  }
+  return catalogue_.find_job((*earlier)->job);
+}
+
 Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                                   const std::optional<OnceKey>& once, std::uint64_t stops) {
   const std::scoped_lock lock(mutex_);
-  if (once) {
-    const auto earlier = catalogue_.find_once(once->key);
-    if (!earlier) return Unexpected(earlier.error());
-    if (*earlier && (*earlier)->request != once->request) {
-      return fail(ErrorCode::kBadInput,
-                  "the key was used for another request; give each request a key of its own");
-    }
-    if (*earlier) {
-      const auto found = catalogue_.find_job((*earlier)->job);
-      if (!found) return Unexpected(found.error());
-      return **found;
-    }
-  }
+  const auto earlier = begun_by(once);
+  if (!earlier) return Unexpected(earlier.error());
+  if (*earlier) return **earlier;
   if (stopping_) return stopping();
   if (job.kind != JobKind::kReprocess) {
     if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
@@ -341,7 +343,9 @@ void JobQueue::end(const Run& run, const Expected<JobEnd>& result) {
   const JobWish wish = run->wish();
   if (result && *result == JobEnd::kDone) return set_state(run, JobState::kDone);
   if (wish == JobWish::kCancel) return set_state(run, JobState::kCancelled);
-  if (wish == JobWish::kPause) return set_state(run, JobState::kPaused);
+  // What a scan says of itself meanwhile must not go under; a failed one is resumed as well.
+  const bool is_put_aside = result || result.error().code == ErrorCode::kState;
+  if (wish == JobWish::kPause && is_put_aside) return set_state(run, JobState::kPaused);
   if (wish == JobWish::kStop)
     return set_state(run, JobState::kQueued);  // goes on at the next start
   {

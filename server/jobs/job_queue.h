@@ -93,6 +93,9 @@ class JobQueue {
   void stop();
   bool is_stopping() const;
 
+  // The job that a request with this key began; kBadInput where it was another request.
+  Expected<std::optional<JobRecord>> begun_by(const std::optional<OnceKey>& once) const;
+
   // kState where the scanner is busy; kBadInput where the key was used with another request, and
   // with the same one the job of then is the result. `stops`: JobRun::stops_known().
   Expected<JobRecord> add(const JobRecord& job, const std::optional<ScanEntry>& scan,

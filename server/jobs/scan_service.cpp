@@ -192,11 +192,13 @@ Expected<Frame> ScanService::picture(ScannerStation& scanner) {
   const auto job = queue_.job_of(scanner.name());
   const bool scans = job && job->record.scan && job->record.state != JobState::kPaused;
   if (!scans) return scanner.picture();
-  const std::scoped_lock lock(mutex_);
-  const auto live = live_.find(*job->record.scan);
-  const auto frame =
-      live != live_.end() && live->second.view ? live->second.view->frame() : nullptr;
-  if (frame) return *frame;
+  std::shared_ptr<const ScanView> view;
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto live = live_.find(*job->record.scan);
+    if (live != live_.end()) view = live->second.view;
+  }
+  if (const auto frame = view ? view->frame() : nullptr) return *frame;
   return fail(ErrorCode::kState, "the scan has taken no picture yet; ask again in a second");
 }
 
@@ -218,6 +220,9 @@ Expected<ScanStarted> ScanService::add(JobRecord job, ScanEntry scan,
 
 Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
                                         const std::optional<OnceKey>& once) {
+  const auto begun = queue_.begun_by(once);
+  if (!begun) return Unexpected(begun.error());
+  if (*begun) return ScanStarted{(*begun)->scan.value_or(ScanId()), (*begun)->id};
   auto calibrated = check_calibrated(scanner(order.scanner)->backend());
   if (!calibrated) return Unexpected(calibrated.error());
   return add(new_job(JobKind::kScan, order.scanner), new_scan(order), once);
@@ -225,6 +230,9 @@ Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
 
 Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOrder& order,
                                              const std::optional<OnceKey>& once) {
+  const auto begun = queue_.begun_by(once);
+  if (!begun) return Unexpected(begun.error());
+  if (*begun) return ScanStarted{scan.id, (*begun)->id};
   if (auto unused = check_unused(scan); !unused) return Unexpected(unused.error());
   if (scan.step == 0)
     return fail(ErrorCode::kState, "the scan has no steps to make a model of; resume it first");
@@ -432,11 +440,17 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   run.made(model->id);
   auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));
   if (!entry || !*entry) return JobEnd::kDone;
-  const auto before = std::exchange((*entry)->model, model->id);
-  if (order.publish && before && *before != model->id) {  // one of a scan is enough for visitors
-    auto hidden = means_.catalogue.set_state(*before, ModelState::kDraft);
+  auto& shown = (*entry)->model;
+  if (order.publish && shown && *shown != model->id) {  // one of a scan is enough for visitors
+    auto hidden = means_.catalogue.set_state(*shown, ModelState::kDraft);
     if (!hidden) return Unexpected(hidden.error());
   }
+  if (!order.publish && shown) {  // a trial does not take the place of what visitors see
+    const auto before = means_.catalogue.find(*shown);
+    if (!before) return Unexpected(before.error());
+    if (*before && (*before)->state == ModelState::kPublished) return JobEnd::kDone;
+  }
+  shown = model->id;
   keep(**entry);
   return JobEnd::kDone;
 }

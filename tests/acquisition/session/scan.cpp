@@ -349,6 +349,26 @@ TEST_F(ScanTest, steps_that_a_laser_missed_are_measured_again_once_it_is_back) {
   EXPECT_EQ(mesh_text(*scan), undisturbed());
 }
 
+// Killed after the step that shows the loss was stored and before the loss was noted.
+TEST_F(ScanTest, a_crash_just_when_the_stripe_is_lost_does_not_hide_that) {
+  auto scan = this->scan();
+  world_.meanwhile = [&](const std::string& call, int) {
+    if (call != "capture") return;
+    const std::lock_guard lock(world_.mutex);
+    world_.object = world_.degrees >= 120 ? FakeObject::kNothing : FakeObject::kColumn;
+  };
+  ASSERT_EQ(run(*scan), ScanState::kFailed);
+  const auto message = scan->status().error->message;
+  const auto journal = scan->folder().journal();
+  scan.reset();
+  constexpr std::uintmax_t kNote = 8 + 8 + 8;  // head, body and checksum of the last record
+  std::filesystem::resize_file(journal, std::filesystem::file_size(journal) - kNote);
+  scan = reopened();
+  EXPECT_EQ(run(*scan), ScanState::kFailed);
+  EXPECT_EQ(scan->status().error.value_or(Error{}).message, message);
+  EXPECT_EQ(scan->status().steps_done, 4);
+}
+
 // Where it stops depends on the steps alone, not on whether somebody paused among them.
 TEST_F(ScanTest, a_pause_while_the_stripe_is_lost_does_not_hide_that) {
   constexpr int kManySteps = 40;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "local_server.h"
@@ -354,6 +355,16 @@ TEST_F(ScanRoutes, AKeyMakesARequestHaveItsEffectOnce) {
   EXPECT_EQ(fault_of(other), "Idempotency-Key");
   EXPECT_EQ(json::parse(get("/scans").body)["scans"].size(), 1u);
   held.open();
+  settle();
+  const std::string again = scan_path(json::parse(first.body)) + "/reprocess";
+  const std::string other_key = "Idempotency-Key: abd\r\n";
+  std::promise<void> go;
+  server_.scans().jobs().lane("").post([gone = go.get_future().share()] { gone.wait(); });
+  const HttpAnswer begun = post(again, {{"length", 20}}, other_key);
+  EXPECT_EQ(begun.status, 202);
+  EXPECT_EQ(post(again, {{"length", 20}}, other_key).body, begun.body) << "while it is under way";
+  go.set_value();
+  settle("");
 }
 
 TEST_F(ScanRoutes, EventsTellAJobToItsEnd) {
