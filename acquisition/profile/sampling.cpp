@@ -129,10 +129,10 @@ void share_points(std::span<Profile> profiles, const SamplingOptions& options) {
 
 // In blocks, which bounds what this takes of the heap.
 void sample_adaptively(std::span<Profile> profiles, const SamplingOptions& options) {
-  constexpr std::size_t kBlock = 2'000'000;  // points; a profile at least
+  constexpr std::size_t kShared = 2'000'000;  // points; a profile at least
   while (!profiles.empty()) {
     std::size_t count = 1, points = profiles[0].points.size();
-    while (count < profiles.size() && (points += profiles[count].points.size()) <= kBlock)
+    while (count < profiles.size() && (points += profiles[count].points.size()) <= kShared)
       ++count;
     share_points(profiles.first(count), options);
     profiles = profiles.subspan(count);
