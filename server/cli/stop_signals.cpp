@@ -6,6 +6,9 @@
 namespace vitrine::cli {
 namespace {
 
+constexpr int kSignals[] = {SIGINT, SIGTERM,
+                            SIGHUP};  // Ctrl-C, a service manager, a closed terminal
+
 volatile std::sig_atomic_t g_arrived = 0;
 
 void note(int signal) {
@@ -13,9 +16,12 @@ void note(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-// Without SA_RESTART: a read from the terminal ends, too.
+// Without SA_RESTART: a read from the terminal ends, too. What nohup and the like ignore stays so.
 void handle(int signal, void (*handler)(int)) {
-  struct sigaction action {};
+  struct sigaction action {
+  }, before{};
+  ::sigaction(signal, nullptr, &before);
+  if (before.sa_handler == SIG_IGN) return;
   action.sa_handler = handler;
   ::sigaction(signal, &action, nullptr);
 }
@@ -24,13 +30,13 @@ void handle(int signal, void (*handler)(int)) {
 
 StopSignals::StopSignals() {
   g_arrived = 0;
-  handle(SIGINT, note);
-  handle(SIGTERM, note);
+  for (const int signal : kSignals)
+    handle(signal, note);
 }
 
 StopSignals::~StopSignals() {
-  handle(SIGINT, SIG_DFL);
-  handle(SIGTERM, SIG_DFL);
+  for (const int signal : kSignals)
+    handle(signal, SIG_DFL);
 }
 
 bool StopSignals::arrived() {

@@ -30,7 +30,8 @@ JobRecord new_job(JobKind kind, const std::string& scanner) {
 }
 
 std::string title_of(const ScanOrder& order, std::int64_t created) {
-  if (!order.metadata.title.empty()) return order.metadata.title;
+  const bool is_blank = order.metadata.title.find_first_not_of(' ') == std::string::npos;
+  if (!is_blank) return order.metadata.title;
   return fmt::format("Scan of {:%Y-%m-%d %H:%M}",
                      fmt::gmtime(static_cast<std::time_t>(created / 1000)));
 }

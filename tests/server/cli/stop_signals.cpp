@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/stop_signals.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace vitrine::test {
+namespace {
+
+using cli::StopSignals;
+
+TEST(StopSignals, AskForRest) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const StopSignals signals;
+    EXPECT_FALSE(StopSignals::arrived());
+    std::raise(signal);
+    EXPECT_TRUE(StopSignals::arrived()) << signal;
+  }
+}
+
+TEST(StopSignals, WhatIsIgnoredStaysIgnored) {
+  std::signal(SIGHUP, SIG_IGN);  // as under nohup
+  {
+    const StopSignals signals;
+    std::raise(SIGHUP);
+    EXPECT_FALSE(StopSignals::arrived());
+  }
+  EXPECT_EQ(std::signal(SIGHUP, SIG_DFL), SIG_IGN);
+}
+
+}  // namespace
+}  // namespace vitrine::test
