@@ -34,7 +34,8 @@ class LivePreview {
   Profile profile() const;         // the last one
   std::size_t cloud_size() const;  // points so far
   // The points of the cloud from number `first` on, mm, in the frame of the object. The cloud only
-  // grows, so that a viewer asks for what it does not have.
+  // grows, so that a viewer asks for what it does not have. That of a scan which is opened anew
+  // lacks the steps that were given up: a viewer of it that held more points starts over.
   std::vector<std::array<float, 3>> cloud_from(std::size_t first) const;
 
  private:

@@ -20,7 +20,9 @@ export class FakeScan {
   /** How far it is, and how many points there are. */
   tell(changes, points) {
     Object.assign(this.record, changes);
-    if (points) this.points = points;
+    if (!points) return;
+    this.points = points;
+    this.record.points = points.length / 3;
   }
 
   /** Resolves when the page has asked `times` more. */

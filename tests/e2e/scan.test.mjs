@@ -130,6 +130,21 @@ test("goes on where it was when the connection comes back", async () => {
   await visitor.close();
 });
 
+test("shows no points of steps that are measured again", async () => {
+  const fake = new FakeScan();
+  fake.tell(midway(0.4), part(0.4));
+  const visitor = await watched(fake);
+  await visitor.says(grown(0.4));
+  for (const share of [0.1, 0.6]) {
+    fake.tell(midway(share), part(share));
+    await visitor.says(grown(share));
+    await frames(visitor.page);
+    await visitor.shoot(`again-${100 * share}`);
+  }
+  assert.deepEqual(visitor.complaints, []);
+  await visitor.close();
+});
+
 test("says what an operator should know, and goes on when the operator does", async () => {
   const fake = new FakeScan();
   fake.tell({ ...midway(0.1), state: "paused" }, part(0.1));

@@ -3,7 +3,7 @@ import { ApiError, type ScanRecord, type ScanState } from "@gallery/api.ts";
 import { watchScan, type ScanSight, type ScanSource } from "@gallery/scan-watch.ts";
 
 const record: ScanRecord = {
-  id: "a", state: "scanning", step: 1, steps: 2, progress: 0.5, eta: null, error: null, note: null, model: null, title: "",
+  id: "a", state: "scanning", step: 1, steps: 2, progress: 0.5, eta: null, error: null, note: null, points: 0, model: null, title: "",
 };
 
 /** A scan whose states and faults are dealt out one by one. */
@@ -27,6 +27,7 @@ class Script implements ScanSource {
 class Diary implements ScanSight {
   readonly lines: string[] = [];
   show = ({ state }: ScanRecord) => void this.lines.push(state);
+  restart = () => void this.lines.push("restart");
   grow = (points: Float32Array) => void this.lines.push(`+${points.length / 3}`);
   lost = () => void this.lines.push("lost");
   missing = () => void this.lines.push("missing");
@@ -57,6 +58,24 @@ describe("watchScan", () => {
     const script = new Script(["done"], [250_000, 250_000, 7]);
     expect((await watched(script)).lines).toEqual(["+250000", "+250000", "+7", "done"]);
     expect(script.asked).toEqual([0, 250_000, 500_000]);
+  });
+
+  test("starts over where the scan has fewer points than before", async () => {
+    const script = new Script([{ points: 10 }, { points: 4 }, { state: "cancelled", points: 9 }], [10, 4, 5]);
+    expect((await watched(script)).lines).toEqual(["+10", "scanning", "restart", "+4", "scanning", "+5", "cancelled"]);
+    expect(script.asked).toEqual([0, 0, 4]);
+  });
+
+  test("keeps points that came before the scan has told of them", async () => {
+    const script = new Script([{ points: 4 }, { points: 8 }, { state: "cancelled", points: 12 }], [10, 0, 2]);
+    expect((await watched(script)).lines).toEqual(["+10", "scanning", "scanning", "+2", "cancelled"]);
+    expect(script.asked).toEqual([0, 10, 10]);
+  });
+
+  test("keeps points that are all that a scan has which told of more", async () => {
+    const script = new Script([{ state: "failed", points: 10 }, { state: "cancelled", points: 4 }], [4]);
+    expect((await watched(script)).lines).toEqual(["+4", "failed", "cancelled"]);
+    expect(script.asked).toEqual([0, 4]);
   });
 
   test("asks for no points of what is a model already", async () => {

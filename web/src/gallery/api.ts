@@ -21,6 +21,7 @@ export interface ScanRecord {
   eta: number | null; // seconds
   error: string | null; // why it has failed
   note: string | null; // what it waits for
+  points: number; // so far
   model: string | null; // its id
   title: string;
 }

@@ -18,7 +18,7 @@ const kNear = 1e-3;
 
 export class CloudStage {
   readonly #cloud = new Cloud();
-  readonly #extent = new Extent();
+  #extent = new Extent();
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera(kFieldOfView, 1, 0.1, 1000);
@@ -46,8 +46,15 @@ export class CloudStage {
     const first = this.#cloud.isEmpty;
     this.#extent.add(points);
     this.#cloud.append(points);
-    if (first) this.#follow(1);
+    if (first && !this.#held) this.#follow(1);
     this.draw();
+  }
+
+  /** For the points of a scan that measures again: a camera that a visitor holds stays. */
+  restart(): void {
+    this.#cloud.empty();
+    this.#extent = new Extent();
+    this.#renderer.clear();
   }
 
   /** Nothing more comes for now. */

@@ -61,6 +61,12 @@ export class Cloud extends Points<BufferGeometry, ShaderMaterial> {
     this.geometry.setDrawRange(0, this.#count);
   }
 
+  /** No points at all: others take their place. */
+  empty(): void {
+    this.#count = 0;
+    this.geometry.setDrawRange(0, 0);
+  }
+
   /** No point is new any more. */
   settle(): void {
     this.#set("settled", this.#count);

@@ -9,6 +9,7 @@ export interface ScanSource {
 
 export interface ScanSight {
   show(scan: ScanRecord): void;
+  restart(): void; // the points so far are no longer the scan's; what it has comes next
   grow(points: Float32Array): void;
   lost(): void; // nobody answers; it is tried again
   missing(): void; // there is nothing to be seen here
@@ -48,23 +49,32 @@ export async function watchScan(source: ScanSource, sight: ScanSight, wait: Wait
 /** Points first: what is said to be over has been seen whole. */
 async function look(source: ScanSource, sight: ScanSight, growth: Growth): Promise<ScanState> {
   const scan = await source.scan();
-  if (scan.model === null) await growth.follow();
+  if (scan.model === null) await growth.follow(scan.points);
   sight.show(scan);
   return scan.state;
 }
 
 class Growth {
   #held = 0;
+  #told = 0; // of the last record, which lags behind the points themselves
 
   constructor(private readonly source: ScanSource, private readonly sight: ScanSight) {}
 
-  async follow(): Promise<void> {
+  /** A scan that has fewer points than before measures again what it has given up. */
+  async follow(told: number): Promise<void> {
+    if (told < Math.min(this.#held, this.#told)) this.#restart();
+    this.#told = told;
     for (let came = kFull; came === kFull; ) {
       const points = await this.source.points(this.#held);
       came = points.length / 3;
       this.#held += came;
       if (came !== 0) this.sight.grow(points);
     }
+  }
+
+  #restart(): void {
+    this.#held = 0;
+    this.sight.restart();
   }
 }
 

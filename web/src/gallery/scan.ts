@@ -33,11 +33,15 @@ class ScanPage implements ScanSight {
     if (scan.model !== null) this.#viewer.setAttribute("src", `/api/v1/models/${encodeURIComponent(scan.model)}`);
   }
 
+  restart(): void {
+    this.#stage?.restart();
+    this.#hold(0);
+  }
+
   grow(points: Float32Array): void {
     const stage = this.#opened();
     stage?.add(points);
-    this.#count += points.length / 3;
-    find("#points").textContent = texts.points(this.#count);
+    this.#hold(this.#count + points.length / 3);
   }
 
   lost(): void {
@@ -47,6 +51,11 @@ class ScanPage implements ScanSight {
   missing(): void {
     this.#name(texts.scanMissing);
     this.#say("");
+  }
+
+  #hold(count: number): void {
+    this.#count = count;
+    find("#points").textContent = texts.points(count);
   }
 
   #name(title: string): void {
