@@ -42,6 +42,11 @@ double Firmware::table(double now) const {
   return static_cast<double>(table_ + made(now)) * degrees_per_step();
 }
 
+double Firmware::goal() const {
+  const long left = motion_ && !stalled_ ? motion_->steps : 0;
+  return static_cast<double>(table_ + left) * degrees_per_step();
+}
+
 void Firmware::move_by(long steps, double now) {
   const double speed = settings_.degrees_per_second;
   const double seconds =

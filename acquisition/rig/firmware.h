@@ -34,6 +34,7 @@ class Firmware {
   void stall() { stalled_ = true; }
 
   double table(double now) const;  // where the table is, degrees; not what the board believes
+  double goal() const;             // where it is once the motion under way is complete
   bool laser() const { return laser_; }
   bool motor() const { return motor_; }
   bool moving() const { return motion_.has_value(); }

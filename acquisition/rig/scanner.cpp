@@ -32,8 +32,9 @@ Scanner::Scanner(const ScannerOptions& options, double degrees)
       degrees_(degrees),
       renderer_(optics_of(options.realism.seed), options.object, options.realism),
       stage_([this](int turns) { turned(turns); }),
-      board_({.on_move = [this](double moved) { stage_.passes(degrees_ + moved); },
-              .on_turn = [this](double moved) { stands(degrees_ + moved); },
+      board_({.on_goal = [this](double moved) { keep(degrees_ + moved); },
+              .on_move = [this](double moved) { stage_.passes(degrees_ + moved); },
+              .on_turn = [this](double moved) { stage_.turned_to(degrees_ + moved); },
               .on_laser = [this](bool on) { stage_.laser(on); },
               .on_motor = [this](bool on) { stage_.motor(on); }}),
       camera_cable_([this] { camera_->unplug(); }, [this] { tell(camera_->plug_in()); }),
@@ -62,9 +63,9 @@ Expected<void> Scanner::plug_board() {
   return board_.plug(settings);
 }
 
-void Scanner::stands(double degrees) {
-  if (!options_.table.empty()) tell(write_table(options_.table, degrees));
-  stage_.turned_to(degrees);
+// When a motion begins: a real table gets there though this process be killed on the way.
+void Scanner::keep(double goal) {
+  if (!options_.table.empty()) tell(write_table(options_.table, goal));
 }
 
 void Scanner::turned(int turns) {

@@ -43,7 +43,7 @@ class Scanner {
  private:
   Scanner(const ScannerOptions& options, double degrees);
   Expected<void> plug_board();
-  void stands(double degrees);
+  void keep(double goal);
   void turned(int turns);
   Exposed expose(const Exposure& exposure, const SensorRegion& region);
   Delivery delivery(int turns);

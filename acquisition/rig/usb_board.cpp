@@ -125,7 +125,7 @@ class UsbBoard::Impl {
   std::string unread_;
   double last_in_ = 0;
   double base_ = 0, table_ = 0;  // where the table was when the power came, and is
-  double stood_ = 0;             // and was at rest last
+  double stood_ = 0, goal_ = 0;  // and was at rest last, and is to be
   bool laser_ = false, motor_ = false;
   std::map<UMockdevIoctlClient*, Client> clients_;
   std::thread timer_;
@@ -442,6 +442,8 @@ void UsbBoard::Impl::settle() {
     firmware_->advance(at);
     unread_ += firmware_->take_output();
     if (unread_.size() > kMostUnread) unread_.erase(0, unread_.size() - kMostUnread);
+    const double goal = base_ + firmware_->goal();
+    if (goal != std::exchange(goal_, goal)) events_.on_goal(goal);
     const double table = base_ + firmware_->table(at);
     if (table != std::exchange(table_, table)) events_.on_move(table);
     if (!firmware_->moving() && table != std::exchange(stood_, table)) events_.on_turn(table);

@@ -23,6 +23,7 @@ struct UsbBoardSettings {
 
 // Called from threads of the board's own, one at a time; may not call the board.
 struct UsbBoardEvents {
+  std::function<void(double degrees)> on_goal = [](double) {};  // where it is to stand; told first
   std::function<void(double degrees)> on_move = [](double) {};  // where the table is now
   std::function<void(double degrees)> on_turn = [](double) {};  // where it has come to stand
   std::function<void(bool on)> on_laser = [](bool) {}, on_motor = [](bool) {};

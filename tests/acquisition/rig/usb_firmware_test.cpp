@@ -21,7 +21,9 @@ TEST(HorusFirmware, SaysOkWhenTheMotionIsComplete) {
   EXPECT_EQ(said(*board, "M17\nG1X20F200\n$G\n"), "ok\r\n");
   EXPECT_EQ(said(*board, "?", 1), "<Run,MPos:0.000>\r\n");
   EXPECT_NEAR(board->table(1), 10, 1e-9);
+  EXPECT_NEAR(board->goal(), 20, 1e-9);
   board->advance(2);
+  EXPECT_NEAR(board->goal(), 20, 1e-9);
   EXPECT_EQ(board->take_output(), "ok\r\n[G1 G54 T0 F12000.]\r\nok\r\n");
   EXPECT_EQ(said(*board, "?", 2), "<Idle,MPos:20.000>\r\n");
 }
@@ -34,6 +36,7 @@ TEST(HorusFirmware, IsDarkAndLockedAfterAResetAmidAMotionAndForgetsItsSpeed) {
   EXPECT_NE(said(*board, "\x18", 1).find("to unlock"), std::string::npos);
   EXPECT_FALSE(board->laser() || board->motor());
   EXPECT_NEAR(board->table(5), 10, 1e-9) << "halted";
+  EXPECT_NEAR(board->goal(), 10, 1e-9);
   EXPECT_EQ(said(*board, "M17\n", 5), "error: Alarm lock\r\n");
   EXPECT_EQ(said(*board, "$X\n$G\n", 5), "[Caution: Unlocked]\r\nok\r\n[G1 G54 T0 F0.]\r\nok\r\n");
 }
@@ -56,6 +59,7 @@ TEST(Firmware, ThatStallsNeverCompletesUntilItIsRestarted) {
   said(*board, "M17\n");
   board->stall();
   EXPECT_EQ(said(*board, "G1X5F10\n"), "");
+  EXPECT_EQ(board->goal(), 0);
   board->advance(1e6);
   EXPECT_EQ(board->take_output(), "");
   board->restart(1e6);
