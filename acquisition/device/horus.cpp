@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -38,6 +39,11 @@ Reply parse_brackets(std::string_view line) {
 }
 
 }  // namespace
+
+double longest(double degrees, int speed) {
+  const double way = std::abs(degrees);
+  return 2 * way / speed + std::min(way, 360.0) / kSlowestSpeed;
+}
 
 std::string turn(double degrees, int speed) {
   return fmt::format("G1 X{:.4f} F{}", degrees, speed);

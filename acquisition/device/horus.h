@@ -22,6 +22,10 @@ inline constexpr char kMotorOn[] = "M17", kMotorOff[] = "M18";
 inline constexpr int kCountedSpeed = 200, kUncountedSpeed = 100;
 // Degrees a second: a table may turn slower than it is asked to, yet hardly as slow as this.
 inline constexpr int kSlowestSpeed = 10;
+// Seconds in which a motion by so many degrees is over: up to a turn, as a scan needs, that of the
+// slowest table; of more turns twice what they should take, or a stalled motor were waited for for
+// an hour.
+double longest(double degrees, int speed);
 
 std::string turn(double degrees, int speed);
 std::string speed(int degrees_per_second);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -174,7 +173,7 @@ Expected<void> HorusController::turn(double degrees, int speed) {
     if (auto on = command(horus::kMotorOn, patience_); !on) return on;
     motor_ = true;
   }
-  const double seconds = std::abs(degrees - *from) / horus::kSlowestSpeed;
+  const double seconds = horus::longest(degrees - *from, speed);
   return command(horus::turn(degrees, speed),
                  patience_ + milliseconds(static_cast<std::int64_t>(1000 * seconds)));
 }

@@ -15,6 +15,14 @@ TEST(Horus, SaysWhatTheFirmwareReads) {
   EXPECT_EQ(laser(2, false), "M70T2");
 }
 
+TEST(Horus, GrantsATurnToASlowTableAndNoHourToAHundredTurns) {
+  for (const int speed : {kCountedSpeed, kUncountedSpeed}) {
+    EXPECT_GE(longest(-360, speed), 360 / kSlowestSpeed);
+    EXPECT_GE(longest(36'000, speed), 36'000 / speed);
+    EXPECT_LE(longest(36'000, speed), 15 * 60);
+  }
+}
+
 TEST(Horus, TellsRepliesApart) {
   EXPECT_EQ(parse("ok").kind, Kind::kOk);
   EXPECT_EQ(parse("error: Alarm lock").kind, Kind::kRefusal);
