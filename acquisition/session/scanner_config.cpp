@@ -66,8 +66,10 @@ void check_members(const Target& target, JsonMembers& members) {
   }
   if (!(target.marker_mm > 0 && target.marker_mm < target.square_mm))
     members.fault("marker_mm", "must be larger than 0 and smaller than \"square_mm\"");
-  if (const auto known = check_target(target); !known)
-    members.fault("dictionary", fmt::format("does not fit: {}", known.error().message));
+  if (const auto known = check_target(target); !known) {
+    const std::string& told = known.error().message;  // its next step gives way to fault()'s
+    members.fault("dictionary", fmt::format("does not fit: {}", told.substr(0, told.rfind("; "))));
+  }
 }
 
 // A scanner that is calibrated by points that are known needs none.

@@ -22,7 +22,7 @@ Expected<void> StripeWatch::add(const StripeCount& stripe, int steps_done) {
   return fail(
       ErrorCode::kBadInput,
       fmt::format(
-          "the stripe {} since step {} of the scan, {}; then start a new scan, "
+          "the stripe {} since step {} of the scan, {}, then start a new scan, "
           "or resume this one: it measures from there again, and takes an object that just {}",
           is_lost ? "is lost" : "has changed", steps_done - static_cast<int>(most_) + 1,
           judged.error().message, is_lost ? "leaves the light" : "looks like that"));

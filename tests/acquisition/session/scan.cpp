@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <numbers>
@@ -392,6 +393,7 @@ TEST_F(ScanTest, a_pause_while_the_stripe_is_lost_does_not_hide_that) {
   };
   const std::string undisturbed = run_with_pause_at(0);
   EXPECT_THAT(undisturbed, HasSubstr("the stripe is lost since step 12 of the scan, no stripe"));
+  EXPECT_EQ(std::ranges::count(undisturbed, ';'), 1) << undisturbed;
   for (const int pause : {10, 13, 14, 15})
     EXPECT_EQ(run_with_pause_at(pause), undisturbed) << pause;
 }
@@ -409,7 +411,8 @@ TEST_F(ScanTest, a_second_laser_that_comes_on_on_the_way_stops_the_scan_once) {
       scan->status().error.value_or(Error{}).message,
       AllOf(HasSubstr("the stripe has changed since step 19 of the scan, two stripes: 72 of "
                       "120 rows"),
-            HasSubstr("switch the other laser off; then start a new scan")));
+            HasSubstr("rows show the laser twice; cover what reflects it, switch the other laser "
+                      "off, then start a new scan")));
   EXPECT_EQ(scan->status().steps_done, 18) << "the others are measured again";
   expect_dark(world_);
   EXPECT_EQ(run(*scan), ScanState::kDone) << "the operator went on";

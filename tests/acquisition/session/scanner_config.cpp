@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace vitrine::test {
@@ -53,7 +54,9 @@ TEST(ScannerConfig, a_fault_names_file_and_key_and_what_is_expected) {
     json object = example();
     object[json::json_pointer(pointer)] = value;
     const auto config = parse_scanner_config(object.dump(), "rig.json");
-    return config ? "accepted" : config.error().message;
+    if (config) return std::string("accepted");
+    EXPECT_EQ(std::ranges::count(config.error().message, ';'), 1) << config.error().message;
+    return config.error().message;
   };
   EXPECT_THAT(fault("/camera", json::object()), HasSubstr("\"address\" must name the camera"));
   EXPECT_THAT(fault("/camera/serial", "7"), HasSubstr("must name the camera, one of them"));
