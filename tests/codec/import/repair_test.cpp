@@ -12,6 +12,7 @@
 #include <set>
 
 #include "codec/import/mesh_builders.h"
+#include "codec/import/repairing.h"
 #include "codec/mesh/connectivity.h"
 
 namespace vitrine {
@@ -23,16 +24,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using vitrine::testing::append;
 using vitrine::testing::grid;
+using vitrine::testing::repaired;
 using vitrine::testing::tetrahedron;
-
-RepairedMesh repaired(TriangleMesh mesh) {
-  auto result = repair({std::move(mesh), {}});
-  EXPECT_TRUE(result.has_value()) << result.error().message;
-  const auto closed = Connectivity::close(static_cast<std::uint32_t>(result->mesh.positions.size()),
-                                          result->mesh.faces);
-  EXPECT_TRUE(closed.has_value()) << closed.error().message;
-  return *std::move(result);
-}
 
 // The faces as positions, each turned so that its smallest corner is first, in sorted order.
 using Corners = std::array<std::array<double, 3>, 3>;

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "codec/import/reading.h"
-#include "codec/import/repair.h"
+#include "codec/import/repairing.h"
 
 namespace vitrine {
 namespace {
@@ -14,11 +14,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using vitrine::testing::read_text;
+using vitrine::testing::repaired;
 
 RepairedMesh built(std::string_view text) {
-  auto result = repair(read_text(text));
-  EXPECT_TRUE(result.has_value()) << result.error().message;
-  return result ? *std::move(result) : RepairedMesh{};
+  return repaired(read_text(text));
 }
 
 // Tetrahedra, the upper and the lower half of each with vertices of its own.

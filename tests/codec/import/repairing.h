@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What repair() makes of a mesh, checked for what it promises of all.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "codec/import/repair.h"
+#include "codec/mesh/connectivity.h"
+
+namespace vitrine::testing {
+
+inline RepairedMesh repaired(ImportedMesh imported) {
+  auto result = repair(std::move(imported));
+  EXPECT_TRUE(result.has_value()) << result.error().message;
+  if (!result) return {};
+  const auto closed = Connectivity::close(static_cast<std::uint32_t>(result->mesh.positions.size()),
+                                          result->mesh.faces);
+  EXPECT_TRUE(closed.has_value()) << closed.error().message;
+  return *std::move(result);
+}
+
+inline RepairedMesh repaired(TriangleMesh mesh) {
+  return repaired(ImportedMesh{std::move(mesh), {}});
+}
+
+}  // namespace vitrine::testing
