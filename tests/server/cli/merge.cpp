@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "codec/core/vec.h"
 #include "vitrine_command.h"
 
 namespace vitrine::test {
@@ -10,20 +11,22 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::StartsWith;
 
-// The vertices of a bumpy PLY turned over about x and shifted by 2 along y.
-std::string turned_over(const std::string& ply) {
+// A bumpy PLY with other vertices.
+std::string with_vertices(const std::string& ply, Vec3 (*other)(const Vec3&)) {
   const std::size_t header = ply.find("end_header\n") + 11;
   std::istringstream in(ply.substr(header));
   std::ostringstream out;
   out.precision(9);
   out << ply.substr(0, header);
   for (std::string line; std::getline(in, line);) {
-    double x = 0, y = 0, z = 0;
+    Vec3 p;
     std::istringstream words(line);
-    const bool is_vertex = line.find('.') != std::string::npos && words >> x >> y >> z;
+    const bool is_vertex = line.find('.') != std::string::npos && words >> p.x >> p.y >> p.z;
     if (is_vertex) {
-      out << x << " " << 2 - y << " " << -z << "\n";
+      const Vec3 q = other(p);
+      out << q.x << " " << q.y << " " << q.z << "\n";
     } else {
       out << line << "\n";
     }
@@ -31,11 +34,20 @@ std::string turned_over(const std::string& ply) {
   return out.str();
 }
 
+// About x, and shifted by 2 along y.
+Vec3 turned_over(const Vec3& p) {
+  return {p.x, 2 - p.y, -p.z};
+}
+
+Vec3 enlarged(const Vec3& p) {
+  return p * 1.3;
+}
+
 class Merge : public VitrineCommand {
  protected:
   Merge() {
     const std::string ply = bumpy_ply(3'000);
-    write("a.ply", ply), write("b.ply", turned_over(ply));
+    write("a.ply", ply), write("b.ply", with_vertices(ply, turned_over));
   }
 
   // By hand: 2 degrees and 0.1 mm off.
@@ -63,6 +75,17 @@ TEST_F(Merge, a_scan_of_the_object_in_another_pose_is_moved_onto_the_first) {
   // A note says that a.ply states no unit.
   const ProgramResult measured = vitrine({"measure", path("out.ply"), path("a.ply"), "--json"});
   EXPECT_LT(json::parse(measured.output)["rms"].get<double>(), 1e-3);
+}
+
+TEST_F(Merge, a_scan_that_may_lie_there_by_chance_is_noted) {
+  write("b.ply", with_vertices(read("a.ply"), enlarged));  // another object
+  auto line = words("{}");
+  line.emplace_back("--json");
+  const ProgramResult result = vitrine(line);
+  expect_fault(result, 0);  // a note has its form
+  EXPECT_THAT(result.errors, StartsWith("vitrine: note: " + path("b.ply") + " may not lie"));
+  EXPECT_EQ(json::parse(result.output)["scans"][1]["doubtful"], true);
+  EXPECT_TRUE(std::filesystem::exists(path("out.ply")));
 }
 
 TEST_F(Merge, a_start_that_is_far_off_is_refused_and_nothing_is_written) {
