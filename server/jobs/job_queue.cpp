@@ -48,12 +48,13 @@ void JobRun::when_asked(std::function<void()> react) {
   if (react_ && wish_ != JobWish::kNone) react_();
 }
 
-void JobRun::ask(JobWish wish) {
+void JobRun::ask(JobWish wish, std::string_view reason) {
   const std::scoped_lock lock(mutex_);
   if (waits_ && wish == JobWish::kStop) wish = JobWish::kPause;
   // Nothing takes a cancellation back, and what is paused stays so when the daemon ends.
   if (wish_ == JobWish::kCancel || (wish_ == JobWish::kPause && wish == JobWish::kStop)) return;
   wish_ = wish;
+  if (!reason.empty()) status_.note = pause_reason_ = reason;
   changed_.notify_all();
   if (react_ && wish != JobWish::kNone) react_();
 }
@@ -99,7 +100,7 @@ void JobRun::report(std::string_view stage, double progress, std::optional<doubl
     status_.record.stage = stage;
     status_.record.progress = std::max(status_.record.progress, progress);
     status_.eta = eta;
-    status_.note = note;
+    if (pause_reason_.empty()) status_.note = note;
     if (is_new) entered = status_.record;
   }
   if (entered) entered_stage_(*entered);
@@ -239,8 +240,11 @@ void JobQueue::set_state(const Run& run, JobState state) {
     const std::scoped_lock lock(run->mutex_);
     run->status_.record.state = state;
     run->status_.eta.reset();
-    run->status_.note.clear();
-    if (state == JobState::kQueued) run->wish_ = JobWish::kNone;
+    if (state == JobState::kQueued) {
+      run->wish_ = JobWish::kNone;
+      run->pause_reason_.clear();
+    }
+    run->status_.note = state == JobState::kPaused ? run->pause_reason_ : "";
     if (has_ended(state)) run->status_.record.ended = now_in_milliseconds();
     if (state == JobState::kDone) run->status_.record.progress = 1;
   }
@@ -249,14 +253,14 @@ void JobQueue::set_state(const Run& run, JobState state) {
   store(job);
 }
 
-Expected<JobStatus> JobQueue::pause(const JobId& id) {
+Expected<JobStatus> JobQueue::pause(const JobId& id, std::string_view reason) {
   const std::scoped_lock lock(mutex_);
   const auto run = unfinished(id);
   if (!run) return Unexpected(run.error());
   const JobRecord job = (*run)->job();
   if (job.state == JobState::kPaused) return not_now(job, "is paused already");
+  (*run)->ask(JobWish::kPause, reason);
   if (job.state == JobState::kQueued) set_state(*run, JobState::kPaused);
-  if (job.state == JobState::kRunning) (*run)->ask(JobWish::kPause);
   return (*run)->status();
 }
 

@@ -62,14 +62,15 @@ class JobRun {
 
  private:
   friend class JobQueue;
-  void ask(JobWish wish);
+  void ask(JobWish wish, std::string_view reason = {});
   bool go_on();             // false where it does not wait
   bool is_at_work() const;  // its task has not returned
 
   mutable std::mutex mutex_;  // guards what follows
   JobStatus status_;
   JobWish wish_ = JobWish::kNone;
-  bool waits_ = false;  // in await_resume()
+  bool waits_ = false;        // in await_resume()
+  std::string pause_reason_;  // that came with kPause; its note from then on
   std::condition_variable changed_;
   std::uint64_t stops_known_ = 0;
   std::function<void()> react_;
@@ -101,7 +102,8 @@ class JobQueue {
   Expected<JobRecord> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                           const std::optional<OnceKey>& once, std::uint64_t stops = 0);
 
-  Expected<JobStatus> pause(const JobId& id);
+  // `reason`, and what to do: its note until it is resumed.
+  Expected<JobStatus> pause(const JobId& id, std::string_view reason = {});
   Expected<JobStatus> resume(const JobId& id, std::uint64_t stops = 0);
   Expected<JobStatus> cancel(const JobId& id);
 

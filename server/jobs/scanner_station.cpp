@@ -9,6 +9,8 @@ namespace vitrine {
 namespace {
 
 constexpr std::chrono::seconds kPatience{3};  // with a scanner that is looked for
+constexpr std::string_view kStopped =
+    "stopped by the operator; make sure that it is safe, then resume";
 
 Unexpected thrown(const std::exception& fault) {
   return fail(ErrorCode::kIo, fmt::format("the scanner cannot be used: {}; free memory and try "
@@ -121,7 +123,8 @@ void ScannerStation::stop() {
   const auto job = jobs_.job_of(name());
   if (!job) return;
   const bool can_be_resumed = job->record.kind == JobKind::kScan;
-  static_cast<void>(can_be_resumed ? jobs_.pause(job->record.id) : jobs_.cancel(job->record.id));
+  static_cast<void>(can_be_resumed ? jobs_.pause(job->record.id, kStopped)
+                                   : jobs_.cancel(job->record.id));
 }
 
 void ScannerStation::close_after_all() {

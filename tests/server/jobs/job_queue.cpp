@@ -137,6 +137,34 @@ TEST_F(Jobs, a_paused_job_keeps_its_scanner_and_goes_on_where_it_is_resumed) {
   EXPECT_EQ(queue->pause(job.id).error().code, ErrorCode::kState);
 }
 
+TEST_F(Jobs, a_paused_job_says_why_until_it_is_resumed_whatever_it_told_meanwhile) {
+  const auto queue = queue_of([this](JobRun& run) -> Expected<JobEnd> {
+    const auto end = gate_.pass(run);
+    run.report("scanning", 0.5, {}, "the camera is gone");
+    const bool is_paused = run.wish() == JobWish::kPause;
+    EXPECT_EQ(run.status().note, is_paused ? "stopped" : "the camera is gone");
+    return end;
+  });
+  const JobRecord job = job_for("a"), waiting = job_for("", JobKind::kReprocess);
+  std::promise<void> go;
+  queue->lane("").post([&] { go.get_future().wait(); });
+  ASSERT_TRUE(queue->add(job, {}, {}));
+  ASSERT_TRUE(queue->add(waiting, {}, {}));
+  gate_.await_beginning();
+  for (const JobRecord& one : {job, waiting})
+    ASSERT_TRUE(queue->pause(one.id, "stopped"));
+  settle(*queue);
+  for (const JobRecord& one : {job, waiting})
+    EXPECT_EQ(queue->find(one.id).value()->note, "stopped");
+  go.set_value();
+  ASSERT_TRUE(queue->resume(job.id));
+  EXPECT_EQ(queue->find(job.id).value()->note, "");
+  gate_.await_beginning(2);
+  ASSERT_TRUE(queue->cancel(job.id));
+  settle(*queue);
+  settle(*queue, "");
+}
+
 TEST_F(Jobs, a_job_is_cancelled_where_it_runs_waits_or_is_paused) {
   const auto queue = gated();
   const JobRecord running = job_for("", JobKind::kReprocess);

@@ -223,6 +223,8 @@ TEST_F(Scans, an_emergency_stop_pauses_the_scan_and_nothing_moves_before_it_is_r
   held.open();
   settle();
   EXPECT_EQ(info(started.scan).job.record.state, JobState::kPaused);
+  EXPECT_EQ(info(started.scan).job.note,
+            "stopped by the operator; make sure that it is safe, then resume");
   EXPECT_EQ(world_.steps, 6);
   ASSERT_TRUE(service_->resume(info(started.scan).entry));
   settle();
