@@ -163,6 +163,8 @@ void ScanService::recall(JobRecord job) {
   const ScanTold told = (*view)->told();
   (*entry)->step = std::max((*entry)->step, told.step);
   (*entry)->points = (*view)->points();
+  if (told.calibration > 0) (*entry)->calibration = told.calibration;
+  if (told.rows) (*entry)->rows = told.rows;
   keep(**entry);
   job.progress = std::max(job.progress, kMeshed * told.progress);
   if (auto kept = means_.jobs.update(job); !kept)
@@ -239,13 +241,15 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
     return fail(ErrorCode::kState, "the scan has no steps to make a model of; resume it first");
   const auto ordered = order_of(scan);
   if (!ordered) return Unexpected(ordered.error());
-  const ReprocessOptions options{.processing = order.request.processing,
-                                 .calibration = order.calibration};
+  ScanOrder whole = order;
+  if (whole.calibration == 0) whole.calibration = scan.calibration;
+  const ReprocessOptions options{.processing = whole.request.processing,
+                                 .calibration = whole.calibration};
   if (auto kept = check_pictures(ordered->request, scan.calibration, options); !kept)
     return Unexpected(kept.error());
   JobRecord job = new_job(JobKind::kReprocess, scan.scanner);
   job.scan = scan.id;
-  job.parameters = to_json_text(order);
+  job.parameters = to_json_text(whole);
   const auto added = queue_.add(job, std::nullopt, once);
   if (!added) return Unexpected(added.error());
   return ScanStarted{scan.id, added->id};

@@ -41,7 +41,7 @@ class ScanView {
 
   virtual std::shared_ptr<const Frame> frame() const = 0;  // the latest, laser on; may be null
   virtual std::vector<std::array<double, 2>> profile() const = 0;  // the latest: rho, z in mm
-  virtual ScanTold told() const = 0;  // how far it is; without the calibration
+  virtual ScanTold told() const = 0;                               // how far it is
   virtual std::size_t points() const = 0;
   // mm, z upwards, in the order in which they came, from number `first` on. Grows only.
   virtual std::vector<std::array<float, 3>> points_from(std::size_t first) const = 0;

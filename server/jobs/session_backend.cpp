@@ -24,14 +24,25 @@ bool is_under_way(ScanState state) {
          state == ScanState::kMeshing;
 }
 
-ScanTold told_of(const ScanStatus& status) {
-  return {.stage = status.state == ScanState::kMeshing ? "meshing" : "scanning",
-          .step = status.steps_done,
-          .progress = status.progress,
-          .eta = status.seconds_left,
-          .calibration = 0,
-          .rows = std::nullopt,
-          .note = status.note};
+// The record is there from the first step on.
+ScanTold told_of(const ScanStatus& status, const std::optional<ScanRecord>& record) {
+  ScanTold told{.stage = status.state == ScanState::kMeshing ? "meshing" : "scanning",
+                .step = status.steps_done,
+                .progress = status.progress,
+                .eta = status.seconds_left,
+                .calibration = 0,
+                .rows = std::nullopt,
+                .note = status.note};
+  if (!record) return told;
+  const RowShares rows = shares(status.stripe, record->settings.region.height);
+  told.calibration = record->calibration;
+  told.rows = {rows.empty, rows.saturated, rows.doubled};
+  return told;
+}
+
+std::optional<ScanRecord> record_of(const Scan& scan) {
+  auto record = scan.folder().record();
+  return record ? std::move(*record) : std::nullopt;
 }
 
 // What a session shows, and what it showed once it has ended.
@@ -47,7 +58,7 @@ class SessionView final : public ScanView {
       points.push_back({point.at.rho, point.at.z});
     return points;
   }
-  ScanTold told() const override { return told_of(scan_->status()); }
+  ScanTold told() const override { return told_of(scan_->status(), record_of(*scan_)); }
   std::size_t points() const override { return scan_->preview().cloud_size(); }
   std::vector<std::array<float, 3>> points_from(std::size_t first) const override {
     return scan_->preview().cloud_from(first);
@@ -57,20 +68,6 @@ class SessionView final : public ScanView {
   const std::shared_ptr<const Scan> scan_;
 };
 
-// What the scan's record adds, which is there from the first step on.
-ScanTold told_of(const ScanStatus& status, const ScanRecord& record) {
-  const RowShares rows = shares(status.stripe, record.settings.region.height);
-  ScanTold told = told_of(status);
-  told.calibration = record.calibration;
-  told.rows = {rows.empty, rows.saturated, rows.doubled};
-  return told;
-}
-
-std::optional<ScanRecord> record_of(const Scan& scan) {
-  auto record = scan.folder().record();
-  return record ? std::move(*record) : std::nullopt;
-}
-
 // Waits for the scan and carries words both ways; returns how it ended.
 ScanStatus follow(Scan& scan, ScanListener& listener) {
   bool asked = false;
@@ -78,7 +75,7 @@ ScanStatus follow(Scan& scan, ScanListener& listener) {
   for (;;) {
     const ScanStatus status = scan.wait(kTick);
     if (!record && status.steps_done > 0) record = record_of(scan);
-    listener.told(record ? told_of(status, *record) : told_of(status));
+    listener.told(told_of(status, record));
     if (!is_under_way(status.state)) return status;
     if (asked || !listener.is_interrupted()) continue;
     // One that meshes by now cannot be paused, and ends by itself.

@@ -44,7 +44,7 @@ class FakeView final : public ScanView {
 
   ScanTold told() const override {
     const int step = static_cast<int>(points() / kFakePoints);
-    return {.step = step, .progress = 0.9 * step / steps_};
+    return {.step = step, .progress = 0.9 * step / steps_, .calibration = 1};
   }
   void add_step(int step) {
     const std::scoped_lock lock(mutex_);

@@ -200,6 +200,7 @@ TEST_F(Scans, a_cancelled_scan_keeps_its_data_and_can_still_become_a_model) {
   service_->jobs().lane("").run([] {});
   const JobRecord job = (*service_->jobs().find(reprocessed->job))->record;
   EXPECT_EQ(job.kind, JobKind::kReprocess);
+  EXPECT_EQ(world_.anew.calibration, scan.entry.calibration) << "what is kept names it";
   EXPECT_EQ(job.state, JobState::kDone) << job.error;
   EXPECT_TRUE(info(started.scan).entry.model);
 }
@@ -304,7 +305,7 @@ TEST_F(Scans, what_scans_when_the_daemon_stops_goes_on_at_the_next_start) {
   EXPECT_EQ(world_.steps, 12);
 }
 
-TEST_F(Scans, progress_does_not_go_back_when_the_daemon_was_killed) {
+TEST_F(Scans, progress_and_calibration_are_not_lost_when_the_daemon_was_killed) {
   HeldAtStep held(world_, 7);
   const auto started = begin(order_);
   held.await();
@@ -312,7 +313,8 @@ TEST_F(Scans, progress_does_not_go_back_when_the_daemon_was_killed) {
   service_.reset();
   ScanEntry entry = *installation_.jobs->find_scan(started.scan).value();
   JobRecord job = *installation_.jobs->find_job(started.job).value();
-  entry.step = 1, job.progress = 0;  // the last that a daemon which is killed has stored
+  entry.step = 1, entry.calibration = 0,
+  job.progress = 0;  // the last that a daemon which is killed has stored
   ASSERT_TRUE(installation_.jobs->update(entry));
   ASSERT_TRUE(installation_.jobs->update(job));
   std::promise<void> seen;
@@ -322,6 +324,7 @@ TEST_F(Scans, progress_does_not_go_back_when_the_daemon_was_killed) {
   seen.set_value();
   EXPECT_EQ(scan.entry.step, 7);
   EXPECT_EQ(scan.entry.points, 7 * test::kFakePoints);
+  EXPECT_EQ(scan.entry.calibration, 1);
   EXPECT_NEAR(scan.job.record.progress, 0.85 * 0.9 * 7 / 12, 1e-9);
   settle();
 }

@@ -74,6 +74,10 @@ TEST_F(SessionDevices, AScanTellsWhatItsRowsShowed) {
   ASSERT_TRUE(backend_.scan(order, folder_.path() / "scan", listener));
   EXPECT_EQ(listener.last.calibration, 1);
   EXPECT_EQ(listener.last.rows, (ScannedRows{.empty = 0, .saturated = 0, .doubled = .5}));
+  const auto later = backend_.view(folder_.path() / "scan");
+  ASSERT_TRUE(later) << later.error().message;
+  EXPECT_EQ((*later)->told().calibration, 1);
+  EXPECT_EQ((*later)->told().rows, listener.last.rows);
 }
 
 struct SilentListener final : ScanListener {
