@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCatalogue = "catalogue.sqlite";
+constexpr const char* kNextStep =
+    "give the folder of an installation, or start vitrined with this one once";
 
 // What may lie in a data folder before its catalogue does: what an interrupted start leaves, the
 // demo's scanner, and what is at the root of a disk.
@@ -40,14 +42,12 @@ Expected<void> check_data_folder(const fs::path& folder) {
   fs::directory_iterator at(folder, error);
   for (; !error && at != fs::directory_iterator(); at.increment(error)) {
     if (may_come_first(at->path().filename().string())) continue;
-    return fail(ErrorCode::kIo, folder.string() +
-                                    " holds other things and no catalogue; check its name, or "
-                                    "name an empty folder for a new installation");
+    return fail(ErrorCode::kIo,
+                folder.string() + " holds other things and no catalogue; " + kNextStep);
   }
   if (!error) return {};
   return fail(ErrorCode::kIo, "cannot open the data folder " + folder.string() + ": " +
-                                  error.message() +
-                                  "; check its name, or make the folder for a new installation");
+                                  error.message() + "; " + kNextStep);
 }
 
 Expected<Installation> open_installation(const fs::path& folder) {
