@@ -48,14 +48,16 @@ json describe_scanned(const ScannedSurface& surface, const StripeCount& stripe,
 }
 
 std::string scanned_as_text(const json& r) {
+  const int steps = r["steps"], done = r.value("steps_done", steps);
   return fmt::format(
-      "{}: {} vertices, {} faces from {} points in {} steps, calibration {}; "
+      "{}: {} vertices, {} faces from {} points in {}{} steps, calibration {}; "
       "{:.1f} % of all rows show no stripe, {:.1f} % of the others are saturated, "
       "{:.1f} % show two",
       r["out"].get<std::string>(), r["vertices"].get<std::uint64_t>(),
       r["faces"].get<std::uint64_t>(), r["points"]["measured"].get<std::uint64_t>(),
-      r["steps"].get<int>(), r["calibration"].get<int>(), 100 * r["rows"]["empty"].get<double>(),
-      100 * r["rows"]["saturated"].get<double>(), 100 * r["rows"]["doubled"].get<double>());
+      done < steps ? fmt::format("{} of ", done) : "", steps, r["calibration"].get<int>(),
+      100 * r["rows"]["empty"].get<double>(), 100 * r["rows"]["saturated"].get<double>(),
+      100 * r["rows"]["doubled"].get<double>());
 }
 
 }  // namespace vitrine::cli

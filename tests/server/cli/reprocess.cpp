@@ -90,6 +90,7 @@ TEST_F(ReprocessCommand, a_part_of_a_scan_is_said_to_be_one) {
   const ProgramResult part = vitrine(words("out.ply"));
   EXPECT_EQ(part.exit_code, 0) << part.errors;
   EXPECT_THAT(part.errors, HasSubstr("of 12: the mesh is of these alone"));
+  EXPECT_THAT(part.output, HasSubstr("points in 5 of 12 steps"));
 }
 
 TEST_F(ReprocessCommand, wrong_usage_is_told) {
