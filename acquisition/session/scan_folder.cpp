@@ -46,16 +46,23 @@ Expected<Frame> read_frame(const fs::path& path) {
   });
 }
 
+// Of another scan.
+Error in_the_way(const ScanFolder& there) {
+  const ScanState state = there.state().state;
+  const bool has_ended = state == ScanState::kDone || state == ScanState::kCancelled;
+  return {ErrorCode::kState,
+          has_ended ? fmt::format("{} holds a scan that is {}; give another name, or reprocess it",
+                                  there.path().string(), name_of(state))
+                    : fmt::format("{} holds a scan already; resume that one or remove the folder",
+                                  there.path().string())};
+}
+
 }  // namespace
 
 Expected<ScanFolder> ScanFolder::create(const fs::path& path) {
   ScanFolder folder(path);
   std::error_code ignored;  // make_folder() tells
-  if (fs::exists(folder.path_ / kRecordName, ignored)) {
-    return fail(ErrorCode::kState, fmt::format("{} holds a scan already; resume that one or remove "
-                                               "the folder",
-                                               path.string()));
-  }
+  if (fs::exists(folder.path_ / kRecordName, ignored)) return tl::unexpected(in_the_way(folder));
   if (auto made = make_folder(path); !made) return tl::unexpected(made.error());
   return folder;
 }

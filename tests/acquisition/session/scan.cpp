@@ -146,11 +146,22 @@ TEST_F(ScanTest, a_done_one_is_meshed_again_without_the_devices) {
 }
 
 TEST_F(ScanTest, a_folder_that_holds_a_scan_is_not_used_for_another) {
-  run(*scan());
-  const auto second = Scan::create(scanner(), request(), path());
-  ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().code, ErrorCode::kState);
-  EXPECT_THAT(second.error().message, HasSubstr("holds a scan already; resume"));
+  auto first = scan();
+  const auto expect_refused = [&](const char* next_step) {
+    const auto second = Scan::create(scanner(), request(), path());
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::kState);
+    EXPECT_THAT(second.error().message, HasSubstr(next_step));
+  };
+  world_.meanwhile = [&](const std::string& call, int count) {
+    if (call == "turn" && count == 6) {
+      EXPECT_TRUE(first->pause());
+    }
+  };
+  EXPECT_EQ(run(*first), ScanState::kPaused);
+  expect_refused("holds a scan already; resume that one or remove the folder");
+  EXPECT_EQ(run(*first), ScanState::kDone);
+  expect_refused("holds a scan that is done; give another name, or reprocess it");
 }
 
 TEST_F(ScanTest, nothing_is_reopened_where_nothing_is) {
