@@ -65,6 +65,15 @@ class ScanRoutes : public testing::Test {
     server_.scans().jobs().lane(lane).run([] {});
   }
 
+  // Comments between events are left out.
+  static std::string next_event(HttpClient& client) {
+    std::string event;
+    while (!event.ends_with("\n\n") || event.starts_with(":")) {
+      if (event.ends_with("\n\n")) event.clear();
+      event += client.read_exactly(1);
+    }
+    return event;
+  }
   static std::string fault_of(const HttpAnswer& answer) {
     return json::parse(answer.body)["errors"].at(0)["parameter"];
   }
@@ -377,10 +386,7 @@ TEST_F(ScanRoutes, EventsTellAJobToItsEnd) {
   EXPECT_EQ(client.receive().field("content-type"), "text/event-stream");
   std::string state;
   while (state != "done") {
-    std::string event;
-    while (!event.ends_with("\n\n"))
-      event += client.read_exactly(1);
-    if (event.starts_with(":")) continue;
+    const std::string event = next_event(client);
     ASSERT_TRUE(event.starts_with("event: job\ndata: ")) << event;
     const json job = json::parse(event.substr(event.find('{')));
     if (state.empty()) {
@@ -416,6 +422,27 @@ TEST_F(ScanRoutes, AStopIsObeyedWhateverItsBodyIs) {
                 "\r\n\r\n" + body);
     EXPECT_EQ(client.receive().status, 200) << type;
     EXPECT_EQ(world_.stops, before + 1) << type;
+  }
+}
+
+TEST_F(ScanRoutes, AStopsBodyIsNotTakenForTheNextRequest) {
+  const std::string hidden = "POST /api/v1/scanners/rig/jog HTTP/1.1\r\nHost: a\r\n" + operator_ +
+                             "Content-Type: application/json\r\nContent-Length: 14\r\n\r\n"
+                             R"({"degrees": 9})";
+  const std::string length = "Content-Length: " + std::to_string(hidden.size()) + "\r\n";
+  for (const std::string& framing :
+       {length, std::string("Transfer-Encoding: chunked\r\n"), length + "Expect: 100-continue\r\n",
+        std::string("Transfer-Encoding: chunked\r\nExpect: 100-continue\r\n")}) {
+    const auto before = world_.stops.load();
+    HttpClient client(server_.port());
+    client.send("POST /api/v1/scanners/rig/stop HTTP/1.1\r\nHost: a\r\n" + operator_ + framing +
+                "\r\n" + hidden);
+    const HttpAnswer answer = client.receive();
+    EXPECT_EQ(answer.status, 200) << framing;
+    EXPECT_EQ(answer.field("connection"), "close") << framing;
+    EXPECT_TRUE(client.is_closed()) << framing;
+    EXPECT_EQ(world_.stops, before + 1) << framing;
+    EXPECT_EQ(world_.degrees, 0) << framing;
   }
 }
 
@@ -484,7 +511,17 @@ TEST_F(ScanRoutes, WhyAPublicScanFailsIsToldToCallersAlone) {
     }
   };
   expect_told_to_callers();
+  HttpClient visitor(server_.port());
+  visitor.send("GET /api/v1" + job_path(started) + "/events HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_EQ(visitor.receive().status, 200);
+  std::string seen = next_event(visitor);
+  EXPECT_NE(seen.find("is waited for"), std::string::npos) << seen;
   held.open();
+  while (seen.find(R"("state":"failed")") == std::string::npos) {
+    EXPECT_EQ(seen.find(path), std::string::npos) << seen;
+    seen = next_event(visitor);
+  }
+  EXPECT_NE(seen.find("whoever has a token is told why"), std::string::npos) << seen;
   settle();
   expect_told_to_callers();
   EXPECT_NE(json::parse(ask("GET", scan_path(started), "").body)["error"], nullptr);
