@@ -70,7 +70,7 @@ double rms_of(const std::vector<Counterpart>& pairs) {
 
 Unexpected no_overlap(std::size_t scan, std::size_t points) {
   return fail(ErrorCode::kBadInput,
-              fmt::format("scan {} overlaps with those before it in {} points only: give a better "
+              fmt::format("scan {} overlaps with those before it in {} points only; give a better "
                           "start, or scan more of the same parts",
                           scan + 1, points));
 }
@@ -112,11 +112,11 @@ Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const Rigi
                        const MergeOptions& options) {
   if (scans.empty() || scans.size() != starts.size())
     return fail(ErrorCode::kBadInput,
-                fmt::format("{} scans and {} starts: give one start for each scan", scans.size(),
+                fmt::format("{} scans and {} starts; give one start for each scan", scans.size(),
                             starts.size()));
   for (std::size_t k = 0; k < scans.size(); ++k) {
     if (scans[k].faces.empty())
-      return fail(ErrorCode::kBadInput, fmt::format("scan {} has no face: leave it out", k + 1));
+      return fail(ErrorCode::kBadInput, fmt::format("scan {} has no face; leave it out", k + 1));
   }
   Merged merged{{scans[0].positions, scans[0].faces, {}}, {RigidMotion{}}, {0}, {1}};
   for (std::size_t k = 1; k < scans.size(); ++k) {

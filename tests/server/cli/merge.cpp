@@ -90,7 +90,7 @@ TEST_F(Merge, a_scan_that_may_lie_there_by_chance_is_noted) {
 
 TEST_F(Merge, a_start_that_is_far_off_is_refused_and_nothing_is_written) {
   const ProgramResult result = vitrine(words(R"({"shift": {"x": 500}})"));
-  EXPECT_EQ(result.exit_code, 1);
+  expect_fault(result, 1);
   EXPECT_THAT(result.errors, HasSubstr("scan 2 overlaps"));
   EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
 }
