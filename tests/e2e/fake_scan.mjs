@@ -5,7 +5,7 @@ export const kScan = "01hf0000000000000000000000";
 export class FakeScan {
   points = new Float32Array();
   record = {
-    id: kScan, job: kScan, scanner: "rig", state: "waiting", step: 0, steps: 720, progress: 0, eta: null, error: null,
+    id: kScan, job: kScan, scanner: "rig", state: "waiting", step: 0, steps: 720, progress: 0, eta: null, error: null, note: null,
     calibration: 1, points: 0, model: null, title: "Demosthenes", created: 0,
   };
   fault = null; // "network", or a status to answer with
