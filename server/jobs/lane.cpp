@@ -13,6 +13,12 @@ void Lane::post(std::function<void()> task) {
   changed_.notify_one();
 }
 
+void Lane::when_idle(std::chrono::milliseconds for_so_long, std::function<void()> task) {
+  const std::scoped_lock lock(mutex_);
+  patience_ = for_so_long;
+  at_rest_ = std::move(task);
+}
+
 void Lane::finish() {
   {
     const std::scoped_lock lock(mutex_);
@@ -23,12 +29,16 @@ void Lane::finish() {
 }
 
 void Lane::work() {
+  const auto is_wanted = [this] { return finishing_ || !waiting_.empty(); };
   std::unique_lock lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [this] { return finishing_ || !waiting_.empty(); });
+  for (bool has_worked = false;;) {
+    const bool is_idle = has_worked && at_rest_ && !changed_.wait_for(lock, patience_, is_wanted);
+    if (is_idle) waiting_.push_back(at_rest_);
+    changed_.wait(lock, is_wanted);
     if (waiting_.empty()) return;
     const auto task = std::exchange(waiting_.front(), {});
     waiting_.pop_front();
+    has_worked = !is_idle;
     lock.unlock();
     task();
     lock.lock();

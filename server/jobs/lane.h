@@ -2,6 +2,7 @@
 // A thread that does one thing after another, in the order in which they were handed in.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -29,6 +30,9 @@ class Lane {
     return result.get();
   }
 
+  // Has `task` done there each time that nothing was handed in for so long after something else.
+  void when_idle(std::chrono::milliseconds for_so_long, std::function<void()> task);
+
   // Does what is waiting and ends. Nothing may be handed in afterwards.
   void finish();
 
@@ -39,6 +43,8 @@ class Lane {
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
   bool finishing_ = false;
+  std::chrono::milliseconds patience_{0};
+  std::function<void()> at_rest_;
 
   std::thread thread_;
 };

@@ -124,7 +124,7 @@ ScanService::ScanService(const ScanMeans& means,
       backends_(std::move(scanners)),
       queue_(means.jobs, means.events, [this](JobRun& run) { return work(run); }) {
   for (const auto& backend : backends_)
-    stations_.push_back(std::make_unique<ScannerStation>(*backend, queue_));
+    stations_.push_back(std::make_unique<ScannerStation>(*backend, queue_, means.patience));
 }
 
 Expected<void> ScanService::start() {

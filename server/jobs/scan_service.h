@@ -34,6 +34,7 @@ struct ScanMeans {
   const Log& events;
   std::filesystem::path data;                        // of the installation
   std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
+  std::chrono::milliseconds patience{10'000};        // that devices stay open for the next command
 };
 
 // Thread-safe. Errors: kState where something is not possible now, kBadInput where an idempotency

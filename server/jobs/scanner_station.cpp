@@ -28,8 +28,11 @@ auto ScannerStation::caught(Task task) -> decltype(task()) try {
   return thrown(fault);
 }
 
-ScannerStation::ScannerStation(ScannerBackend& backend, JobQueue& jobs)
-    : backend_(backend), jobs_(jobs) {}
+ScannerStation::ScannerStation(ScannerBackend& backend, JobQueue& jobs,
+                               std::chrono::milliseconds patience)
+    : backend_(backend), jobs_(jobs) {
+  jobs_.lane(name()).when_idle(patience, [this] { backend_.close(); });
+}
 
 void ScannerStation::look_for_it() {
   const auto done = std::make_shared<std::promise<void>>();

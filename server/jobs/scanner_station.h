@@ -27,8 +27,9 @@ struct ScannerStatus {
 // errors.
 class ScannerStation {
  public:
-  // Both outlive it.
-  ScannerStation(ScannerBackend& backend, JobQueue& jobs);
+  // Both outlive it. Devices that no command was given to for `patience` are closed, for other
+  // programs to use.
+  ScannerStation(ScannerBackend& backend, JobQueue& jobs, std::chrono::milliseconds patience);
 
   // Has the scanner looked for, once; status() waits for that.
   void look_for_it();

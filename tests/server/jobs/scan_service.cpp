@@ -20,12 +20,12 @@ class Scans : public testing::Test {
   Scans() { start(); }
 
   // A daemon's life: a new service over the same folder.
-  void start() {
+  void start(std::chrono::milliseconds patience = std::chrono::hours(1)) {
     std::vector<std::unique_ptr<ScannerBackend>> backends;
     backends.push_back(std::make_unique<test::FakeBackend>(world_));
     service_ = std::make_unique<ScanService>(
         ScanMeans{*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
-                  folder_.path(), VITRINE_BIN_DIR "/vitrined"},
+                  folder_.path(), VITRINE_BIN_DIR "/vitrined", patience},
         std::move(backends));
     ASSERT_TRUE(service_->start());
   }
@@ -134,6 +134,19 @@ TEST_F(Scans, commands_by_hand_reach_the_devices_and_a_lost_one_is_a_problem_unt
   ASSERT_TRUE(station().jog(10));
   EXPECT_EQ(station().status().state, ScannerState::kIdle);
   EXPECT_EQ(station().status().problem, "");
+}
+
+TEST_F(Scans, devices_stay_open_for_the_next_command_and_are_closed_when_none_comes) {
+  ASSERT_TRUE(station().jog(10));
+  settle();
+  EXPECT_TRUE(world_.open);
+  service_.reset();
+  start(std::chrono::milliseconds(1));
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(station().jog(10));
+    while (world_.open)
+      std::this_thread::yield();
+  }
 }
 
 TEST_F(Scans, a_scanner_that_is_lost_in_a_job_is_unreachable_until_it_is_back) {
