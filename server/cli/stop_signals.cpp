@@ -6,8 +6,8 @@
 namespace vitrine::cli {
 namespace {
 
-constexpr int kSignals[] = {SIGINT, SIGTERM,
-                            SIGHUP};  // Ctrl-C, a service manager, a closed terminal
+// Ctrl-C, a service manager, a closed terminal.
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t g_arrived = 0;
 
@@ -16,12 +16,18 @@ void note(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-// Without SA_RESTART: a read from the terminal ends, too. What nohup and the like ignore stays so.
+// nohup has it ignored. So do shells with SIGINT of what runs in the background, which may be sent
+// it all the same.
+bool is_left_ignored(int signal) {
+  struct sigaction now {};
+  ::sigaction(signal, nullptr, &now);
+  return signal == SIGHUP && now.sa_handler == SIG_IGN;
+}
+
+// Without SA_RESTART: a read from the terminal ends, too.
 void handle(int signal, void (*handler)(int)) {
-  struct sigaction action {
-  }, before{};
-  ::sigaction(signal, nullptr, &before);
-  if (before.sa_handler == SIG_IGN) return;
+  if (is_left_ignored(signal)) return;
+  struct sigaction action {};
   action.sa_handler = handler;
   ::sigaction(signal, &action, nullptr);
 }

@@ -19,8 +19,8 @@ TEST(StopSignals, AskForRest) {
   }
 }
 
-TEST(StopSignals, WhatIsIgnoredStaysIgnored) {
-  std::signal(SIGHUP, SIG_IGN);  // as under nohup
+TEST(StopSignals, AreNotAskedUnderNohup) {
+  std::signal(SIGHUP, SIG_IGN);
   {
     const StopSignals signals;
     std::raise(SIGHUP);
