@@ -257,6 +257,7 @@ void UsbBoard::Impl::unplug() {
     if (!firmware_) return;
     base_ += firmware_->table(now());
     firmware_.reset();
+    if (base_ != std::exchange(goal_, base_)) events_.on_goal(base_);
     for (auto& [handle, client] : clients_) {
       client.gone = true;
       for (; !client.reading.empty(); client.reading.pop_front()) {

@@ -15,7 +15,8 @@ Expected<void> StripeWatch::add(const StripeCount& stripe, int steps_done) {
   const bool is_lost = !shows_stripe(seen);
   if (!is_lost) is_lost_ = false;
   const auto judged = judge(seen);
-  if (judged) is_odd_ = false;
+  good_ = judged ? good_ + 1 : 0;
+  if (good_ == most_) is_odd_ = false;
   if (judged || last_.size() < most_ || std::exchange(is_lost ? is_lost_ : is_odd_, true) ||
       steps_done <= accepted_)
     return {};

@@ -19,7 +19,8 @@ class StripeWatch {
 
   // Of the next step, the `steps_done`-th. Fails (kBadInput) at the end of an eighth of a turn that
   // judge() refuses, be it not for what is saturated: that is told once, who goes on has accepted
-  // it; what went away and came again is told again.
+  // it. A stripe that is found and lost again is told again; else, what comes again after an eighth
+  // of a turn of which nothing was to be said: an object may hover about the limit.
   Expected<void> add(const StripeCount& stripe, int steps_done);
 
   // How many steps it judges, and refuses.
@@ -29,6 +30,7 @@ class StripeWatch {
   const std::size_t most_;
   const int accepted_;
   std::vector<StripeCount> last_;
+  std::size_t good_ = 0;                   // judgements in a row
   bool is_lost_ = false, is_odd_ = false;  // and has been told
 };
 

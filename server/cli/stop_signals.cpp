@@ -11,9 +11,10 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t g_arrived = 0;
 
+// A terminal that is closed sends SIGHUP by its shell and by itself.
 void note(int signal) {
   g_arrived = 1;
-  std::signal(signal, SIG_DFL);
+  if (signal != SIGHUP) std::signal(signal, SIG_DFL);
 }
 
 // nohup has it ignored. So do shells with SIGINT of what runs in the background, which may be sent

@@ -3,8 +3,8 @@
 
 namespace vitrine::cli {
 
-// SIGINT, SIGTERM and SIGHUP ask a command that moves things to come to rest; a second one ends the
-// process as ever.
+// SIGINT, SIGTERM and SIGHUP ask a command that moves things to come to rest; a second SIGINT or
+// SIGTERM ends the process as ever.
 class StopSignals {
  public:
   StopSignals();  // one at a time

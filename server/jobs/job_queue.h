@@ -102,7 +102,7 @@ class JobQueue {
   Expected<JobRecord> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                           const std::optional<OnceKey>& once, std::uint64_t stops = 0);
 
-  // `reason`, and what to do: its note until it is resumed.
+  // `reason`, and what to do: its note until it is resumed or the daemon ends.
   Expected<JobStatus> pause(const JobId& id, std::string_view reason = {});
   Expected<JobStatus> resume(const JobId& id, std::uint64_t stops = 0);
   Expected<JobStatus> cancel(const JobId& id);

@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCatalogue = "catalogue.sqlite";
-constexpr const char* kNextStep =
-    "give the folder of an installation, or start vitrined with this one once";
+constexpr const char* kNextStep = "give the folder of an installation, or start vitrined with ";
 
 // What may lie in a data folder before its catalogue does: what an interrupted start leaves, the
 // demo's scanner, and what is at the root of a disk.
@@ -42,12 +41,12 @@ Expected<void> check_data_folder(const fs::path& folder) {
   fs::directory_iterator at(folder, error);
   for (; !error && at != fs::directory_iterator(); at.increment(error)) {
     if (may_come_first(at->path().filename().string())) continue;
-    return fail(ErrorCode::kIo,
-                folder.string() + " holds other things and no catalogue; " + kNextStep);
+    return fail(ErrorCode::kIo, folder.string() + " holds other things and no catalogue; " +
+                                    kNextStep + "an empty one once");
   }
   if (!error) return {};
   return fail(ErrorCode::kIo, "cannot open the data folder " + folder.string() + ": " +
-                                  error.message() + "; " + kNextStep);
+                                  error.message() + "; " + kNextStep + "this one once");
 }
 
 Expected<Installation> open_installation(const fs::path& folder) {

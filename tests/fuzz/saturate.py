@@ -35,9 +35,9 @@ def main(seconds, command):
         before, after = fuzz(length, command)
         most = max(most, before)
         if after <= most and length == ROUND:
-            print(f"saturated: {after} edges, none of them new in the last round")
+            print(f"saturated: {after} edges, no more than before the last round")
             return
-        new, most = after - most, max(most, after)
+        new, most = max(0, after - most), max(most, after)
     print(f"{new} of {after} edges are new in the last {length} s")
 
 

@@ -60,12 +60,16 @@ TEST_F(VitrineCommand, a_mistyped_data_folder_becomes_no_installation) {
   const std::string in = write("in.ply", bumpy_ply(500));
   const ProgramResult absent = vitrine({"publish", in, "--data", path("absent")});
   expect_fault(absent, 1);
-  EXPECT_THAT(absent.errors,
-              HasSubstr("absent: No such file or directory; give the folder of an installation"));
+  EXPECT_THAT(
+      absent.errors,
+      HasSubstr("absent: No such file or directory; give the folder of an installation, or start "
+                "vitrined with this one once"));
   const ProgramResult other = vitrine({"publish", in, "--data", folder_.path().string()});
   expect_fault(other, 1);
-  EXPECT_THAT(other.errors,
-              HasSubstr("holds other things and no catalogue; give the folder of an installation"));
+  EXPECT_THAT(
+      other.errors,
+      HasSubstr("holds other things and no catalogue; give the folder of an installation, or "
+                "start vitrined with an empty one once"));
   EXPECT_THAT(files(), testing::ElementsAre("in.ply"));
 }
 

@@ -11,12 +11,21 @@ namespace {
 using cli::StopSignals;
 
 TEST(StopSignals, AskForRest) {
+  std::signal(SIGHUP, SIG_DFL);  // the tests themselves may run under nohup
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const StopSignals signals;
     EXPECT_FALSE(StopSignals::arrived());
     std::raise(signal);
     EXPECT_TRUE(StopSignals::arrived()) << signal;
   }
+}
+
+TEST(StopSignals, AClosedTerminalSendsItTwice) {
+  std::signal(SIGHUP, SIG_DFL);
+  const StopSignals signals;
+  std::raise(SIGHUP);
+  std::raise(SIGHUP);
+  EXPECT_TRUE(StopSignals::arrived());
 }
 
 TEST(StopSignals, AreNotAskedUnderNohup) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "acquisition/session/stripe_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace vitrine::test {
+namespace {
+
+constexpr int kSteps = 80;  // of a turn, of which ten are judged together
+
+class Watched {
+ public:
+  // How often something is told within `steps` of whose rows `doubled` % show two lines.
+  int told(int steps, std::uint64_t doubled) {
+    int told = 0;
+    for (int i = 0; i < steps; ++i) {
+      const StripeCount step{.frames = 1, .rows = 100, .doubled = doubled, .pixels = 1000};
+      if (!watch_.add(step, ++done_)) ++told;
+    }
+    return told;
+  }
+
+ private:
+  StripeWatch watch_{kSteps, 0};
+  int done_ = 0;
+};
+
+TEST(StripeWatch, AnObjectThatHoversAboutTheLimitIsToldOnce) {
+  Watched watched;
+  EXPECT_EQ(watched.told(10, 60), 1);
+  for (int i = 0; i < 20; ++i)  // sums of ten that are now below, now above half
+    EXPECT_EQ(watched.told(2, 0) + watched.told(2, 100), 0);
+}
+
+TEST(StripeWatch, WhatComesAgainLaterIsToldAgain) {
+  Watched watched;
+  EXPECT_EQ(watched.told(10, 60), 1);
+  EXPECT_EQ(watched.told(20, 0), 0);
+  EXPECT_EQ(watched.told(10, 100), 1);
+}
+
+}  // namespace
+}  // namespace vitrine::test
