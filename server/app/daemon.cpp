@@ -74,7 +74,9 @@ class Daemon {
         public_(io_, services_, workers_, public_options()),
         admin_(io_, services_, workers_, admin_options()),
         signals_(io_, SIGTERM, SIGINT),
-        deadline_(io_) {}
+        deadline_(io_) {
+    services_.allowed_origins = settings_.allowed_origins;
+  }
 
   Expected<void> open() {
     if (auto bound = bind(public_, settings_.listen, settings_.port_file, ""); !bound) return bound;
@@ -134,12 +136,28 @@ class Daemon {
     return {};
   }
 
+  // Null where there is no such model, or a draft and no token.
+  std::shared_ptr<const PublishedModel> visible(const ModelId& id, bool authorised) {
+    const auto published = models_.find(id);
+    if (!published || *published || !authorised) return published.value_or(nullptr);
+    return models_.open_draft(id).value_or(nullptr);
+  }
+
   asio::awaitable<void> stream(StreamCall call) {
-    const auto model = models_.find(call.model);
-    if (!model || !*model) co_return;  // it was there when the request was answered
+    const auto model = visible(call.model, call.authorised);
+    if (!model) co_return;  // it was there when the request was answered
     const std::shared_ptr<Connection> connection = call.connection;
     StreamOptions options;
     options.patience = settings_.idle_timeout;
+    options.head = call.head;
+    options.find = [this, authorised = call.authorised](std::string_view text) {
+      const auto id = ModelId::parse(text);
+      return id ? visible(*id, authorised) : nullptr;
+    };
+    options.waits_for_peer = [&connection = *connection,
+                              patience = settings_.idle_timeout](bool waits) {
+      waits ? connection.expires_after(patience) : connection.never_expires();
+    };
     options.on_drain = [connection](std::function<void()> stop) {
       if (connection->draining) stop();
       connection->on_drain = std::move(stop);
@@ -148,7 +166,7 @@ class Daemon {
       metrics_.stream_bytes.fetch_add(bytes, std::memory_order_relaxed);
     };
     metrics_.streams.fetch_add(1, std::memory_order_relaxed);
-    co_await serve_stream(connection->socket, std::move(call.request), *model, std::move(options));
+    co_await serve_stream(connection->socket, std::move(call.request), model, std::move(options));
     metrics_.streams.fetch_sub(1, std::memory_order_relaxed);
     connection->on_drain = nullptr;
   }

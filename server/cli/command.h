@@ -18,7 +18,7 @@ struct Command {
   Outcome (*run)(const Arguments& arguments);
 };
 
-extern const Command kBuild, kInfo, kDecode, kVerify, kMeasure, kPublish, kCalibrate, kScan,
+extern const Command kBuild, kInfo, kDecode, kVerify, kMeasure, kPublish, kFetch, kCalibrate, kScan,
     kReprocess, kMerge, kToken;
 
 // Runs a whole command line (without the program's name). Prints the fault, returns the exit code.

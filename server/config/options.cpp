@@ -74,6 +74,30 @@ Expected<void> scanners(Settings& settings, std::string_view text) {
   return {};
 }
 
+// As browsers write it: scheme, host in lower case, the port where it is not the scheme's.
+bool is_origin(std::string_view text) {
+  const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
+  const std::string_view host = text.substr(scheme);
+  return scheme > 0 && !host.empty() && std::ranges::all_of(host, [](unsigned char c) {
+           return std::islower(c) || std::isdigit(c) ||
+                  std::string_view("-.:[]").find(static_cast<char>(c)) != std::string_view::npos;
+         });
+}
+
+Expected<void> origins(Settings& settings, std::string_view text) {
+  settings.allowed_origins.clear();
+  while (!text.empty()) {
+    const std::string_view one = text.substr(0, text.find(','));
+    if (!is_origin(one)) {
+      return fail(ErrorCode::kBadInput,
+                  fmt::format("'{}' is no origin; give, for example, https://museum.example", one));
+    }
+    settings.allowed_origins.emplace_back(one);
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+  }
+  return {};
+}
+
 Expected<void> data_folder(Settings& settings, std::string_view text) {
   if (text.empty()) return fail(ErrorCode::kBadInput, "it is empty; name the data folder");
   return path<&Settings::data>(settings, text);
@@ -118,6 +142,10 @@ constexpr std::array kOptions{
            number<&S::stop_timeout, 0, 3600>},
     Option{"export-cache", kBytes, "268435456", "Memory for exported files that are kept ready.",
            false, number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>},
+    Option{"allowed-origins", kOrigins, "",
+           "The sites whose pages may open streams besides this one's. Empty: every site's, but "
+           "with a token none's.",
+           false, origins},
     Option{"scanners", kPaths, "",
            "The rig.json files of the scanners that this daemon drives, separated by commas.",
            false, scanners},
@@ -156,6 +184,8 @@ std::string_view type_name(OptionType type) {
       return "BYTES";
     case kPaths:
       return "PATH,...";
+    case kOrigins:
+      return "ORIGIN,...";
   }
   return "";
 }

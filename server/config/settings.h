@@ -30,6 +30,7 @@ struct Settings {
   std::chrono::seconds idle_timeout{};  // for a whole request header, and for each write to advance
   std::chrono::seconds stop_timeout{};  // from SIGTERM to the end
   std::uint64_t export_cache_bytes = 0;
+  std::vector<std::string> allowed_origins;     // "https://museum.example"
   std::vector<std::filesystem::path> scanners;  // their rig.json files
 };
 

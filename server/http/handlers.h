@@ -26,7 +26,9 @@ Response export_model(const Request& request,
                       Services& services);  // ?triangles= | error= | bytes= | level=
 
 // streams.cpp
-Response open_stream(const Request& request, Services& services);  // 101: go on as a WebSocket
+// ?head=; 101: go on as a WebSocket
+Response open_stream(const Request& request, Services& services);
+bool asks_for_head(std::string_view target);  // of a request that open_stream() has let in
 
 // scanners.cpp
 Response list_scanners(const Request& request, Services& services);

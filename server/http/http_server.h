@@ -21,6 +21,8 @@ struct StreamCall {
   beast::http::request<beast::http::string_body> request;
   ModelId model;
   std::string request_id;
+  bool authorised = false;  // the caller has a token
+  bool head = false;        // the model's head comes first
 };
 using StreamHandler = std::function<asio::awaitable<void>(StreamCall call)>;
 

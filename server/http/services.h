@@ -3,6 +3,8 @@
 #pragma once
 
 #include <atomic>
+#include <string>
+#include <vector>
 
 #include "server/auth/authenticator.h"
 #include "server/catalogue/catalogue.h"
@@ -26,6 +28,7 @@ struct Services {
   const Log& log;     // the access log
   const Log& errors;  // what the operator must know
   std::atomic<bool> ready{false};
+  std::vector<std::string> allowed_origins = {};  // whose pages may open streams (origin.h)
 };
 
 }  // namespace vitrine

@@ -7,6 +7,7 @@
 #include "server/http/conditional.h"
 #include "server/http/event_stream.h"
 #include "server/http/framing.h"
+#include "server/http/handlers.h"
 #include "server/http/problem.h"
 #include "server/http/query.h"
 #include "server/http/request_body.h"
@@ -323,7 +324,12 @@ class Session {
   asio::awaitable<void> stream(Parser::value_type request, Exchange& exchange) {
     const std::string target(request.target());
     connection_->never_expires();
-    StreamCall call{connection_, std::move(request), exchange.parameters.id, exchange.id};
+    StreamCall call{.connection = connection_,
+                    .request = std::move(request),
+                    .model = exchange.parameters.id,
+                    .request_id = exchange.id,
+                    .authorised = exchange.caller.has_value(),
+                    .head = asks_for_head(target)};
     buffer_ = beast::flat_buffer();
     co_await server_.options().stream(std::move(call));
     record(exchange, "GET", target, 101, 0);

@@ -105,13 +105,13 @@ HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::st
 }
 
 WebSocketClient::WebSocketClient(std::uint16_t port, const std::string& target,
-                                 const std::string& subprotocol)
+                                 const std::string& subprotocol, const std::string& fields)
     : client_(port) {
   const HttpAnswer answer =
       client_.get(target,
                   "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
                   "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: " +
-                      subprotocol + "\r\n");
+                      subprotocol + "\r\n" + fields);
   if (answer.status != 101 || answer.field("sec-websocket-protocol") != subprotocol) {
     throw std::runtime_error("no upgrade: " + std::to_string(answer.status) + " " + answer.body);
   }

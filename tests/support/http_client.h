@@ -51,7 +51,7 @@ HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::st
                     const std::string& method = "GET");
 
 struct WebSocketFrame {
-  enum Kind { kText = 1, kBinary = 2, kClose = 8, kPing = 9 } kind;
+  enum Kind { kText = 1, kBinary = 2, kClose = 8, kPing = 9, kPong = 10 } kind;
   std::string payload;
 
   int close_code() const {  // of kClose
@@ -63,16 +63,19 @@ struct WebSocketFrame {
 class WebSocketClient {
  public:
   // Throws unless the answer is 101 with the subprotocol.
-  WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocol);
+  WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocol,
+                  const std::string& fields = "");
 
   void send_text(std::string_view text) { send(0x81, text); }
   void send_binary(std::string_view bytes) { send(0x82, bytes); }
   WebSocketFrame receive();
   void send_close() { send(0x88, std::string_view("\x03\xe8", 2)); }
+  // A frame with that first byte (FIN, reserved bits, opcode), masked with zeros.
+  void send(std::uint8_t first, std::string_view payload);
+  void send_raw(std::string_view bytes) { client_.send(bytes); }
+  bool is_closed() { return client_.is_closed(); }
 
  private:
-  void send(std::uint8_t first, std::string_view payload);
-
   HttpClient client_;
 };
 
