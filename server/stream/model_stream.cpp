@@ -78,7 +78,7 @@ bool ModelStream::choose(const Pacer& pacer, Pacer::Time now) {
   const auto chunk = planner().next();
   if (!chunk) return false;
   if (timed_) {
-    const double rate = pacer.rate(now);
+    const double rate = pacer.hope(now);
     const double queue = static_cast<double>(pacer.in_flight()) / rate;
     const Ends ends{queue, queue + static_cast<double>(left_of(*chunk)) / rate};
     if (!is_in_time(ends, now)) return false;

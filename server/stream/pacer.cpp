@@ -30,6 +30,7 @@ Pacer::Duration Pacer::measure_delay(Time now) {
   if (open == marks_.begin()) return Duration{-1};
   const Duration delay = now - std::prev(open)->at;
   marks_.erase(marks_.begin(), open);
+  if (drains_) return Duration{-1};
   if (base_ == Duration::max()) base_since_ = now;
   base_ = std::min(base_, delay);
   if (now - base_since_ > kBaseAge) {
@@ -83,8 +84,14 @@ double Pacer::rate(Time now) const {
   const double seen = arrived / std::max(last->busy - first->busy, kLeastTime).count();
   // As if the next slice arrived just now.
   const double possible = (arrived + next) / std::max(until - first->busy, kLeastTime).count();
-  return std::max(
-      1.0, first == last || next > 0 ? std::min(first == last ? possible : seen, possible) : seen);
+  if (first == last) return std::max(1.0, possible);
+  return std::max(1.0, next > 0 ? std::min(seen, possible) : seen);
+}
+
+double Pacer::hope(Time now) const {
+  constexpr Duration kLeast{0.01};
+  const double seen = static_cast<double>(arrived_) / std::max(busy(now), kLeast).count();
+  return is_measured_ ? rate(now) : std::max(4 * kFirstGuess, seen);
 }
 
 std::uint32_t Pacer::slice_bytes(Time now) const {

@@ -33,6 +33,10 @@ class Pacer {
   // arrives.
   double rate(Time now) const;
 
+  // The same, but before it is measured: what it may turn out to be, by what little has been seen.
+  // A client is not left without anything because its connection is not known yet.
+  double hope(Time now) const;
+
   static constexpr Duration kNudge{0.25};
 
  private:

@@ -56,9 +56,9 @@ std::uint16_t port_in(const std::string& line) {
 
 }  // namespace
 
-ProgramResult run_vitrined(const std::vector<std::string>& arguments) {
+DaemonEnd run_vitrined(const std::vector<std::string>& arguments) {
   const Child child = start(arguments);
-  ProgramResult result;
+  DaemonEnd result;
   while (read_some(child.output, result.output)) {
   }
   ::close(child.output);
@@ -98,7 +98,7 @@ void Daemon::signal(int number) const {
   ::kill(child_, number);
 }
 
-ProgramResult Daemon::wait() {
+DaemonEnd Daemon::wait() {
   while (read_some(pipe_, printed_)) {
   }
   const int exit_code = wait_for(child_);

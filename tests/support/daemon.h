@@ -11,12 +11,12 @@
 
 namespace vitrine::test {
 
-struct ProgramResult {
+struct DaemonEnd {
   int exit_code = -1;
   std::string output;  // standard output and standard error
 };
 // Runs vitrined to its end.
-ProgramResult run_vitrined(const std::vector<std::string>& arguments);
+DaemonEnd run_vitrined(const std::vector<std::string>& arguments);
 
 // A daemon on free ports of 127.0.0.1 that serves `data`. Killed at the end of its scope.
 class Daemon {
@@ -30,7 +30,7 @@ class Daemon {
   std::uint16_t port() const { return port_; }
   std::uint16_t admin_port() const { return admin_port_; }
   void signal(int number) const;
-  ProgramResult wait();  // for its end; all that it printed
+  DaemonEnd wait();  // for its end; all that it printed
   std::string access_log() const;
 
  private:

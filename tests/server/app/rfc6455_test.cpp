@@ -23,7 +23,7 @@ class Rfc6455Test : public ::testing::Test {
   }
   static void TearDownTestSuite() {
     daemon_->signal(SIGTERM);
-    const ProgramResult end = daemon_->wait();
+    const DaemonEnd end = daemon_->wait();
     EXPECT_EQ(end.exit_code, 0);
     EXPECT_EQ(end.output.find("error"), std::string::npos) << end.output;
     delete daemon_;

@@ -40,13 +40,13 @@ bool accepts(std::uint16_t port) {
 
 TEST(Start, SaysItsVersionAndItsOptions) {
   EXPECT_THAT(run_vitrined({"--version"}).output, HasSubstr("vitrined 0."));
-  const ProgramResult help = run_vitrined({"--help"});
+  const DaemonEnd help = run_vitrined({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.output, HasSubstr("--admin-listen HOST:PORT"));
 }
 
 TEST(Start, WrongUsageIsOneLineWithASuggestionAndExitCode2) {
-  const ProgramResult result = run_vitrined({"--lisen", "127.0.0.1:0"});
+  const DaemonEnd result = run_vitrined({"--lisen", "127.0.0.1:0"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(lines(result.output), 1u);
   EXPECT_THAT(result.output, HasSubstr("did you mean '--listen'?"));
@@ -60,7 +60,7 @@ TEST(Start, ChecksAConfigurationWithoutServing) {
   EXPECT_THAT(run_vitrined({"--config", file, "--print-config"}).output,
               HasSubstr("listen = \"127.0.0.1:0\""));
   std::ofstream(file) << "listne = 127.0.0.1:0\n";
-  const ProgramResult result = run_vitrined({"--config", file, "--check-config"});
+  const DaemonEnd result = run_vitrined({"--config", file, "--check-config"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.output, HasSubstr(file + ":1: unknown key 'listne'; did you mean 'listen'?"));
 }
@@ -73,7 +73,7 @@ TEST(Start, ChecksThePathsOfAConfigurationAndCreatesNothing) {
     return run_vitrined({flag, value, "--check-config"});
   };
   for (const std::string flag : {"--data", "--port-file", "--admin-port-file", "--access-log"}) {
-    const ProgramResult result = check(flag, path("file/below"));
+    const DaemonEnd result = check(flag, path("file/below"));
     EXPECT_EQ(result.exit_code, 1) << flag;
     EXPECT_EQ(lines(result.output), 1u);
     EXPECT_THAT(result.output, HasSubstr(flag.substr(2) + ": cannot write " + path("file/below")));
@@ -93,7 +93,7 @@ TEST(Start, ChecksTheFilesOfTheScanners) {
   const auto check = [&](const std::string& files) {
     return run_vitrined({"--scanners", files, "--check-config"});
   };
-  const ProgramResult missing = check(file);
+  const DaemonEnd missing = check(file);
   EXPECT_NE(missing.exit_code, 0);
   EXPECT_THAT(missing.output, HasSubstr(file));
   std::ofstream(file) << R"({"name": "rig", "camera": {"address": "127.0.0.1"},
@@ -103,7 +103,7 @@ TEST(Start, ChecksTheFilesOfTheScanners) {
                "dictionary": "DICT_4X4_100"},
     "steps": 720, "calibrations": "calibrations"})";
   EXPECT_EQ(check(file).exit_code, 0) << check(file).output;
-  const ProgramResult twice = check(file + "," + file);
+  const DaemonEnd twice = check(file + "," + file);
   EXPECT_EQ(twice.exit_code, 2);
   EXPECT_THAT(twice.output, HasSubstr("another scanner is named rig"));
 }
@@ -111,7 +111,7 @@ TEST(Start, ChecksTheFilesOfTheScanners) {
 TEST(Start, RefusesAFolderAsConfigurationAndAnAddressThatIsNoNumber) {
   const TemporaryFolder folder;
   EXPECT_EQ(run_vitrined({"--config", folder.path().string(), "--check-config"}).exit_code, 1);
-  const ProgramResult named = run_vitrined({"--listen", "museum.example:80", "--check-config"});
+  const DaemonEnd named = run_vitrined({"--listen", "museum.example:80", "--check-config"});
   EXPECT_EQ(named.exit_code, 2);
   EXPECT_THAT(named.output, HasSubstr("'museum.example' is not a numeric address"));
   EXPECT_EQ(run_vitrined({"--listen", "[::1]:80", "--check-config"}).exit_code, 0);
@@ -122,8 +122,7 @@ TEST(Start, APortInUseIsOneLineWithTheNextStepAndExitCode1) {
   const ServedFolder folder;
   const Daemon daemon(folder.path());
   const std::string address = "127.0.0.1:" + std::to_string(daemon.port());
-  const ProgramResult result =
-      run_vitrined({"--listen", address, "--data", folder.path().string()});
+  const DaemonEnd result = run_vitrined({"--listen", address, "--data", folder.path().string()});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(lines(result.output), 1u);
   EXPECT_THAT(result.output,
@@ -147,7 +146,7 @@ TEST(Start, AnAdministrationPortInUseIsNamed) {
   const ServedFolder folder;
   const Daemon daemon(folder.path());
   const std::string address = "127.0.0.1:" + std::to_string(daemon.port());
-  const ProgramResult result = run_vitrined(
+  const DaemonEnd result = run_vitrined(
       {"--listen", "127.0.0.1:0", "--admin-listen", address, "--data", folder.path().string()});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.output, HasSubstr("--admin-listen: cannot listen on " + address));
@@ -157,7 +156,7 @@ TEST(Start, ADataFolderThatCannotBeUsedIsOneLineAndExitCode1) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "file").string();
   std::ofstream(file) << "not a folder";
-  const ProgramResult result = run_vitrined({"--listen", "127.0.0.1:0", "--data", file});
+  const DaemonEnd result = run_vitrined({"--listen", "127.0.0.1:0", "--data", file});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(lines(result.output), 1u);
   EXPECT_THAT(result.output, HasSubstr(file));
@@ -181,7 +180,7 @@ TEST(Stop, SigtermEndsIdleConnectionsAndTheDaemonWithACleanLog) {
   EXPECT_EQ(http_get(daemon.port(), "/nothing\"here").status, 404);
   daemon.signal(SIGTERM);
   EXPECT_TRUE(idle.is_closed());
-  const ProgramResult result = daemon.wait();
+  const DaemonEnd result = daemon.wait();
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.output, HasSubstr("message=stopped\n"));
   EXPECT_THAT(result.output, Not(HasSubstr("event=error")));

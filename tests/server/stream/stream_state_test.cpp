@@ -132,6 +132,7 @@ TEST_F(StreamStateTest, SendsNoByteBeyondTheCredit) {
   EXPECT_EQ(sent, kFirstCredit);
   EXPECT_EQ(state.credit(), 0u);
   receive(AckMessage{100});
+  now += Pacer::kNudge;
   EXPECT_EQ(std::get<Slice>(state.next(now)).length, 100u);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(state.next(now)));
 }
@@ -278,6 +279,14 @@ TEST_F(SecondsTest, TheFirstPromiseIsAGuessThatSaysSo) {
   EXPECT_NEAR(promise.seconds, kChunk / Pacer::kFirstGuess, 1e-9);
 }
 
+TEST_F(SecondsTest, WhatIsNotKnownToBeSlowIsTried) {
+  want(WantSeconds{0.5}, 1);
+  pull(1e7);
+  ASSERT_TRUE(done);
+  EXPECT_EQ(promises.front().bytes, kHead) << "16 kB at the first guess: no chunk is promised";
+  EXPECT_EQ(done->bytes, tall.file_bytes);
+}
+
 TEST_F(SecondsTest, AsMuchComesAsTheConnectionBrings) {
   const auto start = now;
   want(WantSeconds{2}, 1);
@@ -320,7 +329,7 @@ TEST_F(SecondsTest, AModelThatIsWholeEarlierIsDoneThen) {
 }
 
 TEST_F(SecondsTest, TimePassesWhileNothingArrives) {
-  want(WantSeconds{1}, 1);
+  want(WantSeconds{2}, 1);
   while (std::holds_alternative<Slice>(state.next(now)) ||
          std::holds_alternative<PromiseMessage>(state.next(now))) {
   }
