@@ -23,13 +23,14 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-HttpClient::HttpClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+HttpClient::HttpClient(std::uint16_t port, const char* to)
+    : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
   const timeval patience{.tv_sec = 20, .tv_usec = 0};
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ::inet_pton(AF_INET, to, &address.sin_addr);
   if (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     throw std::runtime_error("cannot connect");
   }
@@ -105,8 +106,9 @@ HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::st
 }
 
 WebSocketClient::WebSocketClient(std::uint16_t port, const std::string& target,
-                                 const std::string& subprotocol, const std::string& fields)
-    : client_(port) {
+                                 const std::string& subprotocol, const std::string& fields,
+                                 const char* address)
+    : client_(port, address) {
   const HttpAnswer answer =
       client_.get(target,
                   "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"

@@ -21,10 +21,12 @@ struct HttpAnswer {
   }
 };
 
-// One connection to 127.0.0.1. Blocking; every call throws after 20 s without an answer.
+inline constexpr const char* kLoopback = "127.0.0.1";
+
+// One connection. Blocking; every call throws after 20 s without an answer.
 class HttpClient {
  public:
-  explicit HttpClient(std::uint16_t port);
+  explicit HttpClient(std::uint16_t port, const char* address = kLoopback);
   ~HttpClient();
   HttpClient(const HttpClient&) = delete;
   HttpClient& operator=(const HttpClient&) = delete;
@@ -64,7 +66,7 @@ class WebSocketClient {
  public:
   // Throws unless the answer is 101 with the subprotocol.
   WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocol,
-                  const std::string& fields = "");
+                  const std::string& fields = "", const char* address = kLoopback);
 
   void send_text(std::string_view text) { send(0x81, text); }
   void send_binary(std::string_view bytes) { send(0x82, bytes); }

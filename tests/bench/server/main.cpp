@@ -19,6 +19,8 @@ struct Section {
 };
 constexpr Section kSections[] = {
     {"throughput", throughput},
+    {"scale", scale},
+    {"adaptation", adaptation},
 };
 
 int usage(int code) {

@@ -13,4 +13,12 @@ struct Effort {
 // Chunks of 16 KB and manifests answered with 304 over 64 connections that are kept, against nginx.
 void throughput(Report& report, const Effort& effort);
 
+// 10,000 viewers on WebSockets: memory of those who look on, fairness among those who refine, and
+// those who read nothing.
+void scale(Report& report, const Effort& effort);
+
+// Streams over links of 100, 400 and 800 kB/s, a link that becomes slow, and a camera that turns.
+// Needs root, for network namespaces.
+void adaptation(Report& report, const Effort& effort);
+
 }  // namespace vitrine::bench
