@@ -58,7 +58,7 @@ void Pacer::arrived(std::uint64_t bytes, Time now) {
   progress_ = now;
   add_sample();
   is_measured_ = is_measured_ || samples_.back().busy - samples_.front().busy >= kLeastTime ||
-                 arrived_ >= static_cast<std::uint64_t>(2 * kFirstWindow);
+                 arrived_ >= kEnough;
   const Duration delay = measure_delay(now);
   if (delay.count() < 0 || base_ == Duration::max()) return;
   const double fitting = rate(now) * (base_ + kQueue).count();
@@ -89,9 +89,10 @@ double Pacer::rate(Time now) const {
 }
 
 double Pacer::hope(Time now) const {
-  constexpr Duration kLeast{0.01};
-  const double seen = static_cast<double>(arrived_) / std::max(busy(now), kLeast).count();
-  return is_measured_ ? rate(now) : std::max(4 * kFirstGuess, seen);
+  constexpr Duration kSomething{0.05};
+  if (is_measured_) return rate(now);
+  const double seen = static_cast<double>(arrived_) / std::max(busy(now), kSomething).count();
+  return busy(now) < kSomething ? std::max(4 * kFirstGuess, seen) : std::max(kFirstGuess, seen);
 }
 
 std::uint32_t Pacer::slice_bytes(Time now) const {

@@ -44,11 +44,12 @@ class Pacer {
   static constexpr Duration kLeastTime{0.2};  // shorter bursts tell of buffers, not of the link
   static constexpr Duration kSample{0.02};    // samples lie apart by this or more
   static constexpr Duration kSliceTime{0.04};
-  static constexpr Duration kQueue{0.08};       // what may queue beyond the link's own delay
-  static constexpr Duration kShortQueue{0.03};  // less than this: the link may take more
-  static constexpr Duration kBaseAge{10};       // the link's delay is measured anew
+  static constexpr Duration kQueue{0.08};              // what may queue beyond the link's own delay
+  static constexpr Duration kShortQueue{0.03};         // less than this: the link may take more
+  static constexpr Duration kBaseAge{10};              // the link's delay is measured anew
+  static constexpr std::uint64_t kEnough = 64 * 1024;  // arrived: measured, however fast
   static constexpr std::size_t kMostMarks = 64;
-  static constexpr double kFirstWindow = 32 * 1024;
+  static constexpr double kFirstWindow = 16 * 1024;
   static constexpr double kLeastWindow = 4 * 1024;
   static constexpr double kMostWindow = 16 << 20;
 

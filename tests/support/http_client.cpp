@@ -21,10 +21,13 @@ std::string lower(std::string text) {
   return text;
 }
 
+int tcp_socket() {
+  return ::socket(AF_INET, SOCK_STREAM, 0);
+}
+
 }  // namespace
 
-HttpClient::HttpClient(std::uint16_t port, const char* to)
-    : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+HttpClient::HttpClient(std::uint16_t port, const char* to) : socket_(tcp_socket()) {
   const timeval patience{.tv_sec = 20, .tv_usec = 0};
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   sockaddr_in address{};

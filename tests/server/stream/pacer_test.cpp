@@ -116,7 +116,7 @@ TEST(Pacer, HoldsBackWhereNothingIsAcknowledgedButNotForEver) {
   Pacer::Time now{};
   while (pacer.may_send(now))
     pacer.sent(pacer.slice_bytes(now), now);
-  EXPECT_LE(pacer.in_flight(), 34'000u);
+  EXPECT_LE(pacer.in_flight(), 18'000u);
   now += Pacer::kNudge;
   EXPECT_TRUE(pacer.may_send(now));
   pacer.sent(1000, now);

@@ -145,7 +145,7 @@ TEST_F(StreamStateTest, KeepsLittleOnItsWayThatIsNotAcknowledged) {
     if (!std::holds_alternative<Slice>(output)) break;
     sent += std::get<Slice>(output).length;
   }
-  EXPECT_LE(sent, 34'000u);
+  EXPECT_LE(sent, 18'000u);
   EXPECT_EQ(state.wakes(now), now + Pacer::kNudge) << "a client may acknowledge many at a time";
 }
 
