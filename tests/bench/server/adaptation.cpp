@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "../../server/app/served_folder.h"
@@ -51,13 +53,13 @@ class Adaptation {
 
   void seconds(double rate) {
     link_.shape(rate);
-    StreamPeer peer = connect();
+    const auto peer = connect();
     const double start = StreamPeer::now();
-    peer.say(WantMessage{.wish = WantSeconds{kSeconds}});
+    peer->say(WantMessage{.wish = WantSeconds{kSeconds}});
     std::size_t bytes = 0;
     double end = 0;
     while (end == 0) {
-      const auto event = peer.next();
+      const auto event = peer->next();
       bytes += event.bytes;
       if (event.message && std::holds_alternative<DoneMessage>(*event.message)) end = event.at;
     }
@@ -73,13 +75,13 @@ class Adaptation {
   // How late promises after the drop come, and how they are kept.
   void drop(double from, double to) {
     link_.shape(from);
-    StreamPeer peer = connect();
+    const auto peer = connect();
     const double start = StreamPeer::now();
     double dropped = 0, noticed = 0, end = 0;
     std::vector<std::pair<double, double>> promises;  // made at, for
-    peer.say(WantMessage{.wish = WantSeconds{4}});
+    peer->say(WantMessage{.wish = WantSeconds{4}});
     while (end == 0) {
-      const auto event = peer.next();
+      const auto event = peer->next();
       if (dropped == 0 && event.at - start > 1) {
         link_.shape(to);
         dropped = StreamPeer::now();
@@ -104,21 +106,21 @@ class Adaptation {
   // From a new view to its first slice. A wish that is met at once marks where the new one begins.
   void view_change(double rate) {
     link_.shape(rate);
-    StreamPeer peer = connect();
-    const double trip = round_trip(peer);
-    peer.say(WantMessage{.turn = 1, .wish = Want(view_from(1))});
+    const auto peer = connect();
+    const double trip = round_trip(*peer);
+    peer->say(WantMessage{.turn = 1, .wish = Want(view_from(1))});
     const double start = StreamPeer::now();
     while (StreamPeer::now() - start < 1.2) {
-      const auto event = peer.next();
+      const auto event = peer->next();
       if (event.message && std::holds_alternative<DoneMessage>(*event.message))
         return;  // too small
     }
-    peer.say(WantMessage{.turn = 2, .wish = Want(WantBytes{0})});
-    peer.say(WantMessage{.turn = 3, .wish = Want(view_from(-1))});
+    peer->say(WantMessage{.turn = 2, .wish = Want(WantBytes{0})});
+    peer->say(WantMessage{.turn = 3, .wish = Want(view_from(-1))});
     const double asked = StreamPeer::now();
     bool is_new = false;
     for (;;) {
-      const auto event = peer.next();
+      const auto event = peer->next();
       const auto* done = event.message ? std::get_if<DoneMessage>(&*event.message) : nullptr;
       is_new = is_new || (done != nullptr && done->turn == 2);
       if (!is_new || (!event.slice && (done == nullptr || done->turn != 3))) continue;
@@ -136,9 +138,9 @@ class Adaptation {
     return std::string(what) + "_" + std::to_string(static_cast<int>(rate / 1000));
   }
 
-  StreamPeer connect() {
-    StreamPeer peer(daemon_->port(), id_, ShapedLink::kServer);
-    while (!peer.next().message) {
+  std::unique_ptr<StreamPeer> connect() {
+    auto peer = std::make_unique<StreamPeer>(daemon_->port(), id_, ShapedLink::kServer);
+    while (!peer->next().message) {
     }
     return peer;
   }

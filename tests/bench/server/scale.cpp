@@ -11,6 +11,8 @@
 #include <chrono>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "../../server/app/served_folder.h"
 #include "sections.h"

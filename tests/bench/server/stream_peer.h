@@ -24,9 +24,9 @@ class StreamPeer {
   void say(const ClientMessage& message) { client_.send_text(to_json(message)); }
 
   struct Event {
-    std::optional<SliceHeader> slice;
+    std::optional<SliceHeader> slice = {};
     std::size_t bytes = 0;  // of the slice's payload
-    std::optional<ServerMessage> message;
+    std::optional<ServerMessage> message = {};
     double at = 0;  // seconds
   };
   Event next();
