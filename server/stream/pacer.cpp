@@ -80,9 +80,9 @@ double Pacer::rate(Time now) const {
     if (until - sample.busy >= kWindow) first = &sample;
   }
   const auto arrived = static_cast<double>(last->arrived - first->arrived);
-  const double next = marks_.empty() ? 0 : static_cast<double>(marks_.front().end - arrived_);
+  const auto next = static_cast<double>(std::min<std::uint64_t>(in_flight(), kMaxSlice));
   const double seen = arrived / std::max(last->busy - first->busy, kLeastTime).count();
-  // As if the next slice arrived just now.
+  // As if a slice arrived just now.
   const double possible = (arrived + next) / std::max(until - first->busy, kLeastTime).count();
   if (first == last) return std::max(1.0, possible);
   return std::max(1.0, next > 0 ? std::min(seen, possible) : seen);
