@@ -103,7 +103,8 @@ class Adaptation {
     report_.add({"drop_800_to_100", "promise_kept", 0, 0, worst, 1.5});
   }
 
-  // From a new view to its first slice. A wish that is met at once marks where the new one begins.
+  // From a new view to its first slice. The answer to a model that is not there
+  // marks where it begins: what follows was chosen after it.
   void view_change(double rate) {
     link_.shape(rate);
     const auto peer = connect();
@@ -115,15 +116,15 @@ class Adaptation {
       if (event.message && std::holds_alternative<DoneMessage>(*event.message))
         return;  // too small
     }
-    peer->say(WantMessage{.turn = 2, .wish = Want(WantBytes{0})});
-    peer->say(WantMessage{.turn = 3, .wish = Want(view_from(-1))});
+    peer->say(WantMessage{.turn = 2, .wish = Want(view_from(-1))});
+    peer->say(OpenMessage{.model = 1, .id = "none"});
     const double asked = StreamPeer::now();
     bool is_new = false;
     for (;;) {
       const auto event = peer->next();
       const auto* done = event.message ? std::get_if<DoneMessage>(&*event.message) : nullptr;
-      is_new = is_new || (done != nullptr && done->turn == 2);
-      if (!is_new || (!event.slice && (done == nullptr || done->turn != 3))) continue;
+      is_new = is_new || (event.message && std::holds_alternative<ClosedMessage>(*event.message));
+      if (!is_new || (!event.slice && (done == nullptr || done->turn != 2))) continue;
       const double waited = event.at - asked - trip;
       report_.add({name("view_change", rate), "seconds_queued", waited, 0, waited, 0.15});
       return;
