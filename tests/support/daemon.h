@@ -29,6 +29,7 @@ class Daemon {
 
   std::uint16_t port() const { return port_; }
   std::uint16_t admin_port() const { return admin_port_; }
+  pid_t pid() const { return child_; }
   void signal(int number) const;
   ProgramResult wait();  // for its end; all that it printed
   std::string access_log() const;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the benchmark compares, one section a file.
+#pragma once
+
+#include "../codec/report.h"
+
+namespace vitrine::bench {
+
+struct Effort {
+  bool quick = false;  // shorter and fewer runs, for a look
+};
+
+// Chunks of 16 KB and manifests answered with 304 over 64 connections that are kept, against nginx.
+void throughput(Report& report, const Effort& effort);
+
+}  // namespace vitrine::bench
