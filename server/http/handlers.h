@@ -11,6 +11,7 @@ namespace vitrine {
 Response list_models(const Request& request, Services& services);  // ?q= &limit= &cursor= &drafts=
 Response show_model(const Request& request, Services& services);
 Response show_manifest(const Request& request, Services& services);
+std::optional<Response> show_held_manifest(const Request& request, Services& services);
 Response show_head(const Request& request, Services& services);
 Response show_file(const Request& request, Services& services);
 Response publish_model(const Request& request, Services& services);

@@ -84,6 +84,7 @@ class HttpServer {
   const HttpOptions& options() const { return options_; }
   Services& services() { return services_; }
   Workers& workers() { return workers_; }
+  asio::io_context& io() { return io_; }
 
  private:
   asio::awaitable<void> accept();

@@ -100,8 +100,24 @@ Response show_model(const Request& request, Services& services) {
 }
 
 Response show_manifest(const Request& request, Services& services) {
-  return with_model(request, services,
-                    [](const auto& model) { return json_response(manifest_json(*model)); });
+  return with_model(request, services, [](const auto& model) {
+    Response response = json_response(manifest_json(*model));
+    model->keep_manifest({std::get<std::string>(response.body), response.etag});
+    return response;
+  });
+}
+
+std::optional<Response> show_held_manifest(const Request& request, Services& services) {
+  const auto model = services.models.held(request.parameters.id);
+  const auto kept = model ? model->kept_manifest() : nullptr;
+  if (!kept || !request.query.empty()) return std::nullopt;
+  const auto* text = reinterpret_cast<const std::uint8_t*>(kept->text.data());
+  Response response;
+  response.type = "application/json";
+  response.caching = Caching::kRevalidate;
+  response.etag = kept->etag;
+  response.body = SharedBytes{kept, {text, kept->text.size()}};
+  return response;
 }
 
 Response show_head(const Request& request, Services& services) {

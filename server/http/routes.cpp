@@ -14,7 +14,7 @@ constexpr Route kPublic[] = {
     {kGet, "/api/v1/models", list_models, kWorker},
     // A token shows drafts, too; the handlers know.
     {kGet, "/api/v1/models/{id}", show_model, kWorker},
-    {kGet, "/api/v1/models/{id}/manifest", show_manifest, kWorker},
+    {kGet, "/api/v1/models/{id}/manifest", show_manifest, kWorker, Role::kNone, show_held_manifest},
     {kGet, "/api/v1/models/{id}/head", show_head, kWorker},
     {kGet, "/api/v1/models/{id}/file.pmesh", show_file, kWorker},
     {kGet, "/api/v1/models/{id}/chunks/{sha256}", show_model_chunk, kWorker},

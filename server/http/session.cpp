@@ -361,7 +361,8 @@ class Session {
     if (!server_.options().recorded) return;
     const std::chrono::duration<double> seconds = Connection::Clock::now() - exchange.start;
     server_.services().metrics.request(exchange.route_template, status, bytes, seconds.count());
-    server_.services().log.access({.request_id = exchange.id,
+    const Log& log = server_.services().log;
+    const bool waits = log.access({.request_id = exchange.id,
                                    .remote = connection_->remote,
                                    .method = method,
                                    .route = route,
@@ -369,6 +370,8 @@ class Session {
                                    .status = status,
                                    .bytes = bytes,
                                    .seconds = seconds.count()});
+    // Once those are served whose turn it is now.
+    if (waits) asio::post(server_.io(), [&log] { log.flush(); });
   }
 
   // In the operator's log, which nothing switches off.

@@ -49,9 +49,14 @@ void append_time(Line& line) {
   const auto now =
       std::chrono::time_point_cast<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
-  fmt::format_to(std::back_inserter(line), "time={:%Y-%m-%dT%H:%M:%S}.{:03}Z",
-                 fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)),
-                 (now - seconds).count());
+  thread_local std::chrono::sys_seconds made{};
+  thread_local std::string text;  // made once a second
+  if (made != seconds) {
+    made = seconds;
+    text = fmt::format("time={:%Y-%m-%dT%H:%M:%S}",
+                       fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
+  }
+  fmt::format_to(std::back_inserter(line), "{}.{:03}Z", text, (now - seconds).count());
 }
 
 // Of an access or an audit: what both begin with, and what was asked.
@@ -108,25 +113,34 @@ Log Log::to_stderr() {
 }
 
 Log::Log(Log&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), owned_(other.owned_) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      owned_(other.owned_),
+      batch_(std::exchange(other.batch_, std::make_unique<LineBatch>())) {}
 
 Log& Log::operator=(Log&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
   std::swap(owned_, other.owned_);
+  std::swap(batch_, other.batch_);
   return *this;
 }
 
 Log::~Log() {
+  flush();
   if (owned_ && descriptor_ >= 0) ::close(descriptor_);
 }
 
-void Log::access(const AccessRecord& record) const {
-  if (descriptor_ < 0) return;
+bool Log::access(const AccessRecord& record) const {
+  if (descriptor_ < 0) return false;
   Line line = line_of("access", record);
   append_request(line, record);
   fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={:.6f}", record.status,
                  record.bytes, record.seconds);
-  write_line(descriptor_, line);
+  line.push_back('\n');
+  return batch_->add({line.data(), line.size()}, descriptor_);
+}
+
+void Log::flush() const {
+  if (descriptor_ >= 0) batch_->flush(descriptor_);
 }
 
 void Log::audit(const AuditRecord& record) const {

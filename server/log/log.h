@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "codec/core/expected.h"
+#include "server/log/line_batch.h"
 
 namespace vitrine {
 
@@ -37,7 +38,7 @@ struct AuditRecord {
 
 enum class Severity { kInfo, kWarning, kError };
 
-// Thread-safe: a line is one write(2) to a descriptor opened for appending, so that lines of
+// Thread-safe: lines are written whole to a descriptor opened for appending, so that those of
 // several threads and processes do not mix.
 class Log {
  public:
@@ -48,7 +49,10 @@ class Log {
   Log& operator=(Log&& other) noexcept;
   ~Log();
 
-  void access(const AccessRecord& record) const;
+  // The line may wait for others: where this is true, the caller sees to a flush() soon. What waits
+  // when the log is destroyed is written then.
+  [[nodiscard]] bool access(const AccessRecord& record) const;
+  void flush() const;
   void audit(const AuditRecord& record) const;
   void event(Severity severity, std::string_view message) const;
 
@@ -57,6 +61,7 @@ class Log {
 
   int descriptor_;  // -1: none
   bool owned_;
+  std::unique_ptr<LineBatch> batch_ = std::make_unique<LineBatch>();
 };
 
 // `value` as logfmt: bare where it holds only unambiguous printable ASCII, else quoted with \"
