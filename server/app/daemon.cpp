@@ -23,6 +23,7 @@
 #include "server/jobs/open_scanners.h"
 #include "server/store/installation.h"
 #include "server/stream/websocket.h"
+#include "server/transport/live_tls.h"
 
 namespace vitrine {
 namespace {
@@ -41,12 +42,33 @@ Expected<void> check_addresses(const Settings& settings) {
   return usable ? Expected<void>{} : of_admin(usable.error());
 }
 
+std::string url_of(const Endpoint& endpoint, std::uint16_t port, bool encrypted) {
+  if (!endpoint.path.empty()) return "unix:" + endpoint.path;
+  const bool v6 = endpoint.host.find(':') != std::string::npos;
+  return fmt::format("{}://{}{}{}:{}", encrypted ? "https" : "http", v6 ? "[" : "", endpoint.host,
+                     v6 ? "]" : "", port);
+}
+
+// Null where the settings want none.
+Expected<std::shared_ptr<LiveTls>> open_tls(const Settings& settings) {
+  const TlsFiles files{settings.tls_certificate, settings.tls_key};
+  if (files == TlsFiles{}) return nullptr;
+  if (files.certificate.empty() || files.key.empty()) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("{} is set alone; set {}, too",
+                            files.key.empty() ? "tls-certificate" : "tls-key",
+                            files.key.empty() ? "tls-key" : "tls-certificate"));
+  }
+  return LiveTls::open(files);
+}
+
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
  public:
   Daemon(const Settings& settings, Installation installation, Log access_log,
-         std::vector<std::unique_ptr<ScannerBackend>> scanners)
+         std::vector<std::unique_ptr<ScannerBackend>> scanners, std::shared_ptr<LiveTls> tls)
       : settings_(settings),
+        tls_(std::move(tls)),
         installation_(std::move(installation)),
         access_log_(std::move(access_log)),
         models_(*installation_.store, *installation_.catalogue),
@@ -112,7 +134,14 @@ class Daemon {
             .recorded = true,
             .max_connections = connections_,
             .patience = settings_.idle_timeout,
-            .stream = [this](StreamCall call) { return stream(std::move(call)); }};
+            .stream = [this](StreamCall call) { return stream(std::move(call)); },
+            .tls = tls_,
+            .max_connections_per_address = settings_.max_connections_per_address > 0
+                                               ? settings_.max_connections_per_address
+                                               : SIZE_MAX,
+            .proxies = settings_.trusted_proxies,
+            .request_rate = settings_.request_rate,
+            .min_rate = settings_.min_rate};
   }
 
   HttpOptions admin_options() {
@@ -128,9 +157,8 @@ class Daemon {
     const auto port = server.listen(endpoint);
     if (!port) return what.empty() ? Unexpected(port.error()) : of_admin(port.error());
     if (auto written = write_port_file(port_file, *port); !written) return written;
-    const bool v6 = endpoint.host.find(':') != std::string::npos;
-    events_.event(Severity::kInfo, fmt::format("{}listening on http://{}{}{}:{}", what,
-                                               v6 ? "[" : "", endpoint.host, v6 ? "]" : "", *port));
+    events_.event(Severity::kInfo, fmt::format("{}listening on {}", what,
+                                               url_of(endpoint, *port, what.empty() && tls_)));
     return {};
   }
 
@@ -175,6 +203,7 @@ class Daemon {
   }
 
   const Settings settings_;
+  const std::shared_ptr<LiveTls> tls_;  // null: without TLS
   const Installation installation_;
   const Log access_log_;
   const Log events_ = Log::to_stderr();
@@ -220,13 +249,16 @@ int print(const std::string& text) {
 
 int serve(const Settings& settings) {
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
+  auto tls = open_tls(settings);
+  if (!tls) return report(tls.error());
   auto installation = open_installation(settings.data);
   if (!installation) return report({ErrorCode::kIo, installation.error().message});
   auto access_log = Log::open(settings.access_log);
   if (!access_log) return report(access_log.error());
   auto scanners = open_scanners(settings.scanners);
   if (!scanners) return report(scanners.error());
-  Daemon daemon(settings, std::move(*installation), std::move(*access_log), std::move(*scanners));
+  Daemon daemon(settings, std::move(*installation), std::move(*access_log), std::move(*scanners),
+                std::move(*tls));
   if (const auto opened = daemon.open(); !opened) return report(opened.error());
   daemon.run();
   return kExitDone;
@@ -234,6 +266,7 @@ int serve(const Settings& settings) {
 
 int check(const Settings& settings) {
   if (const auto usable = check_paths(settings); !usable) return report(usable.error());
+  if (const auto tls = open_tls(settings); !tls) return report(tls.error());
   if (const auto scanners = open_scanners(settings.scanners); !scanners)  // uses no device yet
     return report(scanners.error());
   return print("the configuration is valid\n");

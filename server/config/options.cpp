@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/config/options.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <sys/un.h>
 
 #include <algorithm>
 #include <array>
@@ -23,14 +23,18 @@ Expected<std::uint64_t> parse_number(std::string_view text, std::uint64_t min, s
   return value;
 }
 
-bool is_numeric_address(std::string_view host) {
-  const std::string address(host.substr(0, host.find('%')));  // without the zone of fe80::1%eth0
-  in6_addr parsed;
-  return ::inet_pton(AF_INET, address.c_str(), &parsed) == 1 ||
-         ::inet_pton(AF_INET6, address.c_str(), &parsed) == 1;
+Expected<Endpoint> parse_unix_socket(std::string_view path) {
+  if (path.empty() || path.size() >= sizeof(sockaddr_un::sun_path)) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is not the path of a socket, 1 to {} bytes; give one", path,
+                            sizeof(sockaddr_un::sun_path) - 1));
+  }
+  return Endpoint{.path = std::string(path)};
 }
 
 Expected<Endpoint> parse_endpoint(std::string_view text) {
+  constexpr std::string_view kUnix = "unix:";
+  if (text.starts_with(kUnix)) return parse_unix_socket(text.substr(kUnix.size()));
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0) {
     return fail(ErrorCode::kBadInput,
@@ -39,14 +43,14 @@ Expected<Endpoint> parse_endpoint(std::string_view text) {
   std::string_view host = text.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
   if (host == "localhost") host = "127.0.0.1";
-  if (!is_numeric_address(host)) {
+  if (!is_address(host.substr(0, host.find('%')))) {  // without the zone of fe80::1%eth0
     return fail(
         ErrorCode::kBadInput,
         fmt::format("'{}' is not a numeric address; give, for example, 127.0.0.1 or [::1]", host));
   }
   const auto port = parse_number(text.substr(colon + 1), 0, 65535);
   if (!port) return Unexpected(port.error());
-  return Endpoint{std::string(host), static_cast<std::uint16_t>(*port)};
+  return Endpoint{.host = std::string(host), .port = static_cast<std::uint16_t>(*port)};
 }
 
 template <auto Member>
@@ -74,6 +78,13 @@ Expected<void> scanners(Settings& settings, std::string_view text) {
   return {};
 }
 
+Expected<void> trusted_proxies(Settings& settings, std::string_view text) {
+  auto networks = Networks::parse(text);
+  if (!networks) return Unexpected(networks.error());
+  settings.trusted_proxies = std::move(*networks);
+  return {};
+}
+
 Expected<void> data_folder(Settings& settings, std::string_view text) {
   if (text.empty()) return fail(ErrorCode::kBadInput, "it is empty; name the data folder");
   return path<&Settings::data>(settings, text);
@@ -93,7 +104,18 @@ using enum OptionType;
 
 constexpr std::array kOptions{
     Option{"listen", kEndpoint, "127.0.0.1:8080",
-           "Where visitors connect. Port 0 takes any free port.", false, endpoint<&S::listen>},
+           "Where visitors connect. Port 0 takes any free port; unix:/PATH is a Unix socket.",
+           false, endpoint<&S::listen>},
+    Option{
+        "tls-certificate", kPath, "",
+        "The certificate chain (PEM) that 'listen' speaks TLS with; empty is without TLS. It and "
+        "the key are read again when they change.",
+        false, path<&S::tls_certificate>},
+    Option{"tls-key", kPath, "", "The certificate's private key (PEM).", false, path<&S::tls_key>},
+    Option{"trusted-proxies", kNetworks, "",
+           "Whose X-Forwarded-For, X-Forwarded-Proto and Forwarded are believed: addresses, "
+           "networks, or unix.",
+           false, trusted_proxies},
     Option{"data", kPath, "./data", "The folder of this installation: objects and catalogue.",
            false, data_folder},
     Option{"port-file", kPath, "", "A file to write the port of 'listen' to once it is bound.",
@@ -110,6 +132,16 @@ constexpr std::array kOptions{
            number<&S::threads, 0, 1024>},
     Option{"max-connections", kCount, "10000", "Connections beyond this number are closed at once.",
            false, number<&S::max_connections, 1, 1'000'000>},
+    Option{"max-connections-per-address", kCount, "5000",
+           "Likewise of one address that is no trusted proxy's. 0 is no limit.", false,
+           number<&S::max_connections_per_address, 0, 1'000'000>},
+    Option{"request-rate", kCount, "1000",
+           "Requests a second that each address and each token may make beyond what is answered "
+           "from memory, ten seconds' worth at once. 0 is no limit.",
+           false, number<&S::request_rate, 0, 1'000'000>},
+    Option{"min-rate", kBytes, "256",
+           "Bytes a second that a reader takes on average, or it is cut. 0 is no limit.", false,
+           number<&S::min_rate, 0, 1'000'000'000>},
     Option{"idle-timeout", kSeconds, "30",
            "How long a connection may take for a request's header, or to accept more bytes.", false,
            number<&S::idle_timeout, 1, 3600>},
@@ -156,6 +188,8 @@ std::string_view type_name(OptionType type) {
       return "BYTES";
     case kPaths:
       return "PATH,...";
+    case kNetworks:
+      return "NETWORK,...";
   }
   return "";
 }

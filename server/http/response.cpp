@@ -38,6 +38,14 @@ std::string_view http_date() {
   return text;
 }
 
+// Pages run our own modules, their worker and WebAssembly, and nothing that somebody has written
+// into a title.
+constexpr std::string_view kPagePolicy =
+    "Content-Security-Policy: default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; "
+    "worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
+    "connect-src 'self' ws: wss:; object-src 'none'; base-uri 'none'; form-action 'self'\r\n"
+    "Referrer-Policy: strict-origin-when-cross-origin\r\n";
+
 std::string_view reason(unsigned status) {
   const auto text = beast::http::obsolete_reason(static_cast<beast::http::status>(status));
   return {text.data(), text.size()};
@@ -66,6 +74,8 @@ std::string response_head(const Response& response, const HeadOptions& options) 
         "Cross-Origin-Resource-Policy: cross-origin\r\n";
   }
   head += "X-Content-Type-Options: nosniff\r\n";
+  if (response.type.starts_with("text/html")) head += kPagePolicy;
+  if (options.encrypted) head += "Strict-Transport-Security: max-age=31536000\r\n";
   for (const auto& [name, value] : response.fields)
     fmt::format_to(out, "{}: {}\r\n", name, value);
   if (!options.keep_alive) {

@@ -35,6 +35,7 @@ struct HeadOptions {
   bool keep_alive = true;
   bool public_read = true;  // pages of any origin may embed it
   unsigned version = 11;    // of the request: HTTP/1.0 keeps a connection only where both say so
+  bool encrypted = false;   // by us: then browsers are to insist on it
 };
 
 // The status line and the fields, up to and including the empty line.

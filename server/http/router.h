@@ -39,6 +39,7 @@ struct Request {
   const nlohmann::json& body;  // an object; empty where the request has none
   // Whose token it is. Where the route asks for a role, there is one, and its role suffices.
   const std::optional<Caller>& caller;
+  bool encrypted = false;  // the visitor came by https
 };
 
 using Handler = Response (*)(const Request& request, Services& services);

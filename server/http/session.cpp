@@ -12,6 +12,7 @@
 #include "server/http/request_body.h"
 #include "server/http/send.h"
 #include "server/http/services.h"
+#include "server/http/visitor.h"
 #include "server/log/request_id.h"
 
 namespace vitrine {
@@ -43,6 +44,7 @@ struct Exchange {
   Response response;
   bool keep_alive = true;
   bool public_read = true;
+  Visitor visitor;
 };
 
 enum class ReadResult { kRequest, kRejected, kClosed };
@@ -144,6 +146,8 @@ class Session {
     exchange.start = Connection::Clock::now();
     if (error) co_return rejected(error, exchange);
     exchange.keep_alive = parser.keep_alive();
+    exchange.visitor = visitor_of({connection_->remote, connection_->socket.is_encrypted()},
+                                  parser.get(), server_.options().proxies);
     if (const auto fault = framing_fault(parser.get()); !fault.empty()) {
       reject(exchange, 400, fault);
       co_return ReadResult::kRejected;
@@ -181,7 +185,7 @@ class Session {
       }
       constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
       const std::uint64_t sent =
-          co_await send_text(*connection_, kContinue, server_.options().patience);
+          co_await send_text(*connection_, kContinue, {server_.options().patience});
       if (sent < kContinue.size()) co_return ReadResult::kClosed;
     }
     connection_->reads_body = true;
@@ -248,14 +252,16 @@ class Session {
     const Route& route = *exchange.route;
     exchange.public_read = is_public_read(route);
     const auto target = split_target(text(message.target()));
-    const Request request{message,     target->path,  target->query,  exchange.parameters,
-                          exchange.id, exchange.body, exchange.caller};
+    const Request request{message,     target->path,  target->query,   exchange.parameters,
+                          exchange.id, exchange.body, exchange.caller, exchange.visitor.encrypted};
     if (route.quick != nullptr) {
       if (auto quick = route.quick(request, server_.services())) {
         exchange.response = apply_conditions(message, std::move(*quick), exchange.id);
         co_return true;
       }
     }
+    if (route.place != Place::kInline && is_beyond_rate(exchange.visitor.address, exchange))
+      co_return true;
     if (needs_authorisation(route, message)) {
       const bool authorised = co_await authorise_caller(message, exchange);
       if (!authorised) co_return true;
@@ -268,15 +274,25 @@ class Session {
     co_return true;
   }
 
+  // Sets the answer to one who asks too often.
+  bool is_beyond_rate(std::string_view who, Exchange& exchange) {
+    const auto wait = server_.rate_limit().take(who);
+    if (wait.count() == 0) return false;
+    exchange.response = problem(429, "too many requests; wait", exchange.id);
+    exchange.response.fields = {{"Retry-After", std::to_string(wait.count())}};
+    return true;
+  }
+
   asio::awaitable<bool> authorise_caller(const Parser::value_type& message, Exchange& exchange) {
     Authorisation found;
-    const Credentials credentials{message, connection_->remote, exchange.id};
+    const Credentials credentials{message, exchange.visitor.address, exchange.id};
     co_await on_worker(Place::kWorker, text(message.target()), [&] {
       found = authorise(*exchange.route, credentials, server_.services());
     });
     exchange.caller = found.caller;
     if (found.refusal) exchange.response = std::move(*found.refusal);
-    co_return !found.refusal;
+    if (found.refusal || !found.caller) co_return !found.refusal;
+    co_return !is_beyond_rate(found.caller->token.to_string(), exchange);
   }
 
   asio::awaitable<void> handle(const Request& request, Exchange& exchange) {
@@ -335,14 +351,15 @@ class Session {
     Response& response = exchange.response;
     if (response.events) exchange.keep_alive = false;  // their end is the connection's
     const bool public_read = exchange.public_read && response.caching != Caching::kPrivate;
-    const HeadOptions options{exchange.id, exchange.keep_alive, public_read, request.version()};
+    const HeadOptions options{exchange.id, exchange.keep_alive, public_read, request.version(),
+                              connection_->socket.is_encrypted()};
     std::string head = response_head(response, options);
     const unsigned status = response.status;
     const bool with_body = request.method() != verb::head;
     Body body = with_body ? std::move(response.body) : Body();
     const std::uint64_t size = body_size(body);
-    std::uint64_t sent = co_await send_response(*connection_, std::move(head), std::move(body),
-                                                server_.options().patience);
+    std::uint64_t sent =
+        co_await send_response(*connection_, std::move(head), std::move(body), pace());
     if (response.events && with_body)
       sent = co_await send_events(*connection_, *response.events, server_.options().patience);
     record(exchange, text(request.method_string()), text(request.target()), status, sent);
@@ -363,7 +380,7 @@ class Session {
     server_.services().metrics.request(exchange.route_template, status, bytes, seconds.count());
     const Log& log = server_.services().log;
     const bool waits = log.access({.request_id = exchange.id,
-                                   .remote = connection_->remote,
+                                   .remote = exchange.visitor.address,
                                    .method = method,
                                    .route = route,
                                    .target = target,
@@ -379,7 +396,7 @@ class Session {
              std::string_view target, unsigned status) {
     const std::string token = exchange.caller ? exchange.caller->token.to_string() : "-";
     server_.services().errors.audit({.request_id = exchange.id,
-                                     .remote = connection_->remote,
+                                     .remote = exchange.visitor.address,
                                      .token = token,
                                      .method = method,
                                      .route = route,
@@ -390,15 +407,17 @@ class Session {
   // Closing while the peer still sends would reset the connection, and the peer might lose our
   // answer: what it sends is read and dropped for a moment.
   asio::awaitable<void> linger() {
-    boost::system::error_code error;
-    connection_->socket.shutdown(Tcp::socket::shutdown_send, error);
     connection_->expires_after(kLinger);
+    co_await connection_->socket.finish();
+    boost::system::error_code error;
     std::array<char, 1024> dropped;
     while (!error) {
       std::tie(error, std::ignore) =
           co_await connection_->socket.async_read_some(asio::buffer(dropped), kNoThrow);
     }
   }
+
+  Pace pace() const { return {server_.options().patience, server_.options().min_rate}; }
 
   void close() {
     boost::system::error_code ignored;
@@ -416,8 +435,11 @@ class Session {
 asio::awaitable<void> run_session(std::shared_ptr<Connection> connection, HttpServer& server) {
   boost::system::error_code ignored;
   connection->socket.set_option(Tcp::no_delay(true), ignored);
-  connection->socket.non_blocking(true, ignored);
-  connection->remote = connection->socket.remote_endpoint(ignored).address().to_string();
+  if (const auto& tls = server.options().tls) {
+    connection->expires_after(server.options().patience);
+    const auto error = co_await connection->socket.encrypt(tls->current());
+    if (error) co_return;
+  }
   Session session(connection, server);
   co_await session.run();
 }

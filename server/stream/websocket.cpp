@@ -18,7 +18,6 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
-using Tcp = asio::ip::tcp;
 using Request = beast::http::request<beast::http::string_body>;
 
 constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
@@ -26,7 +25,7 @@ constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
 // A reader that feeds the state and a writer that pulls from it, both on the socket's strand.
 class StreamSession : public std::enable_shared_from_this<StreamSession> {
  public:
-  StreamSession(Tcp::socket& socket, std::shared_ptr<const PublishedModel> model,
+  StreamSession(ByteStream& socket, std::shared_ptr<const PublishedModel> model,
                 StreamOptions options)
       : websocket_(socket),
         change_(socket.get_executor(), asio::steady_timer::time_point::max()),
@@ -153,7 +152,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     return bytes.has_value();
   }
 
-  websocket::stream<Tcp::socket&, /*deflate=*/false> websocket_;
+  websocket::stream<ByteStream&, /*deflate=*/false> websocket_;
   asio::steady_timer change_;
   std::shared_ptr<const PublishedModel> model_;
   StreamOptions options_;
@@ -165,7 +164,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
 
 }  // namespace
 
-asio::awaitable<void> serve_stream(Tcp::socket& socket, Request request,
+asio::awaitable<void> serve_stream(ByteStream& socket, Request request,
                                    std::shared_ptr<const PublishedModel> model,
                                    StreamOptions options) {
   auto session = std::make_shared<StreamSession>(socket, std::move(model), std::move(options));

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <memory>
 
 #include "server/store/published_model.h"
+#include "server/transport/byte_stream.h"
 
 namespace vitrine {
 
@@ -24,8 +24,7 @@ struct StreamOptions {
 // Runs on the socket's strand. `request` is an upgrade that offers pmesh.v1. Memory per connection:
 // the session's state, and the one chunk that is being sent.
 boost::asio::awaitable<void> serve_stream(
-    boost::asio::ip::tcp::socket& socket,
-    boost::beast::http::request<boost::beast::http::string_body> request,
+    ByteStream& socket, boost::beast::http::request<boost::beast::http::string_body> request,
     std::shared_ptr<const PublishedModel> model, StreamOptions options);
 
 }  // namespace vitrine

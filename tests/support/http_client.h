@@ -2,8 +2,12 @@
 // A client that sends exactly the bytes it is told to, and a WebSocket on top of it.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,11 +25,13 @@ struct HttpAnswer {
   }
 };
 
-// One connection to 127.0.0.1. Blocking; every call throws after 20 s without an answer.
+// One connection to 127.0.0.1 or to a Unix socket. Blocking; every call throws after 20 s without
+// an answer.
 class HttpClient {
  public:
   explicit HttpClient(std::uint16_t port);
-  ~HttpClient();
+  explicit HttpClient(const std::filesystem::path& unix_socket);
+  virtual ~HttpClient();
   HttpClient(const HttpClient&) = delete;
   HttpClient& operator=(const HttpClient&) = delete;
 
@@ -39,7 +45,13 @@ class HttpClient {
 
   std::string read_exactly(std::size_t count);
 
+ protected:
+  int socket() const { return socket_; }
+
  private:
+  virtual ssize_t read_some(char* bytes, std::size_t size);  // as recv(2) and send(2) do
+  virtual ssize_t write_some(const char* bytes, std::size_t size);
+  void connect(const void* address, std::size_t size);
   bool fill();  // false at the end
 
   int socket_;
@@ -63,7 +75,10 @@ struct WebSocketFrame {
 class WebSocketClient {
  public:
   // Throws unless the answer is 101 with the subprotocol.
-  WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocol);
+  WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocol)
+      : WebSocketClient(std::make_unique<HttpClient>(port), target, subprotocol) {}
+  WebSocketClient(std::unique_ptr<HttpClient> client, const std::string& target,
+                  const std::string& subprotocol);
 
   void send_text(std::string_view text) { send(0x81, text); }
   void send_binary(std::string_view bytes) { send(0x82, bytes); }
@@ -73,7 +88,7 @@ class WebSocketClient {
  private:
   void send(std::uint8_t first, std::string_view payload);
 
-  HttpClient client_;
+  std::unique_ptr<HttpClient> client_;
 };
 
 }  // namespace vitrine::test

@@ -70,9 +70,9 @@ Nginx::Nginx(const std::string& server, const std::string& http) {
   ::close(socket);
 }
 
-std::string Nginx::error_log() const {
+std::string Nginx::log(const std::string& name) const {
   std::ostringstream text;
-  text << std::ifstream(folder_.path() / "error.log").rdbuf();
+  text << std::ifstream(folder_.path() / name).rdbuf();
   return text.str();
 }
 

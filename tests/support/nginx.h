@@ -24,7 +24,7 @@ class Nginx {
 
   std::uint16_t port() const { return port_; }
   pid_t pid() const { return child_; }
-  std::string error_log() const;
+  std::string log(const std::string& name) const;  // "error.log", or what the blocks write
 
  private:
   TemporaryFolder folder_;
