@@ -21,12 +21,13 @@ bool is_plain(char c) {
   return c > ' ' && c < 0x7f && c != '"' && c != '=' && c != '\\';
 }
 
-template <class Out>
-void append_value(Out out, std::string_view value) {
-  if (!value.empty() && std::ranges::all_of(value, is_plain)) {
-    fmt::format_to(out, "{}", value);
-    return;
-  }
+void append_text(Line& line, std::string_view text) {
+  line.append(text.data(), text.data() + text.size());
+}
+
+void append_value(Line& line, std::string_view value) {
+  if (!value.empty() && std::ranges::all_of(value, is_plain)) return append_text(line, value);
+  const auto out = std::back_inserter(line);
   fmt::format_to(out, "\"");
   for (const char c : value) {
     if (c == '"' || c == '\\') {
@@ -41,8 +42,10 @@ void append_value(Out out, std::string_view value) {
 }
 
 void append(Line& line, std::string_view key, std::string_view value) {
-  fmt::format_to(std::back_inserter(line), " {}=", key);
-  append_value(std::back_inserter(line), value);
+  append_text(line, " ");
+  append_text(line, key);
+  append_text(line, "=");
+  append_value(line, value);
 }
 
 void append_time(Line& line) {
@@ -133,8 +136,9 @@ bool Log::access(const AccessRecord& record) const {
   if (descriptor_ < 0) return false;
   Line line = line_of("access", record);
   append_request(line, record);
-  fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={:.6f}", record.status,
-                 record.bytes, record.seconds);
+  const auto microseconds = static_cast<std::uint64_t>(record.seconds * 1e6 + 0.5);
+  fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={}.{:06}", record.status,
+                 record.bytes, microseconds / 1'000'000, microseconds % 1'000'000);
   line.push_back('\n');
   return batch_->add({line.data(), line.size()}, descriptor_);
 }
@@ -162,9 +166,9 @@ void Log::event(Severity severity, std::string_view message) const {
 }
 
 std::string logfmt_value(std::string_view value) {
-  std::string text;
-  append_value(std::back_inserter(text), value);
-  return text;
+  Line line;
+  append_value(line, value);
+  return fmt::to_string(line);
 }
 
 }  // namespace vitrine

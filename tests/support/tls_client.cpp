@@ -28,6 +28,10 @@ std::string TlsClient::organisation() const {
   return text;
 }
 
+bool TlsClient::was_told_goodbye() const {
+  return (SSL_get_shutdown(tls_) & SSL_RECEIVED_SHUTDOWN) != 0;
+}
+
 ssize_t TlsClient::read_some(char* bytes, std::size_t size) {
   return SSL_read(tls_, bytes, static_cast<int>(size));
 }

@@ -15,6 +15,7 @@ class TlsClient final : public HttpClient {
   ~TlsClient() override;
 
   std::string organisation() const;  // whose certificate the server has shown
+  bool was_told_goodbye() const;     // by TLS itself: nothing has been cut off
 
  private:
   ssize_t read_some(char* bytes, std::size_t size) override;

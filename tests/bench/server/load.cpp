@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "load.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,25 +12,12 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "codec/files/file_descriptor.h"
+#include "connect.h"
 
 namespace vitrine::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-FileDescriptor connect_to(std::uint16_t port) {
-  FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const int on = 1;
-  ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-    throw std::runtime_error("the server takes no connection");
-  return socket;
-}
 
 std::uint64_t content_length(std::string_view head) {
   constexpr std::string_view kName = "\r\nContent-Length: ";

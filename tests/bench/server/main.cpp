@@ -19,6 +19,7 @@ struct Section {
 };
 constexpr Section kSections[] = {
     {"throughput", throughput},
+    {"half_open", half_open},
 };
 
 int usage(int code) {

@@ -13,4 +13,8 @@ struct Effort {
 // Chunks of 16 KB and manifests answered with 304 over 64 connections that are kept, against nginx.
 void throughput(Report& report, const Effort& effort);
 
+// 10,000 connections (quick: 1,000) that send half a header: what each costs, and when the last one
+// is cut.
+void half_open(Report& report, const Effort& effort);
+
 }  // namespace vitrine::bench

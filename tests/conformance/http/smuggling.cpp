@@ -117,7 +117,7 @@ TEST_F(SmugglingTest, WhatIsAmbiguousIsRefusedAndEndsTheConnection) {
     const std::vector<int> answers = statuses(daemon.port(), attack.bytes + last);
     ASSERT_FALSE(answers.empty()) << attack.name;
     EXPECT_EQ(answers.front() == 400, attack.refused) << attack.name << ": " << answers.front();
-    if (attack.refused) EXPECT_EQ(answers.size(), 1u) << attack.name;
+    EXPECT_TRUE(!attack.refused || answers.size() == 1) << attack.name;
   }
 }
 

@@ -84,8 +84,8 @@ TEST_F(SlowReaderTest, WhoTakesAnAnswerTooSlowlyIsCutOff) {
   HttpClient client(daemon.port());
   client.send("GET /api/v1/models/" + large + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n");
   EXPECT_THROW(
-      for (int i = 0; i < 3000; ++i) {
-        client.read_exactly(10'000);  // each in good time
+      for (int i = 0; i < 300; ++i) {
+        client.read_exactly(100'000);  // each in good time
         pause();
       },
       std::runtime_error);
@@ -171,7 +171,7 @@ TEST_F(AttackTest, GuessingTokensIsSlowedDownWhileTheirOwnersGetOn) {
     const std::string digits = std::to_string(10 + i);
     answer = client.get("/api/v1/jobs",
                         "Authorization: Bearer vtr_" + std::string(41, 'A') + digits + "\r\n");
-    if (i == 0) EXPECT_EQ(answer.status, 401);
+    EXPECT_THAT(answer.status, i < 10 ? 401 : 429);
   }
   EXPECT_EQ(answer.status, 429);
   EXPECT_NE(answer.field("retry-after"), "");

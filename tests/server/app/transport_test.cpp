@@ -29,7 +29,7 @@ class TlsTest : public ::testing::Test {
                                             key.string()};
 };
 
-TEST_F(TlsTest, ServesFilesPagesOfRequestsAndStreams) {
+TEST_F(TlsTest, ServesFilesAndStreamsOverBothVersions) {
   Daemon daemon(folder.path(), options);
   for (const int minor : {2, 3}) {
     TlsClient client(daemon.port(), minor);
@@ -40,9 +40,11 @@ TEST_F(TlsTest, ServesFilesPagesOfRequestsAndStreams) {
     }
     EXPECT_EQ(client.get("/api/v1/models/" + id).status, 200);
   }
-  WebSocketClient stream(std::make_unique<TlsClient>(daemon.port()),
-                         "/api/v1/models/" + id + "/stream", "pmesh.v1");
-  EXPECT_EQ(stream.receive().kind, WebSocketFrame::kText);
+  {
+    WebSocketClient stream(std::make_unique<TlsClient>(daemon.port()),
+                           "/api/v1/models/" + id + "/stream", "pmesh.v1");
+    EXPECT_EQ(stream.receive().kind, WebSocketFrame::kText);
+  }
   daemon.signal(SIGTERM);
   const ProgramResult result = daemon.wait();
   EXPECT_EQ(result.exit_code, 0);
@@ -55,6 +57,7 @@ TEST_F(TlsTest, EndsWithAGoodbyeSoThatNothingSeemsCutOff) {
   TlsClient client(daemon.port());
   EXPECT_EQ(client.get("/nothing", "Connection: close\r\n").status, 404);
   EXPECT_TRUE(client.is_closed());
+  EXPECT_TRUE(client.was_told_goodbye());
 }
 
 TEST_F(TlsTest, TakesNeitherPlainTextNorOldVersions) {
