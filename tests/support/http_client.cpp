@@ -24,7 +24,7 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-HttpClient::HttpClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+HttpClient::HttpClient(std::uint16_t port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
@@ -32,8 +32,7 @@ HttpClient::HttpClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STRE
   connect(&address, sizeof address);
 }
 
-HttpClient::HttpClient(const std::filesystem::path& unix_socket)
-    : socket_(::socket(AF_UNIX, SOCK_STREAM, 0)) {
+HttpClient::HttpClient(const std::filesystem::path& unix_socket) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   unix_socket.string().copy(address.sun_path, sizeof address.sun_path - 1);
@@ -41,9 +40,11 @@ HttpClient::HttpClient(const std::filesystem::path& unix_socket)
 }
 
 void HttpClient::connect(const void* address, std::size_t size) {
+  const auto* peer = static_cast<const sockaddr*>(address);
   const timeval patience{.tv_sec = 20, .tv_usec = 0};
+  socket_ = ::socket(peer->sa_family, SOCK_STREAM, 0);
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  if (::connect(socket_, static_cast<const sockaddr*>(address), static_cast<socklen_t>(size)) != 0)
+  if (::connect(socket_, peer, static_cast<socklen_t>(size)) != 0)
     throw std::runtime_error("cannot connect");
 }
 
