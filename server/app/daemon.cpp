@@ -16,7 +16,10 @@
 #include "server/app/check_paths.h"
 #include "server/app/descriptor_limit.h"
 #include "server/app/port_file.h"
+#include "server/app/service_manager.h"
 #include "server/config/command_line.h"
+#include "server/config/live_settings.h"
+#include "server/config/reload.h"
 #include "server/http/http_server.h"
 #include "server/http/routes.h"
 #include "server/http/services.h"
@@ -41,19 +44,26 @@ Expected<void> check_addresses(const Settings& settings) {
   return usable ? Expected<void>{} : of_admin(usable.error());
 }
 
+// The configuration in force, and how it is read again.
+struct Configuration {
+  CommandLine line;
+  std::function<Expected<CommandLine>()> reread;
+};
+
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
  public:
-  Daemon(const Settings& settings, Installation installation, Log access_log,
+  Daemon(Configuration configuration, Installation installation, Log access_log,
          std::vector<std::unique_ptr<ScannerBackend>> scanners)
-      : settings_(settings),
+      : configuration_(std::move(configuration)),
+        live_(configuration_.line.settings),
         installation_(std::move(installation)),
         access_log_(std::move(access_log)),
         models_(*installation_.store, *installation_.catalogue),
         scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
-                settings.data},
+                live_.get()->data},
                std::move(scanners)),
-        exports_(settings.export_cache_bytes),
+        exports_(live_.get()->export_cache_bytes),
         pages_(web_assets()),
         metrics_(Router(public_routes()).templates()),
         tokens_(*installation_.catalogue),
@@ -63,37 +73,45 @@ class Daemon {
                   scans_,
                   exports_,
                   pages_,
+                  live_,
                   metrics_,
                   access_log_,
                   events_},
-        connections_(connections_within_limit(settings.max_connections)),
-        threads_(settings.threads > 0 ? settings.threads
-                                      : std::max(1u, std::thread::hardware_concurrency())),
+        connections_(connections_within_limit(live_.get()->max_connections)),
+        threads_(live_.get()->threads > 0 ? live_.get()->threads
+                                          : std::max(1u, std::thread::hardware_concurrency())),
         io_(static_cast<int>(threads_)),
         workers_(threads_, kMaxExports),
         public_(io_, services_, workers_, public_options()),
         admin_(io_, services_, workers_, admin_options()),
         signals_(io_, SIGTERM, SIGINT),
-        deadline_(io_) {}
+        reload_signals_(io_, SIGHUP, SIGUSR1),
+        deadline_(io_),
+        watchdog_(io_) {}
 
   Expected<void> open() {
-    if (auto bound = bind(public_, settings_.listen, settings_.port_file, ""); !bound) return bound;
-    if (auto bound = bind(admin_, settings_.admin_listen, settings_.admin_port_file, "admin ");
+    if (auto bound = bind(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
+      return bound;
+    if (auto bound =
+            bind(admin_, live_.get()->admin_listen, live_.get()->admin_port_file, "admin ");
         !bound)
       return bound;
     return scans_.start();
   }
 
   void run() {
-    if (connections_ < settings_.max_connections) {
+    if (connections_ < live_.get()->max_connections) {
       events_.event(
           Severity::kWarning,
           fmt::format("only {} connections fit the limit on open files; raise it", connections_));
     }
     wait_for_signal();
+    wait_for_reload();
     public_.start();
     admin_.start();
     services_.ready = true;
+    tell_service_manager(ServicePhase::kReady);
+    keep_watchdog();
     std::vector<std::thread> threads;
     for (unsigned i = 1; i < threads_; ++i)
       threads.emplace_back([this] { io_.run(); });
@@ -111,7 +129,7 @@ class Daemon {
     return {.routes = public_routes(),
             .recorded = true,
             .max_connections = connections_,
-            .patience = settings_.idle_timeout,
+            .patience = live_.get()->idle_timeout,
             .stream = [this](StreamCall call) { return stream(std::move(call)); }};
   }
 
@@ -119,7 +137,7 @@ class Daemon {
     return {.routes = admin_routes(),
             .recorded = false,
             .max_connections = kAdminConnections,
-            .patience = settings_.idle_timeout,
+            .patience = live_.get()->idle_timeout,
             .stream = {}};
   }
 
@@ -139,7 +157,7 @@ class Daemon {
     if (!model || !*model) co_return;  // it was there when the request was answered
     const std::shared_ptr<Connection> connection = call.connection;
     StreamOptions options;
-    options.patience = settings_.idle_timeout;
+    options.patience = live_.get()->idle_timeout;
     options.on_drain = [connection](std::function<void()> stop) {
       if (connection->draining) stop();
       connection->on_drain = std::move(stop);
@@ -159,13 +177,66 @@ class Daemon {
     });
   }
 
+  void wait_for_reload() {
+    reload_signals_.async_wait([this](const boost::system::error_code& error, int signal) {
+      if (error) return;
+      signal == SIGHUP ? reload() : reopen_log(live_.get()->access_log);
+      wait_for_reload();
+    });
+  }
+
+  // Reads the configuration again. What can fail comes first: a fault leaves all as it was.
+  void reload() {
+    tell_service_manager(ServicePhase::kReloading);
+    if (const auto done = try_reload(); !done) {
+      events_.event(Severity::kError, "the configuration stays as it was: " + done.error().message);
+      reopen_log(live_.get()->access_log);
+    }
+    tell_service_manager(ServicePhase::kReady);
+  }
+
+  Expected<void> try_reload() {
+    const auto fresh = configuration_.reread();
+    if (!fresh) return Unexpected(fresh.error());
+    auto next = vitrine::reload(configuration_.line, *fresh);
+    if (!next) return Unexpected(next.error());
+    if (auto opened = access_log_.reopen(next->line.settings.access_log); !opened) return opened;
+    configuration_.line = std::move(next->line);
+    live_.replace(configuration_.line.settings);
+    exports_.set_capacity(live_.get()->export_cache_bytes);
+    events_.event(Severity::kInfo, "configuration read again; new: " + list_keys(next->changed));
+    if (!next->waiting.empty()) {
+      events_.event(Severity::kWarning, "restart to have the new " + list_keys(next->waiting));
+    }
+    return {};
+  }
+
+  void reopen_log(const std::filesystem::path& file) {
+    const auto opened = access_log_.reopen(file);
+    events_.event(opened ? Severity::kInfo : Severity::kError,
+                  opened ? "access log opened anew" : opened.error().message);
+  }
+
+  // Connections and workers both have to get on, or the service manager starts the daemon anew.
+  void keep_watchdog() {
+    const auto interval = watchdog_interval();
+    if (!interval) return;
+    watchdog_.expires_after(*interval);
+    watchdog_.async_wait([this](const boost::system::error_code& error) {
+      if (error) return;
+      asio::post(workers_.executor(Place::kWorker, ""), [] { tell_alive(); });
+      keep_watchdog();
+    });
+  }
+
   void drain() {
     services_.ready = false;
+    tell_service_manager(ServicePhase::kStopping);
     events_.event(Severity::kInfo, "stopping: finishing what is under way");
     signals_.async_wait([this](const boost::system::error_code& error, int) {
       if (!error) io_.stop();
     });
-    deadline_.expires_after(settings_.stop_timeout);
+    deadline_.expires_after(live_.get()->stop_timeout);
     deadline_.async_wait([this](const boost::system::error_code& error) {
       if (!error) io_.stop();
     });
@@ -174,9 +245,10 @@ class Daemon {
     public_.drain([this] { io_.stop(); });
   }
 
-  const Settings settings_;
+  Configuration configuration_;  // of the thread that handles signals, once they are awaited
+  LiveSettings live_;
   const Installation installation_;
-  const Log access_log_;
+  Log access_log_;
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
   ScanService scans_;
@@ -192,7 +264,9 @@ class Daemon {
   HttpServer public_;
   HttpServer admin_;
   asio::signal_set signals_;
+  asio::signal_set reload_signals_;
   asio::steady_timer deadline_;
+  asio::steady_timer watchdog_;
 };
 
 Expected<std::string> read_file(const std::string& path) {
@@ -218,7 +292,8 @@ int print(const std::string& text) {
                                              std::strerror(errno))});
 }
 
-int serve(const Settings& settings) {
+int serve(Configuration configuration) {
+  const Settings& settings = configuration.line.settings;
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
   auto installation = open_installation(settings.data);
   if (!installation) return report({ErrorCode::kIo, installation.error().message});
@@ -226,7 +301,8 @@ int serve(const Settings& settings) {
   if (!access_log) return report(access_log.error());
   auto scanners = open_scanners(settings.scanners);
   if (!scanners) return report(scanners.error());
-  Daemon daemon(settings, std::move(*installation), std::move(*access_log), std::move(*scanners));
+  Daemon daemon(std::move(configuration), std::move(*installation), std::move(*access_log),
+                std::move(*scanners));
   if (const auto opened = daemon.open(); !opened) return report(opened.error());
   daemon.run();
   return kExitDone;
@@ -244,11 +320,12 @@ int check(const Settings& settings) {
 int run_daemon(std::span<const std::string_view> arguments,
                std::span<const std::string_view> environment) {
   std::signal(SIGPIPE, SIG_IGN);  // sendfile(2) has no MSG_NOSIGNAL
-  const auto line = parse_command_line(arguments, environment, read_file);
+  const auto read = [=] { return parse_command_line(arguments, environment, read_file); };
+  const auto line = read();
   if (!line) return report(line.error());
   switch (line->action) {
     case Action::kServe:
-      return serve(line->settings);
+      return serve({*line, read});
     case Action::kCheckConfig:
       return check(line->settings);
     case Action::kPrintConfig:

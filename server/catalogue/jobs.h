@@ -2,6 +2,7 @@
 // Which jobs and scans there are and how far they have come: what outlives the daemon.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -84,6 +85,9 @@ struct PageOf {
   std::uint32_t limit = 50;      // 1..kMaxPage of catalogue.h
 };
 
+// How many jobs are in each state, in the order of JobState.
+using JobCounts = std::array<std::uint64_t, 6>;
+
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
 // kIo where the database refuses, kState as stated.
 class JobCatalogue {
@@ -104,6 +108,7 @@ class JobCatalogue {
   virtual Expected<std::vector<JobRecord>> jobs(const PageOf& page) = 0;
   virtual Expected<std::vector<ScanEntry>> scans(const PageOf& page) = 0;
   virtual Expected<std::vector<JobRecord>> unfinished_jobs() = 0;  // oldest first
+  virtual Expected<JobCounts> count_jobs() = 0;
 
   // The job that was added with this key, and the request of then.
   struct Earlier {

@@ -156,6 +156,17 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
     });
   }
 
+  Expected<JobCounts> count_jobs() override {
+    return guarded<JobCounts>([&]() -> Expected<JobCounts> {
+      Statement row(database_, "SELECT state, count(*) FROM job GROUP BY state");
+      JobCounts counts{};
+      while (row.step())
+        counts.at(static_cast<std::size_t>(row.integer(0))) =
+            static_cast<std::uint64_t>(row.integer(1));
+      return counts;
+    });
+  }
+
   Expected<std::optional<Earlier>> find_once(const std::string& key) override {
     return guarded<std::optional<Earlier>>([&]() -> Expected<std::optional<Earlier>> {
       Statement row(database_, "SELECT job, request FROM idempotency WHERE key = ?");

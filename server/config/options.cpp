@@ -88,7 +88,25 @@ Expected<void> number(Settings& settings, std::string_view text) {
   return {};
 }
 
+// An origin and, behind a proxy that adds one, a path; what a browser would show.
+Expected<void> public_url(Settings& settings, std::string_view text) {
+  while (text.ends_with('/'))
+    text.remove_suffix(1);
+  const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
+  const auto fits = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-._~:/[]").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && (scheme == 0 || text.size() == scheme || !std::ranges::all_of(text, fits))) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is no URL; give, for example, https://museum.example", text));
+  }
+  settings.public_url = std::string(text);
+  return {};
+}
+
 using S = Settings;
+constexpr bool kReloadable = true;
 using enum OptionType;
 
 constexpr std::array kOptions{
@@ -105,7 +123,7 @@ constexpr std::array kOptions{
            "A file to write the port of 'admin-listen' to once it is bound.", false,
            path<&S::admin_port_file>},
     Option{"access-log", kPath, "-", "One line per request. '-' is standard error; empty is none.",
-           false, path<&S::access_log>},
+           false, path<&S::access_log>, kReloadable},
     Option{"threads", kCount, "0", "Threads that serve connections. 0 is one per core.", false,
            number<&S::threads, 0, 1024>},
     Option{"max-connections", kCount, "10000", "Connections beyond this number are closed at once.",
@@ -115,12 +133,19 @@ constexpr std::array kOptions{
            number<&S::idle_timeout, 1, 3600>},
     Option{"stop-timeout", kSeconds, "20",
            "After SIGTERM, how long transfers may take to finish before they are cut.", false,
-           number<&S::stop_timeout, 0, 3600>},
-    Option{"export-cache", kBytes, "268435456", "Memory for exported files that are kept ready.",
-           false, number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>},
+           number<&S::stop_timeout, 0, 3600>, kReloadable},
+    Option{"export-cache", kBytes, "268435456",
+           "Memory for exported files and posters that are kept ready.", false,
+           number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
+           kReloadable},
     Option{"scanners", kPaths, "",
            "The rig.json files of the scanners that this daemon drives, separated by commas.",
            false, scanners},
+    Option{
+        "public-url", kUrl, "",
+        "What visitors' addresses begin with, where a proxy changes that: https://museum.example. "
+        "Empty: what each request says.",
+        false, public_url, kReloadable},
 };
 
 }  // namespace
@@ -156,6 +181,8 @@ std::string_view type_name(OptionType type) {
       return "BYTES";
     case kPaths:
       return "PATH,...";
+    case kUrl:
+      return "URL";
   }
   return "";
 }

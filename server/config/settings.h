@@ -31,6 +31,7 @@ struct Settings {
   std::chrono::seconds stop_timeout{};  // from SIGTERM to the end
   std::uint64_t export_cache_bytes = 0;
   std::vector<std::filesystem::path> scanners;  // their rig.json files
+  std::string public_url;  // what addresses begin with, no slash at its end; empty: the request's
 };
 
 }  // namespace vitrine

@@ -10,7 +10,7 @@ namespace vitrine {
 // models.cpp
 Response list_models(const Request& request, Services& services);  // ?q= &limit= &cursor= &drafts=
 Response show_model(const Request& request, Services& services);
-Response show_manifest(const Request& request, Services& services);
+Response show_manifest(const Request& request, Services& services);  // ? as of exports, to foresee
 Response show_head(const Request& request, Services& services);
 Response show_file(const Request& request, Services& services);
 Response publish_model(const Request& request, Services& services);
@@ -24,6 +24,20 @@ Response show_model_chunk(const Request& request, Services& services);
 // exports.cpp
 Response export_model(const Request& request,
                       Services& services);  // ?triangles= | error= | bytes= | level=
+
+// posters.cpp
+Response show_poster(const Request& request, Services& services);  // ?width=; PNG
+
+// iiif.cpp
+Response show_iiif_manifest(const Request& request, Services& services);
+Response redirect_to_iiif(const Request& request, Services& services);  // from its short address
+
+// oembed.cpp
+Response show_oembed(const Request& request,
+                     Services& services);  // ?url= maxwidth maxheight format
+
+// openapi.cpp
+Response show_openapi(const Request& request, Services& services);
 
 // streams.cpp
 Response open_stream(const Request& request, Services& services);  // 101: go on as a WebSocket
@@ -62,6 +76,7 @@ Response show_job_events(const Request& request, Services& services);
 // pages.cpp
 Response show_gallery(const Request& request, Services& services);
 Response show_viewer(const Request& request, Services& services);
+Response show_docs(const Request& request, Services& services);
 Response show_scan_page(const Request& request, Services& services);
 Response show_asset(const Request& request, Services& services);
 

@@ -35,7 +35,8 @@ Json model(const ModelRecord& record) {
             {"manifest", self + "/manifest"},
             {"head", self + "/head"},
             {"file", self + "/file.pmesh"},
-            {"stream", self + "/stream"}}}};
+            {"stream", self + "/stream"},
+            {"poster", self + "/poster.png"}}}};
 }
 
 Json vector(const Vec3& v) {
@@ -87,6 +88,17 @@ Json chunks(const Manifest& manifest) {
   return all;
 }
 
+// `seconds` is how long the client's line takes for the bytes; null where it was not told of.
+Json expectation(const Wish& wish, const Manifest& manifest) {
+  const Outlook outlook = outlook_of(wish.want, manifest);
+  const double kilobits = static_cast<double>(outlook.bytes) * 8 / 1000;
+  return {{"level", outlook.level},
+          {"triangles", outlook.triangles},
+          {"bytes", outlook.bytes},
+          {"error", outlook.error},
+          {"seconds", wish.kbps > 0 ? Json(kilobits / wish.kbps) : Json(nullptr)}};
+}
+
 }  // namespace
 
 std::string model_json(const ModelRecord& record) {
@@ -101,9 +113,9 @@ std::string model_page_json(const ModelPage& page) {
   return dump(json);
 }
 
-std::string manifest_json(const PublishedModel& published) {
+std::string manifest_json(const PublishedModel& published, const std::optional<Wish>& wish) {
   const Manifest& manifest = published.manifest();
-  return dump({{"id", published.record().id.to_string()},
+  Json json = {{"id", published.record().id.to_string()},
                {"sha256", to_hex(published.record().file)},
                {"bytes", manifest.file_bytes},
                {"head_bytes", manifest.head_bytes()},
@@ -120,7 +132,9 @@ std::string manifest_json(const PublishedModel& published) {
                 {{"offset", manifest.base_offset},
                  {"length", manifest.base_length},
                  {"sha256", to_hex(manifest.base_sha256)}}},
-               {"chunks", chunks(manifest)}});
+               {"chunks", chunks(manifest)}};
+  if (wish) json["expect"] = expectation(*wish, manifest);
+  return dump(json);
 }
 
 }  // namespace vitrine

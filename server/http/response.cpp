@@ -7,6 +7,7 @@
 #include <ctime>
 #include <iterator>
 
+#include "codec/core/sha256.h"
 #include "server/http/http_header.h"
 
 namespace vitrine {
@@ -44,6 +45,16 @@ std::string_view reason(unsigned status) {
 }
 
 }  // namespace
+
+Response revalidated(std::string_view type, std::string body) {
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(body.data());
+  Response response;
+  response.type = type;
+  response.caching = Caching::kRevalidate;
+  response.etag = '"' + to_hex(sha256({bytes, body.size()})) + '"';
+  response.body = std::move(body);
+  return response;
+}
 
 std::string response_head(const Response& response, const HeadOptions& options) {
   std::string head;

@@ -30,6 +30,9 @@ struct Response {
   std::shared_ptr<EventSource> events;
 };
 
+// 200 with a text that is kept and asked about each time: its ETag is its hash.
+Response revalidated(std::string_view type, std::string body);
+
 struct HeadOptions {
   std::string_view request_id;
   bool keep_alive = true;

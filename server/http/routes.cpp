@@ -20,6 +20,10 @@ constexpr Route kPublic[] = {
     {kGet, "/api/v1/models/{id}/chunks/{sha256}", show_model_chunk, kWorker},
     {kGet, "/api/v1/models/{id}/stream", open_stream, kWorker},
     {kGet, "/api/v1/models/{id}/export.{format}", export_model, kExport},
+    {kGet, "/api/v1/models/{id}/poster.png", show_poster, kExport},
+    {kGet, "/api/v1/iiif/{id}/manifest.json", show_iiif_manifest, kWorker},
+    {kGet, "/api/v1/oembed", show_oembed, kWorker},
+    {kGet, "/api/v1/openapi.json", show_openapi, kInline},
     {kPost, "/api/v1/models/{id}/publish", publish_model, kWorker, Role::kOperator},
     {kPost, "/api/v1/models/{id}/unpublish", unpublish_model, kWorker, Role::kOperator},
     {kGet, "/api/v1/scanners", list_scanners, kDevice, Role::kViewer},
@@ -53,13 +57,15 @@ constexpr Route kPublic[] = {
     {kGet, "/", show_gallery, kInline},
     {kGet, "/models/{id}", show_viewer, kWorker},
     {kGet, "/scans/{id}", show_scan_page, kInline},
+    {kGet, "/docs", show_docs, kInline},
+    {kGet, "/iiif/{id}/manifest.json", redirect_to_iiif, kInline},
     {kGet, "/{rest}", show_asset, kInline},
 };
 
 constexpr Route kAdmin[] = {
     {kGet, "/livez", show_livez, kInline},
     {kGet, "/readyz", show_readyz, kWorker},
-    {kGet, "/metrics", show_metrics, kInline},
+    {kGet, "/metrics", show_metrics, kWorker},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "server/auth/authenticator.h"
 #include "server/catalogue/catalogue.h"
+#include "server/config/live_settings.h"
 #include "server/http/export_cache.h"
 #include "server/http/web_pages.h"
 #include "server/jobs/scan_service.h"
@@ -22,6 +23,7 @@ struct Services {
   ScanService& scans;
   ExportCache& exports;
   const WebPages& pages;
+  const LiveSettings& settings;
   Metrics& metrics;
   const Log& log;     // the access log
   const Log& errors;  // what the operator must know

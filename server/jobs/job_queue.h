@@ -110,6 +110,7 @@ class JobQueue {
   // Nothing where there is no such job.
   Expected<std::optional<JobStatus>> find(const JobId& id);
   Expected<std::vector<JobStatus>> list(const PageOf& page);
+  Expected<JobCounts> count() { return catalogue_.count_jobs(); }
 
   // An unfinished job, to be watched to its end; null where there is none.
   std::shared_ptr<const JobRun> run(const JobId& id) const;

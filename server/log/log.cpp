@@ -88,40 +88,62 @@ void write_line(int descriptor, Line& line) {
   [[maybe_unused]] const auto written = ::write(descriptor, line.data(), line.size());
 }
 
+Unexpected refused(const std::filesystem::path& file, int error) {
+  return fail(ErrorCode::kIo,
+              fmt::format("cannot open the access log {}: {}; choose another with --access-log",
+                          file.string(), std::strerror(error)));
+}
+
+// A descriptor of its own, for standard error, too.
+Expected<int> open_file(const std::filesystem::path& file) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
+  const int descriptor = file == "-"    ? ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)
+                         : file.empty() ? ::open("/dev/null", O_WRONLY | O_CLOEXEC)
+                                        : ::open(file.c_str(), kFlags, 0640);
+  if (descriptor < 0) return refused(file, errno);
+  return descriptor;
+}
+
 }  // namespace
 
 Expected<Log> Log::open(const std::filesystem::path& file) {
-  if (file.empty()) return Log(-1, false);
-  if (file == "-") return to_stderr();
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0640);
-  if (descriptor < 0) {
-    return fail(ErrorCode::kIo,
-                fmt::format("cannot open the access log {}: {}; choose another with "
-                            "--access-log",
-                            file.string(), std::strerror(errno)));
-  }
-  return Log(descriptor, true);
+  const auto descriptor = open_file(file);
+  if (!descriptor) return Unexpected(descriptor.error());
+  Log log(*descriptor);
+  log.silent_ = file.empty();
+  return log;
 }
 
 Log Log::to_stderr() {
-  return Log(STDERR_FILENO, false);
+  return Log(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0));
+}
+
+Expected<void> Log::reopen(const std::filesystem::path& file) {
+  const auto fresh = open_file(file);
+  if (!fresh) return Unexpected(fresh.error());
+  const bool replaced = ::dup3(*fresh, descriptor_, O_CLOEXEC) >= 0;
+  const int error = errno;
+  ::close(*fresh);
+  if (!replaced) return refused(file, error);
+  silent_ = file.empty();
+  return {};
 }
 
 Log::Log(Log&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), owned_(other.owned_) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)), silent_(other.silent_.load()) {}
 
 Log& Log::operator=(Log&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
-  std::swap(owned_, other.owned_);
+  silent_ = other.silent_.exchange(silent_);
   return *this;
 }
 
 Log::~Log() {
-  if (owned_ && descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void Log::access(const AccessRecord& record) const {
-  if (descriptor_ < 0) return;
+  if (silent_.load(std::memory_order_relaxed)) return;
   Line line = line_of("access", record);
   append_request(line, record);
   fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={:.6f}", record.status,
@@ -130,7 +152,7 @@ void Log::access(const AccessRecord& record) const {
 }
 
 void Log::audit(const AuditRecord& record) const {
-  if (descriptor_ < 0) return;
+  if (silent_.load(std::memory_order_relaxed)) return;
   Line line = line_of("audit", record);
   append(line, "token", record.token);
   append_request(line, record);
@@ -139,7 +161,7 @@ void Log::audit(const AuditRecord& record) const {
 }
 
 void Log::event(Severity severity, std::string_view message) const {
-  if (descriptor_ < 0) return;
+  if (silent_.load(std::memory_order_relaxed)) return;
   Line line;
   append_time(line);
   append(line, "event", name(severity));

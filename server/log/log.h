@@ -2,6 +2,7 @@
 // Structured log lines (logfmt: key=value, values quoted where needed), each written whole.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -48,15 +49,21 @@ class Log {
   Log& operator=(Log&& other) noexcept;
   ~Log();
 
+  // Goes on in `file`, opened anew, as after a rotation or under another name; no line is lost or
+  // torn. Fails (kIo) where the file is refused: the log goes on as it was.
+  Expected<void> reopen(const std::filesystem::path& file);
+
   void access(const AccessRecord& record) const;
   void audit(const AuditRecord& record) const;
   void event(Severity severity, std::string_view message) const;
 
  private:
-  explicit Log(int descriptor, bool owned) : descriptor_(descriptor), owned_(owned) {}
+  explicit Log(int descriptor) : descriptor_(descriptor) {}
 
-  int descriptor_;  // -1: none
-  bool owned_;
+  // Its number stays for life, so that nobody has to be told when it is opened anew. Where nothing
+  // is logged, it is one of /dev/null, and -1 after a move.
+  int descriptor_;
+  std::atomic<bool> silent_{false};
 };
 
 // `value` as logfmt: bare where it holds only unambiguous printable ASCII, else quoted with \"

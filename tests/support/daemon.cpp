@@ -94,6 +94,14 @@ std::string Daemon::read_line() {
   return line;
 }
 
+std::string Daemon::wait_for_line(std::string_view text) {
+  std::string line;
+  do {
+    line = read_line();
+  } while (line.find(text) == std::string::npos);
+  return line;
+}
+
 void Daemon::signal(int number) const {
   ::kill(child_, number);
 }

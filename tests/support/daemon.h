@@ -30,7 +30,8 @@ class Daemon {
   std::uint16_t port() const { return port_; }
   std::uint16_t admin_port() const { return admin_port_; }
   void signal(int number) const;
-  ProgramResult wait();  // for its end; all that it printed
+  std::string wait_for_line(std::string_view text);  // the next that it prints with `text` in it
+  ProgramResult wait();                              // for its end; all that it printed
   std::string access_log() const;
 
  private:

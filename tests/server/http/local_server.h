@@ -70,6 +70,7 @@ class LocalServer {
   PublishedModels models_{*installation_.store, *installation_.catalogue};
   ExportCache exports_{0};
   WebPages pages_{kPages};
+  LiveSettings settings_{Settings{}};
   Metrics metrics_;
   Authenticator tokens_{*installation_.catalogue};
   Log events_ = Log::open(folder_.path() / "events.log").value();
@@ -79,6 +80,7 @@ class LocalServer {
                      scans_,
                      exports_,
                      pages_,
+                     settings_,
                      metrics_,
                      log_,
                      events_,
