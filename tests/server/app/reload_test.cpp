@@ -119,7 +119,7 @@ class ServiceManager {
     if (::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
       throw std::runtime_error("cannot bind " + path.string());
     ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
-    ::setenv("WATCHDOG_USEC", "100000", 1);
+    ::setenv("WATCHDOG_USEC", "400000", 1);
   }
   ~ServiceManager() {
     ::close(socket_);
