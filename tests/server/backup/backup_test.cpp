@@ -104,26 +104,26 @@ TEST_F(BackupTest, OrdinaryToolsReadAndCheckIt) {
 }
 
 TEST_F(BackupTest, IsConsistentWhileOthersPublish) {
-  std::atomic<bool> done = false;
+  constexpr int kModels = 16;
   std::atomic<int> published = 0;
-  std::thread visitor([&] {
-    while (!done)
-      publish("Model " + std::to_string(published++));
+  std::thread others([&] {
+    for (int i = 0; i < kModels; ++i, ++published)
+      publish("Model " + std::to_string(i));
   });
-  for (int i = 0; i < 5; ++i) {
-    const int before = published;
-    while (published < before + 3)  // somebody does publish
-      std::this_thread::yield();
+  while (published == 0)  // they are at it
+    std::this_thread::yield();
+  for (bool last = false; !last;) {
+    last = published == kModels;
+    const auto before = static_cast<std::uint64_t>(published);
     const auto saved = back_up(data, tar);
     ASSERT_TRUE(saved) << saved.error().message;
-    EXPECT_GE(saved->models, static_cast<std::uint64_t>(before - 1));
-    const fs::path again = path("again" + std::to_string(i));
-    const auto restored = restore(tar, again);
-    EXPECT_TRUE(restored) << restored.error().message;
+    EXPECT_GE(saved->models, before);
+    const auto restored = restore(tar, path("again"));
+    ASSERT_TRUE(restored) << restored.error().message;
     EXPECT_EQ(restored->models, saved->models);
+    fs::remove_all(path("again"));
   }
-  done = true;
-  visitor.join();
+  others.join();
 }
 
 TEST_F(BackupTest, NothingIsEverOverwritten) {
