@@ -68,7 +68,7 @@ test("answers are of the types and schemas that it tells", async () => {
     assert.deepEqual(faults(schema.$ref.split("/").pop(), JSON.parse(body)), [], path);
     ++compared;
   }
-  assert.ok(compared >= 10, `${compared} answers were compared`);
+  assert.ok(compared >= 9, `${compared} answers were compared`);
 });
 
 test("faults are problems", async () => {
