@@ -112,19 +112,20 @@ Outlook outlook_of(const Want& want, const Manifest& manifest) {
     planner.have(*chunk);
     planned[*chunk] = true;
   }
-  const auto missing = std::ranges::find(planned, false) - planned.begin();
-  const bool whole = static_cast<std::size_t>(missing) == planned.size();
+  const auto missing =
+      static_cast<std::size_t>(std::ranges::find(planned, false) - planned.begin());
+  const bool whole = missing == planned.size();
   const auto finest = static_cast<std::uint32_t>(manifest.levels.size() - 1);
-  const std::uint32_t level =
-      whole ? finest : manifest.chunks[static_cast<std::size_t>(missing)].level - 1;
-  Outlook outlook{.level = level,
-                  .triangles = whole ? manifest.levels.back().faces : planner.faces_held(),
-                  .bytes = planner.bytes_held(),
-                  .error = manifest.levels[level].max_error};
+  Outlook outlook{.level = whole ? finest : manifest.chunks[missing].level - 1,
+                  .triangles = whole ? manifest.levels[finest].faces : planner.faces_held(),
+                  .bytes = planner.bytes_held()};
   if (const auto* w = std::get_if<WantTriangles>(&want)) {  // the last chunk is shown in part
+    while (outlook.level > 0 && manifest.levels[outlook.level].faces > w->triangles)
+      --outlook.level;
     outlook.triangles = std::max<std::uint64_t>(std::min(outlook.triangles, w->triangles),
                                                 manifest.levels.front().faces);
   }
+  outlook.error = manifest.levels[outlook.level].max_error;
   return outlook;
 }
 

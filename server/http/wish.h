@@ -35,10 +35,11 @@ std::string key_of(const Want& want, const Manifest& manifest);
 
 // What comes of a wish, known without decoding anything.
 struct Outlook {
-  std::uint32_t level = 0;      // the finest that is complete
-  std::uint64_t triangles = 0;  // as many as that level, or more
-  std::uint64_t bytes = 0;      // of the .pmesh: header, base mesh and chunks
-  double error = 0;             // a bound: the level's, model units
+  std::uint32_t level = 0;  // the finest that is complete
+  std::uint64_t triangles =
+      0;                    // as many as that level or more; a split off where asked for in part
+  std::uint64_t bytes = 0;  // of the .pmesh: header, base mesh and chunks
+  double error = 0;         // a bound: the level's, model units
 };
 Outlook outlook_of(const Want& want, const Manifest& manifest);
 

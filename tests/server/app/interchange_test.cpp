@@ -44,15 +44,15 @@ std::pair<unsigned, unsigned> png_size(const std::string& file) {
 }
 
 TEST_F(InterchangeTest, APosterIsAPictureOfTheSizeAskedFor) {
-  const HttpAnswer poster = get(api + "/poster.png");
+  const HttpAnswer poster = get(api + "/poster.png?width=240");
   EXPECT_EQ(poster.field("content-type"), "image/png");
   EXPECT_THAT(poster.body, StartsWith("\x89PNG\r\n"));
-  EXPECT_EQ(png_size(poster.body), std::pair(480u, 480u));
-  EXPECT_EQ(png_size(get(api + "/poster.png?width=240").body), std::pair(240u, 240u));
+  EXPECT_EQ(png_size(poster.body), std::pair(240u, 240u));
+  EXPECT_EQ(png_size(get(api + "/poster.png").body), std::pair(480u, 480u));
   EXPECT_EQ(get(api + "/poster.png?width=241").status, 400);
   const std::string held = "If-None-Match: " + poster.field("etag") + "\r\n";
-  EXPECT_EQ(get(api + "/poster.png", held).status, 304);
-  EXPECT_EQ(get(api + "/poster.png", "Range: bytes=1-3\r\n").body, "PNG");
+  EXPECT_EQ(get(api + "/poster.png?width=240", held).status, 304);
+  EXPECT_EQ(get(api + "/poster.png?width=240", "Range: bytes=1-3\r\n").body, "PNG");
 }
 
 TEST_F(InterchangeTest, AnIiifManifestShowsThePosterAndOffersTheModel) {
@@ -65,11 +65,12 @@ TEST_F(InterchangeTest, AnIiifManifestShowsThePosterAndOffersTheModel) {
   EXPECT_EQ(manifest["rights"], "http://creativecommons.org/licenses/by/4.0/");
   const Json& painted = manifest["items"][0]["items"][0]["items"][0];
   EXPECT_EQ(painted["target"], manifest["items"][0]["id"]);
-  const std::string poster = painted["body"]["id"];
-  ASSERT_THAT(poster, StartsWith(origin));
-  const auto size = png_size(get(poster.substr(origin.size())).body);
-  EXPECT_EQ(painted["body"]["width"], size.first);
-  EXPECT_EQ(manifest["items"][0]["height"], size.second);
+  EXPECT_EQ(painted["body"]["id"], origin + api + "/poster.png?width=960");
+  EXPECT_EQ(manifest["items"][0]["height"], painted["body"]["height"]);
+  const std::string thumbnail = manifest["thumbnail"][0]["id"];
+  ASSERT_THAT(thumbnail, StartsWith(origin));
+  const auto size = png_size(get(thumbnail.substr(origin.size())).body);
+  EXPECT_EQ(manifest["thumbnail"][0]["width"], size.first);
   const Json& model = manifest["rendering"][0];
   EXPECT_EQ(model["type"], "Model");
   EXPECT_THAT(get(model["id"].get<std::string>().substr(origin.size())).body, StartsWith("glTF"));
