@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "local_server.h"
 #include "server/http/handlers.h"
@@ -29,7 +30,6 @@ class OpenapiTest : public ::testing::Test {
       nlohmann::json::parse(http_get(server.port(), "/openapi.json").body);
 };
 
-// "GET /api/v1/models" and so on.
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
   return text;
@@ -38,20 +38,20 @@ std::string upper(std::string text) {
 TEST_F(OpenapiTest, EveryRouteIsDocumentedAndNothingElse) {
   std::set<std::string> served, documented;
   const Router router(public_routes());
-  for (const Route& route : public_routes()) {
+  for (std::size_t i = 0; i < router.routes().size(); ++i) {
+    const Route& route = router.routes()[i];
     if (!is_of_the_interface(route)) continue;
     EXPECT_NE(find_doc(route.handler), nullptr)
         << route.path << ": add a line to server/http/route_docs.cpp";
-    const RouteMatch match{static_cast<std::size_t>(&route - public_routes().data()), {}};
-    served.insert(std::string(route.path) + " " + router.allow(match));
+    std::istringstream methods(router.allow({i, {}}));
+    for (std::string method; std::getline(methods >> std::ws, method, ',');) {
+      if (method != "HEAD" && method != "OPTIONS")
+        served.insert(std::string(route.path) + " " + method);
+    }
   }
   for (const auto& [path, methods] : document["paths"].items()) {
-    std::string allow;
-    for (const char* method : {"get", "post", "delete"}) {
-      if (methods.contains(method))
-        allow += method == std::string("get") ? "GET, HEAD, " : upper(method) + ", ";
-    }
-    documented.insert(path + " " + allow + "OPTIONS");
+    for (const auto& [method, operation] : methods.items())
+      documented.insert(path + " " + upper(method));
   }
   EXPECT_EQ(served, documented);
 }
