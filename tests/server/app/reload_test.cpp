@@ -85,16 +85,18 @@ TEST_F(Reload, ARotatedLogIsOpenedAnew) {
     EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
   };
   for (const int signal : {SIGHUP, SIGUSR1}) {
-    const auto rotated = served.path() / ("access.log." + std::to_string(signal));
-    visit("before");
+    const std::string number = std::to_string(signal);
+    const auto rotated = served.path() / ("access.log." + number);
+    visit("before" + number);
     std::filesystem::rename(served.path() / "access.log", rotated);
     daemon->signal(signal);
     daemon->wait_for_line(signal == SIGHUP ? "read again" : "access log opened anew");
-    visit("after");
+    visit("after" + number);
     std::ifstream old(rotated);
     const std::string lines{std::istreambuf_iterator<char>(old), {}};
-    EXPECT_THAT(lines, AllOf(HasSubstr("q=before"), Not(HasSubstr("q=after"))));
-    EXPECT_THAT(daemon->access_log(), AllOf(HasSubstr("q=after"), Not(HasSubstr("q=before"))));
+    EXPECT_THAT(lines, AllOf(HasSubstr("q=before" + number), Not(HasSubstr("q=after" + number))));
+    EXPECT_THAT(daemon->access_log(),
+                AllOf(HasSubstr("q=after" + number), Not(HasSubstr("q=before" + number))));
   }
 }
 
