@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "server/app/check_paths.h"
@@ -18,9 +19,11 @@
 #include "server/app/port_file.h"
 #include "server/config/command_line.h"
 #include "server/http/http_server.h"
+#include "server/http/job_json.h"
 #include "server/http/routes.h"
 #include "server/http/services.h"
 #include "server/jobs/open_scanners.h"
+#include "server/jobs/publish_jobs.h"
 #include "server/store/installation.h"
 #include "server/stream/websocket.h"
 
@@ -28,6 +31,7 @@ namespace vitrine {
 namespace {
 
 constexpr std::size_t kAdminConnections = 64;
+constexpr std::chrono::minutes kCollectEvery{10};
 constexpr std::size_t kMaxExports = 64;  // each holds a decoded mesh while it runs
 
 Unexpected of_admin(const Error& error) {
@@ -50,17 +54,32 @@ class Daemon {
         installation_(std::move(installation)),
         access_log_(std::move(access_log)),
         models_(*installation_.store, *installation_.catalogue),
+        uploads_(settings.data / "uploads", {.bytes = settings.max_upload_bytes,
+                                             .per_token = settings.max_uploads,
+                                             .lifetime = settings.upload_lifetime}),
+        quota_(*installation_.catalogue, uploads_, settings.quota_bytes),
+        webhooks_(settings.webhook_hosts, events_),
+        publishing_(
+            {*installation_.store, *installation_.catalogue, uploads_, quota_, settings.data}),
+        collector_({*installation_.store, *installation_.catalogue, *installation_.jobs, uploads_,
+                    events_, settings.collect_after}),
         scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
-                settings.data},
+                settings.data, "/proc/self/exe", std::chrono::seconds(10),
+                [this](JobRun& run) { return publishing_.work(run); }},
                std::move(scanners)),
         exports_(settings.export_cache_bytes),
         pages_(web_assets()),
         metrics_(Router(public_routes()).templates()),
         tokens_(*installation_.catalogue),
-        services_{*installation_.catalogue,
+        services_{*installation_.store,
+                  *installation_.catalogue,
                   tokens_,
                   models_,
                   scans_,
+                  uploads_,
+                  quota_,
+                  collector_,
+                  webhooks_,
                   exports_,
                   pages_,
                   metrics_,
@@ -81,6 +100,10 @@ class Daemon {
     if (auto bound = bind(admin_, settings_.admin_listen, settings_.admin_port_file, "admin ");
         !bound)
       return bound;
+    scans_.jobs().when_ended([this](const JobStatus& job) {
+      constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+      webhooks_.tell(job.record.webhook, job_json(job).dump(-1, ' ', false, kReplace));
+    });
     return scans_.start();
   }
 
@@ -93,6 +116,7 @@ class Daemon {
     wait_for_signal();
     public_.start();
     admin_.start();
+    collector_.start(kCollectEvery);
     services_.ready = true;
     std::vector<std::thread> threads;
     for (unsigned i = 1; i < threads_; ++i)
@@ -101,6 +125,8 @@ class Daemon {
     for (std::thread& thread : threads)
       thread.join();
     scans_.stop();
+    collector_.stop();
+    webhooks_.stop();
     workers_.stop();
     workers_.join();
     events_.event(Severity::kInfo, "stopped");
@@ -179,6 +205,11 @@ class Daemon {
   const Log access_log_;
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
+  Uploads uploads_;
+  const Quota quota_;
+  Webhooks webhooks_;
+  PublishJobs publishing_;
+  Collector collector_;
   ScanService scans_;
   ExportCache exports_;
   const WebPages pages_;

@@ -16,7 +16,12 @@ namespace vitrine {
 using JobId = ModelId;   // jobs and scans are named
 using ScanId = ModelId;  // as models are
 
-enum class JobKind : std::uint8_t { kScan = 0, kCalibrate = 1, kReprocess = 2 };
+enum class JobKind : std::uint8_t { kScan = 0, kCalibrate = 1, kReprocess = 2, kPublish = 3 };
+
+// Whether it has the scanner for itself; all others share their time.
+constexpr bool needs_scanner(JobKind kind) {
+  return kind == JobKind::kScan || kind == JobKind::kCalibrate;
+}
 
 enum class JobState : std::uint8_t {
   kQueued = 0,
@@ -35,7 +40,7 @@ struct JobRecord {
   JobId id;
   JobKind kind = JobKind::kScan;
   JobState state = JobState::kQueued;
-  std::string scanner;  // its name
+  std::string scanner;  // its name; empty where none has to do with it
   std::optional<ScanId> scan;
   std::optional<ModelId> model;         // what came of it
   std::string stage;                    // what it is at, in a word; empty before it starts
@@ -43,6 +48,7 @@ struct JobRecord {
   std::string error;                    // one line; empty unless it failed
   std::string parameters;               // JSON, for who runs it
   std::int64_t created = 0, ended = 0;  // milliseconds since 1970, UTC; 0: not yet
+  std::string webhook = {};             // a URL that is told of its end; empty: none
 
   bool operator==(const JobRecord&) const = default;
 };

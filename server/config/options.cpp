@@ -63,15 +63,25 @@ Expected<void> path(Settings& settings, std::string_view text) {
   return {};
 }
 
-Expected<void> scanners(Settings& settings, std::string_view text) {
-  settings.scanners.clear();
+// Replaces `list` by the parts of "A,B,…". `missing`: what to say of an empty one.
+template <class List>
+Expected<void> parse_list(List& list, std::string_view text, const char* missing) {
+  list.clear();
   while (!text.empty()) {
     const std::string_view one = text.substr(0, text.find(','));
-    if (one.empty()) return fail(ErrorCode::kBadInput, "a path in it is empty; name the rig.json");
-    settings.scanners.emplace_back(one);
+    if (one.empty()) return fail(ErrorCode::kBadInput, missing);
+    list.emplace_back(one);
     text.remove_prefix(std::min(text.size(), one.size() + 1));
   }
   return {};
+}
+
+Expected<void> scanners(Settings& settings, std::string_view text) {
+  return parse_list(settings.scanners, text, "a path in it is empty; name the rig.json");
+}
+
+Expected<void> webhook_hosts(Settings& settings, std::string_view text) {
+  return parse_list(settings.webhook_hosts, text, "a host in it is empty; name the server");
 }
 
 Expected<void> data_folder(Settings& settings, std::string_view text) {
@@ -118,6 +128,22 @@ constexpr std::array kOptions{
            number<&S::stop_timeout, 0, 3600>},
     Option{"export-cache", kBytes, "268435456", "Memory for exported files that are kept ready.",
            false, number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>},
+    Option{"max-upload", kBytes, "8589934592", "Bytes that an uploaded file may have.", false,
+           number<&S::max_upload_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
+    Option{"max-uploads", kCount, "16", "Uploads that one token may have open at a time.", false,
+           number<&S::max_uploads, 1, 100'000>},
+    Option{"upload-lifetime", kSeconds, "86400",
+           "How long an upload is kept after its last piece, unless a job uses it.", false,
+           number<&S::upload_lifetime, 1, 31'536'000>},
+    Option{"collect-after", kSeconds, "3600",
+           "How long a stored file is kept that no model names any more.", false,
+           number<&S::collect_after, 0, 31'536'000>},
+    Option{"quota", kBytes, "0", "Bytes that models and uploads together may take. 0: no limit.",
+           false, number<&S::quota_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
+    Option{
+        "webhook-hosts", kNames, "",
+        "The servers that may be told of the ends of jobs: HOST or HOST:PORT, separated by commas.",
+        false, webhook_hosts},
     Option{"scanners", kPaths, "",
            "The rig.json files of the scanners that this daemon drives, separated by commas.",
            false, scanners},
@@ -156,6 +182,8 @@ std::string_view type_name(OptionType type) {
       return "BYTES";
     case kPaths:
       return "PATH,...";
+    case kNames:
+      return "NAME,...";
   }
   return "";
 }

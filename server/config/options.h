@@ -12,7 +12,7 @@
 
 namespace vitrine {
 
-enum class OptionType { kEndpoint, kPath, kCount, kSeconds, kBytes, kPaths };
+enum class OptionType { kEndpoint, kPath, kCount, kSeconds, kBytes, kPaths, kNames };
 
 struct Option {
   std::string_view key;  // flag --key, environment VITRINE_KEY with underscores, file "key = value"

@@ -30,6 +30,12 @@ struct Settings {
   std::chrono::seconds idle_timeout{};  // for a whole request header, and for each write to advance
   std::chrono::seconds stop_timeout{};  // from SIGTERM to the end
   std::uint64_t export_cache_bytes = 0;
+  std::uint64_t max_upload_bytes = 0;
+  std::uint32_t max_uploads = 0;                // open at a time, of one token
+  std::chrono::seconds upload_lifetime{};       // since its last piece
+  std::chrono::seconds collect_after{};         // that an object stays which nothing names
+  std::uint64_t quota_bytes = 0;                // of models and uploads; 0: none
+  std::vector<std::string> webhook_hosts;       // host or host:port
   std::vector<std::filesystem::path> scanners;  // their rig.json files
 };
 

@@ -16,6 +16,11 @@ Response show_file(const Request& request, Services& services);
 Response publish_model(const Request& request, Services& services);
 Response unpublish_model(const Request& request, Services& services);  // a draft again
 
+// model_orders.cpp
+Response make_model(const Request& request, Services& services);    // of an upload; 202: a job
+Response change_model(const Request& request, Services& services);  // texts, unit, what is public
+Response remove_model(const Request& request, Services& services);
+
 // chunks.cpp
 Response show_chunk(const Request& request, Services& services);
 std::optional<Response> show_held_chunk(const Request& request, Services& services);
@@ -58,6 +63,18 @@ Response show_job(const Request& request, Services& services);
 Response cancel_job(const Request& request, Services& services);
 Response resume_job(const Request& request, Services& services);
 Response show_job_events(const Request& request, Services& services);
+
+// uploads.cpp: tus 1.0
+Response show_upload_options(const Request& request, Services& services);
+Response create_upload(const Request& request, Services& services);
+Response show_upload(const Request& request, Services& services);
+Response append_to_upload(const Request& request, Services& services);
+Response remove_upload(const Request& request, Services& services);
+
+// tokens.cpp
+Response list_tokens(const Request& request, Services& services);
+Response add_token(const Request& request, Services& services);  // {"role": r, "label": l}
+Response revoke_token(const Request& request, Services& services);
 
 // pages.cpp
 Response show_gallery(const Request& request, Services& services);

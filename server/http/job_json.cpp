@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kKinds[] = {"scan", "calibrate", "reprocess"};
+constexpr std::string_view kKinds[] = {"scan", "calibrate", "reprocess", "publish"};
 constexpr std::string_view kStates[] = {"queued", "running", "paused",
                                         "done",   "failed",  "cancelled"};
 constexpr std::string_view kScannerStates[] = {"idle", "busy", "unreachable"};
@@ -67,7 +67,7 @@ Json job_json(const JobStatus& job) {
           {"eta", number_or_null(job.eta)},
           {"error", text_or_null(record.error)},
           {"note", text_or_null(job.note)},
-          {"scanner", record.scanner},
+          {"scanner", text_or_null(record.scanner)},
           {"scan", id_or_null(record.scan)},
           {"model", id_or_null(record.model)},
           {"created", timestamp(record.created)},

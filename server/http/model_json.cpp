@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/http/timestamp.h"
+#include "server/store/change.h"
 
 namespace vitrine {
 namespace {
@@ -17,25 +18,31 @@ std::string dump(const Json& json) {
 
 Json model(const ModelRecord& record) {
   const std::string self = "/api/v1/models/" + record.id.to_string();
-  return {{"id", record.id.to_string()},
-          {"state", record.state == ModelState::kPublished ? "published" : "draft"},
-          {"title", record.title},
-          {"creator", record.creator},
-          {"rights", record.rights},
-          {"licence", record.licence},
-          {"unit", record.unit},
-          {"created", timestamp(record.created)},
-          {"vertices", record.vertices},
-          {"faces", record.faces},
-          {"bytes", record.file_bytes},
-          {"head_bytes", record.head_bytes},
-          {"links",
-           {{"self", self},
-            {"page", "/models/" + record.id.to_string()},
-            {"manifest", self + "/manifest"},
-            {"head", self + "/head"},
-            {"file", self + "/file.pmesh"},
-            {"stream", self + "/stream"}}}};
+  Json json = {{"id", record.id.to_string()},
+               {"state", record.state == ModelState::kPublished ? "published" : "draft"},
+               {"title", record.title},
+               {"creator", record.creator},
+               {"rights", record.rights},
+               {"licence", record.licence},
+               {"unit", record.unit},
+               {"accuracy", record.accuracy ? Json(*record.accuracy) : Json(nullptr)},
+               {"public_max_level",
+                record.public_part ? Json(record.public_part->max_level) : Json(nullptr)},
+               {"created", timestamp(record.created)},
+               {"vertices", record.vertices},
+               {"faces", record.faces},
+               {"bytes", record.file_bytes},
+               {"head_bytes", record.head_bytes},
+               {"links",
+                {{"self", self},
+                 {"page", "/models/" + record.id.to_string()},
+                 {"manifest", self + "/manifest"},
+                 {"head", self + "/head"},
+                 {"file", self + "/file.pmesh"},
+                 {"stream", self + "/stream"}}}};
+  for (const auto& [name, text] : record.more)
+    json[name] = text;
+  return json;
 }
 
 Json vector(const Vec3& v) {
@@ -89,14 +96,19 @@ Json chunks(const Manifest& manifest) {
 
 }  // namespace
 
+std::string entity_tag(std::string_view body) {
+  return '"' + to_hex(sha256({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()})) +
+         '"';
+}
+
 std::string model_json(const ModelRecord& record) {
   return dump(model(record));
 }
 
-std::string model_page_json(const ModelPage& page) {
+std::string model_page_json(const ModelPage& page, bool whole) {
   Json json = {{"models", Json::array()}, {"next", nullptr}};
   for (const ModelRecord& record : page.models)
-    json["models"].push_back(model(record));
+    json["models"].push_back(model(whole ? record : public_view(record)));
   if (page.next) json["next"] = page.next->to_string();
   return dump(json);
 }

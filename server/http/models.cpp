@@ -18,8 +18,7 @@ Response json_response(std::string body) {
   Response response;
   response.type = "application/json";
   response.caching = Caching::kRevalidate;
-  response.etag =
-      '"' + to_hex(sha256({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()})) + '"';
+  response.etag = entity_tag(body);
   response.body = std::move(body);
   return response;
 }
@@ -89,7 +88,7 @@ Response list_models(const Request& request, Services& services) {
   if (wanted.drafts && !request.caller) return token_needed(request);
   const auto page = services.catalogue.search(wanted);
   if (!page) return internal_error(page.error(), request, services);
-  Response response = json_response(model_page_json(*page));
+  Response response = json_response(model_page_json(*page, request.caller.has_value()));
   if (wanted.drafts) response.caching = Caching::kPrivate;
   return response;
 }

@@ -12,6 +12,8 @@
 
 namespace vitrine {
 
+class BodySink;
+
 enum class Caching {
   kNever,       // no-store
   kPrivate,     // private, no-store: for this caller alone, and for no page of another origin
@@ -28,6 +30,8 @@ struct Response {
   Body body;
   // Server-sent events instead of a body, until they end; then the connection does. For 200.
   std::shared_ptr<EventSource> events;
+  // Takes the request's body, which nobody has read; its answer takes the place of this one.
+  std::shared_ptr<BodySink> sink;
 };
 
 struct HeadOptions {

@@ -8,18 +8,27 @@
 #include "server/catalogue/catalogue.h"
 #include "server/http/export_cache.h"
 #include "server/http/web_pages.h"
+#include "server/jobs/collector.h"
 #include "server/jobs/scan_service.h"
+#include "server/jobs/webhooks.h"
 #include "server/log/log.h"
 #include "server/metrics/metrics.h"
 #include "server/store/published_model.h"
+#include "server/store/quota.h"
+#include "server/store/uploads.h"
 
 namespace vitrine {
 
 struct Services {
+  ObjectStore& store;
   Catalogue& catalogue;
   Authenticator& tokens;
   PublishedModels& models;
   ScanService& scans;
+  Uploads& uploads;
+  const Quota& quota;
+  Collector& collector;
+  const Webhooks& webhooks;
   ExportCache& exports;
   const WebPages& pages;
   Metrics& metrics;

@@ -4,6 +4,7 @@
 #include <boost/beast/core/error.hpp>
 
 #include "server/http/authorise.h"
+#include "server/http/body_sink.h"
 #include "server/http/conditional.h"
 #include "server/http/event_stream.h"
 #include "server/http/framing.h"
@@ -20,10 +21,12 @@ namespace {
 using beast::http::field;
 using beast::http::verb;
 using Parser = beast::http::request_parser<beast::http::string_body>;
+using PieceParser = beast::http::request_parser<beast::http::buffer_body>;
 
 constexpr std::uint32_t kMaxHeader = 16 * 1024;
 constexpr std::size_t kMaxTarget = 8 * 1024;
 constexpr std::size_t kMaxBuffer = 64 * 1024;  // the extensions of a chunked body have no limit
+constexpr std::size_t kPiece = 64 * 1024;      // of a body that goes to a sink
 constexpr std::size_t kIdleBuffer = 4 * 1024;  // what a connection that waits may keep
 constexpr std::chrono::seconds kLinger{2};
 
@@ -42,6 +45,7 @@ struct Exchange {
   nlohmann::json body = nlohmann::json::object();
   Response response;
   bool keep_alive = true;
+  bool has_poured = false;  // the whole body, into a sink
   bool public_read = true;
 };
 
@@ -60,8 +64,12 @@ std::optional<Method> method_of(verb method) {
       return Method::kGet;
     case verb::post:
       return Method::kPost;
+    case verb::patch:
+      return Method::kPatch;
     case verb::delete_:
       return Method::kDelete;
+    case verb::options:
+      return Method::kOptions;
     default:
       return std::nullopt;
   }
@@ -94,6 +102,14 @@ Response busy(std::string_view id) {
   return response;
 }
 
+bool changes(Method method) {
+  return method != Method::kGet && method != Method::kOptions;
+}
+
+bool takes_json(const Route& route) {
+  return route.reads_body && (route.method == Method::kPost || route.method == Method::kPatch);
+}
+
 class Session {
  public:
   Session(std::shared_ptr<Connection> connection, HttpServer& server)
@@ -124,7 +140,7 @@ class Session {
       }
     }
     // A body that nobody has read: where the next request would start is unknown.
-    if (!parser.is_done()) exchange.keep_alive = false;
+    if (!parser.is_done() && !exchange.has_poured) exchange.keep_alive = false;
     if (exchange.response.status == 101 && parser.is_done()) {
       co_await stream(parser.release(), exchange);
       co_return false;
@@ -174,16 +190,8 @@ class Session {
       co_return ReadResult::kRejected;
     }
     parser.body_limit(kMaxRequestBody);  // of one that comes in chunks
-    if (parser.get().count(field::expect) > 0) {
-      if (!beast::iequals(parser.get()[field::expect], "100-continue")) {
-        reject(exchange, 417, "the only expectation met is 100-continue");
-        co_return ReadResult::kRejected;
-      }
-      constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-      const std::uint64_t sent =
-          co_await send_text(*connection_, kContinue, server_.options().patience);
-      if (sent < kContinue.size()) co_return ReadResult::kClosed;
-    }
+    const ReadResult expected = co_await meet_expectation(parser.get(), exchange);
+    if (expected != ReadResult::kRequest) co_return expected;
     connection_->reads_body = true;
     const auto [error, bytes] =
         co_await beast::http::async_read(connection_->socket, buffer_, parser, kNoThrow);
@@ -193,6 +201,60 @@ class Session {
       co_return ReadResult::kRejected;
     }
     co_return error ? rejected(error, exchange) : ReadResult::kRequest;
+  }
+
+  // Of a client that asks before it sends a body.
+  asio::awaitable<ReadResult> meet_expectation(const RequestHeader& header, Exchange& exchange) {
+    if (header.count(field::expect) == 0) co_return ReadResult::kRequest;
+    if (!beast::iequals(header[field::expect], "100-continue")) {
+      reject(exchange, 417, "the only expectation met is 100-continue");
+      co_return ReadResult::kRejected;
+    }
+    constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+    const std::uint64_t sent =
+        co_await send_text(*connection_, kContinue, server_.options().patience);
+    co_return sent < kContinue.size() ? ReadResult::kClosed : ReadResult::kRequest;
+  }
+
+  // Has the answer's sink take the request's body, and make the answer. False where the peer has
+  // gone, or the daemon ends: what has come is kept.
+  asio::awaitable<bool> pour(Parser& parser, Exchange& exchange) {
+    const std::shared_ptr<BodySink> sink = std::move(exchange.response.sink);
+    const std::string target(parser.get().target());
+    bool goes_on = true;
+    if (!parser.is_done()) {
+      const ReadResult expected = co_await meet_expectation(parser.get(), exchange);
+      if (expected != ReadResult::kRequest) co_return expected == ReadResult::kRejected;
+      PieceParser pieces(std::move(parser));
+      std::optional<Response> refusal;
+      std::vector<std::uint8_t> piece(kPiece);
+      while (goes_on && !refusal && !pieces.is_done()) {
+        const std::size_t size = co_await read_piece(pieces, piece, goes_on);
+        if (size == 0) continue;
+        co_await on_worker(Place::kWorker, target,
+                           [&] { refusal = sink->take(std::span(piece).first(size)); });
+      }
+      exchange.has_poured = pieces.is_done();
+      parser.get().base() = std::move(pieces.get().base());
+      if (refusal) exchange.response = std::move(*refusal);
+      if (refusal) co_return true;
+    }
+    co_await on_worker(Place::kWorker, target, [&] { exchange.response = sink->finish(); });
+    co_return goes_on;
+  }
+
+  // As much of the body as fits into `piece`, or as there is. `goes_on`: more may come.
+  asio::awaitable<std::size_t> read_piece(PieceParser& parser, std::span<std::uint8_t> piece,
+                                          bool& goes_on) {
+    auto& body = parser.get().body();
+    body.data = piece.data();
+    body.size = piece.size();
+    connection_->expires_after(server_.options().patience);
+    const auto [error, bytes] =
+        co_await beast::http::async_read(connection_->socket, buffer_, parser, kNoThrow);
+    const bool is_well = !error || error == beast::http::error::need_buffer;
+    goes_on = parser.is_done() || (is_well && !connection_->draining);
+    co_return piece.size() - body.size;
   }
 
   // Answers and closes: where the next request would start is unknown.
@@ -260,12 +322,14 @@ class Session {
       const bool authorised = co_await authorise_caller(message, exchange);
       if (!authorised) co_return true;
     }
-    if (route.method == Method::kPost && route.reads_body) {
+    if (takes_json(route)) {
       const ReadResult read = co_await read_body(parser, exchange);
       if (read != ReadResult::kRequest) co_return read == ReadResult::kRejected;
     }
     co_await handle(request, exchange);
-    co_return true;
+    if (!exchange.response.sink) co_return true;
+    const bool poured = co_await pour(parser, exchange);
+    co_return poured;
   }
 
   asio::awaitable<bool> authorise_caller(const Parser::value_type& message, Exchange& exchange) {
@@ -356,7 +420,7 @@ class Session {
     const auto& templates = server_.router().templates();
     const std::string_view route =
         exchange.route_template < templates.size() ? templates[exchange.route_template] : "-";
-    if (exchange.route != nullptr && exchange.route->method != Method::kGet)
+    if (exchange.route != nullptr && changes(exchange.route->method))
       audit(exchange, route, method, target, status);
     if (!server_.options().recorded) return;
     const std::chrono::duration<double> seconds = Connection::Clock::now() - exchange.start;

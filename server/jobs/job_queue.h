@@ -87,6 +87,10 @@ class JobQueue {
   JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task);
   ~JobQueue() { stop(); }
 
+  // Has `told` called with every job that ends, by the thread that ends it, which waits: for who
+  // comes before start().
+  void when_ended(std::function<void(const JobStatus&)> told) { ended_ = std::move(told); }
+
   // Takes up what an earlier daemon left: what was paused stays paused, all else goes on.
   Expected<void> start();
 
@@ -147,6 +151,7 @@ class JobQueue {
   JobCatalogue& catalogue_;
   const Log& events_;
   const JobTask task_;
+  std::function<void(const JobStatus&)> ended_;
 
   mutable std::mutex mutex_;   // guards what follows
   std::map<JobId, Run> runs_;  // the unfinished ones

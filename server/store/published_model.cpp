@@ -7,6 +7,8 @@
 #include <cstring>
 #include <mutex>
 
+#include "server/store/change.h"
+
 namespace vitrine {
 namespace {
 
@@ -90,7 +92,7 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::load(const Mode
   auto record = catalogue_.find(id);
   if (!record) return tl::unexpected(record.error());
   if (!*record || (*record)->state != ModelState::kPublished) return nullptr;
-  auto model = PublishedModel::open(store_, std::move(**record));
+  auto model = PublishedModel::open(store_, public_view(std::move(**record)));
   if (!model) return model;
   remember(*model, *before);
   return model;
@@ -121,10 +123,10 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const Mode
   return load(id);
 }
 
-Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_draft(const ModelId& id) {
+Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_whole(const ModelId& id) {
   auto record = catalogue_.find(id);
   if (!record) return tl::unexpected(record.error());
-  if (!*record || (*record)->state != ModelState::kDraft) return nullptr;
+  if (!*record) return nullptr;
   return PublishedModel::open(store_, std::move(**record));
 }
 

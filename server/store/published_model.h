@@ -60,11 +60,12 @@ class PublishedModels {
                   std::chrono::milliseconds staleness = std::chrono::milliseconds(100))
       : store_(store), catalogue_(catalogue), staleness_(staleness) {}
 
-  // Null where there is no such model or it is a draft.
+  // What is public of it. Null where there is no such model or it is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
 
-  // A draft, for those who may see it: opened anew each time. Null where there is none.
-  Expected<std::shared_ptr<const PublishedModel>> open_draft(const ModelId& id);
+  // All of a model, drafts too, for those who may see it: opened anew each time. Null where there
+  // is none.
+  Expected<std::shared_ptr<const PublishedModel>> open_whole(const ModelId& id);
 
   // What this process has published or hidden is so from the next call on.
   void refresh();

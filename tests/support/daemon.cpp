@@ -103,7 +103,7 @@ ProgramResult Daemon::wait() {
   }
   const int exit_code = wait_for(child_);
   child_ = -1;
-  return {exit_code, printed_};
+  return {exit_code, printed_, {}};
 }
 
 std::string Daemon::access_log() const {

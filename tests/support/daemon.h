@@ -9,13 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "support/run_program.h"
+
 namespace vitrine::test {
 
-struct ProgramResult {
-  int exit_code = -1;
-  std::string output;  // standard output and standard error
-};
-// Runs vitrined to its end.
+// Runs vitrined to its end; `output` holds standard output and standard error.
 ProgramResult run_vitrined(const std::vector<std::string>& arguments);
 
 // A daemon on free ports of 127.0.0.1 that serves `data`. Killed at the end of its scope.
