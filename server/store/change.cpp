@@ -110,6 +110,7 @@ Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const Mod
     return m.public_part ? std::optional(m.public_part->max_level) : std::nullopt;
   };
   if (level(record) == level(before) && record.unit == before.unit) {
+    record.public_part = before.public_part;
     if (auto done = catalogue.update(record, std::nullopt); !done)
       return tl::unexpected(done.error());
   } else {
