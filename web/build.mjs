@@ -59,7 +59,7 @@ await Promise.all([
   }),
   build({
     ...common,
-    entryPoints: { gallery: "src/gallery/gallery.ts", model: "src/gallery/model.ts" },
+    entryPoints: { gallery: "src/gallery/gallery.ts", model: "src/gallery/model.ts", docs: "src/docs/docs.ts" },
     outdir: dist,
     format: "esm",
   }),
@@ -73,4 +73,5 @@ await Promise.all([
   copyFile(join(draco, "draco_decoder_nodejs.js"), join(dist, "draco_decoder.js")),
   copyFile(join(draco, "draco_decoder.wasm"), join(dist, "draco_decoder.wasm")),
   ...["index.html", "model.html", "scan.html"].map((page) => copyFile(join(root, "src/gallery", page), join(dist, page))),
+  copyFile(join(root, "src/docs/docs.html"), join(dist, "docs.html")),
 ]);

@@ -6,6 +6,7 @@
 
 #include "codec/core/byte_cursor.h"
 #include "codec/progressive/cell.h"
+#include "codec/progressive/signature.h"
 
 namespace vitrine {
 namespace {
@@ -85,9 +86,7 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
     return bad("the base mesh has " + std::to_string(base.vertices) + " vertices and " +
                std::to_string(base.faces) + " faces, fewer than one triangle");
   }
-  if (base.shift > kMaxShift || m.levels.back().shift != 0) {
-    return bad("the lattice of a level is impossible");
-  }
+  if (base.shift > kMaxShift) return bad("the lattice of a level is impossible");
   for (std::size_t l = 1; l < m.levels.size(); ++l) {
     const LevelInfo &fine = m.levels[l], &coarse = m.levels[l - 1];
     if (fine.vertices < coarse.vertices) return bad("levels lose vertices");
@@ -176,7 +175,7 @@ Expected<void> read_regions(ByteReader& in, const Limits& limits, Manifest& m) {
     const std::uint64_t fork = in.varint();
     if (!in.ok()) return bad("it ends inside the region tree");
     // Where a vertex goes is coded behind the splits of the level before.
-    if (fork == 1 || fork >= m.levels.size()) return bad("a region forks at an impossible level");
+    if (fork == 1 || fork > limits.levels) return bad("a region forks at an impossible level");
     node.fork = static_cast<std::uint32_t>(fork);
     if (!read_box(in, node.box)) return bad("impossible box of a region");
     if (fork == 0) {
@@ -360,6 +359,11 @@ Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limit
   if (auto ok = read_body(in, limits, m); !ok) return tl::unexpected(ok.error());
   if (in.left() != 0) return bad("it holds bytes that belong to nothing");
   return m;
+}
+
+bool is_pmesh(std::span<const std::uint8_t> bytes) {
+  const auto length = header_bytes(bytes.first(std::min(bytes.size(), kHeaderPrefix)));
+  return length.has_value() || length.error().code == ErrorCode::kUnsupported;
 }
 
 std::vector<std::uint8_t> write_header(Manifest& m) {

@@ -19,48 +19,83 @@ double slope_of(const View& view) {
   return std::tan(view.field_of_view * 0.5 * kDegree);
 }
 
-// How much farther a point in sight is from the eye than it is deep, at most: in the corners.
-double slant_of(const View& view) {
-  const double y = slope_of(view), x = y * view.width / view.height;
-  return std::sqrt(1 + x * x + y * y);
-}
-
 struct Box {
   Vec3 low, high;
 
-  // The largest dot product of a point of the box with d.
-  double reach(const Vec3& d) const {
-    return (d.x > 0 ? high.x : low.x) * d.x + (d.y > 0 ? high.y : low.y) * d.y +
-           (d.z > 0 ? high.z : low.z) * d.z;
-  }
-  double distance(const Vec3& p) const {
-    const auto outside = [](double v, double from, double to) {
-      return std::max({from - v, 0.0, v - to});
-    };
-    return length(Vec3{outside(p.x, low.x, high.x), outside(p.y, low.y, high.y),
-                       outside(p.z, low.z, high.z)});
+  Vec3 corner(unsigned bits) const {
+    return {bits & 1 ? high.x : low.x, bits & 2 ? high.y : low.y, bits & 4 ? high.z : low.z};
   }
 };
 
-// The box may touch all five inner sides: in front, and within the four planes through the eye.
-bool in_sight(const Box& box, const View& view) {
-  const Vec3 right = column(view, 0), up = column(view, 1), back = column(view, 2),
-             eye = column(view, 3);
-  const double y = slope_of(view), x = y * view.width / view.height;
-  for (const Vec3& inwards : {back * -1.0, right - back * x, right * -1.0 - back * x, up - back * y,
-                              up * -1.0 - back * y}) {
-    if (box.reach(inwards) < dot(eye, inwards)) return false;
-  }
-  return true;
-}
+// A stretch of a line, by the line's own measure.
+struct Stretch {
+  double from = 0, to = std::numeric_limits<double>::infinity();
 
-// How deep what is in sight of the box lies at least: as its nearest corner does, or, where that is
-// beside or behind the eye, as a point in the corner of the viewport would.
-double depth_of(const Box& box, const View& view) {
-  const Vec3 back = column(view, 2), eye = column(view, 3);
-  const double distance = std::max(box.distance(eye), kNearest * length(box.high - box.low));
-  return std::max(distance / slant_of(view), (dot(eye, back) - box.reach(back)) / length(back));
-}
+  // Leaves where height + t * slope >= 0.
+  void keep(double height, double slope) {
+    if (slope > 0) {
+      from = std::max(from, -height / slope);
+    } else if (slope < 0) {
+      to = std::min(to, height / -slope);
+    } else if (height < 0) {
+      to = -1;
+    }
+  }
+  bool is_empty() const { return from > to; }
+};
+
+// The pyramid of what a camera sees, by vectors from the eye.
+class Sight {
+ public:
+  explicit Sight(const View& view) : eye_(column(view, 3)) {
+    const Vec3 right = column(view, 0), up = column(view, 1), back = column(view, 2);
+    const double y = slope_of(view), x = y * view.width / view.height;
+    ahead_ = back * (-1 / length(back));
+    inwards_ = {right - back * x, right * -1.0 - back * x, up - back * y, up * -1.0 - back * y};
+    std::size_t corner = 0;
+    for (const double sx : {-x, x}) {
+      for (const double sy : {-y, y})
+        edges_[corner++] = right * sx + up * sy - back;
+    }
+  }
+
+  // How deep the nearest point in sight of a box lies; infinity where there is none. The box may
+  // touch the sides. The part in sight is convex: its corners are on edges of box and pyramid.
+  double nearest(const Box& box) const {
+    double depth = std::numeric_limits<double>::infinity();
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      for (const unsigned axis : {1u, 2u, 4u}) {
+        if ((corner & axis) == 0)
+          depth = std::min(depth, nearest(box.corner(corner), box.corner(corner | axis)));
+      }
+    }
+    for (const Vec3& edge : edges_)
+      depth = std::min(depth, nearest(edge, box));
+    return depth;
+  }
+
+ private:
+  double nearest(const Vec3& a, const Vec3& b) const {  // of the way from a to b
+    const Vec3 start = a - eye_, way = b - a;
+    Stretch seen{0, 1};
+    for (const Vec3& side : inwards_)
+      seen.keep(dot(start, side), dot(way, side));
+    if (seen.is_empty()) return std::numeric_limits<double>::infinity();
+    return std::min(dot(start + way * seen.from, ahead_), dot(start + way * seen.to, ahead_));
+  }
+  double nearest(const Vec3& edge, const Box& box) const {  // of the pyramid's edge in the box
+    const Vec3 above = eye_ - box.low, below = box.high - eye_;
+    Stretch inside;
+    inside.keep(above.x, edge.x), inside.keep(below.x, -edge.x);
+    inside.keep(above.y, edge.y), inside.keep(below.y, -edge.y);
+    inside.keep(above.z, edge.z), inside.keep(below.z, -edge.z);
+    if (inside.is_empty()) return std::numeric_limits<double>::infinity();
+    return inside.from * dot(edge, ahead_);
+  }
+
+  Vec3 eye_, ahead_;
+  std::array<Vec3, 4> inwards_, edges_;
+};
 
 }  // namespace
 
@@ -76,8 +111,8 @@ bool is_sane(const View& view) {
 double pixels_of(double error, const LatticeBox& box, const Lattice& lattice, const View& view) {
   const Vec3 margin{error, error, error};
   const Box grown{lattice.to_model(box.low) - margin, lattice.to_model(box.high) + margin};
-  if (!in_sight(grown, view)) return 0;
-  const double depth = depth_of(grown, view);
+  const double least = kNearest * length(grown.high - grown.low);
+  const double depth = std::max(Sight(view).nearest(grown), least);
   return depth > 0 ? error / depth * view.height / (2 * slope_of(view)) : 0;
 }
 

@@ -26,9 +26,9 @@ struct View {
 // All members are finite (but for `bytes`) and in their ranges.
 bool is_sane(const View& view);
 
-// Pixels that an error (model units, parallel to the screen) has at most anywhere in the
-// box, the viewport's corners included; 0 where the box, enlarged by the error, is out of sight.
-// Within the box a distance of a thousandth of its diagonal counts.
+// Pixels that an error (model units, parallel to the screen) has at most in the part of the box,
+// enlarged by the error, that is in sight; 0 where none is. A depth of a thousandth of the box'
+// diagonal counts at least.
 double pixels_of(double error, const LatticeBox& box, const Lattice& lattice, const View& view);
 
 }  // namespace vitrine

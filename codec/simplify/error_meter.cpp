@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kSamples = 2'000;  // per direction
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kWorst = 32;  // samples per direction that are looked at first
-constexpr double kTolerance = 1.15;
+constexpr double kTolerance = 1.02;
 constexpr double kNegligible = 1e-6;  // of the diagonal
 
 double diagonal(const TriangleBvh& bvh) {

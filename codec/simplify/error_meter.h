@@ -33,8 +33,8 @@ class ErrorMeter {
   explicit ErrorMeter(TriangleMesh original);
   ErrorMeter(const ErrorMeter&) = delete;
 
-  // `mesh` is what a level displays: at least one face, model units. max_error is at most a sixth
-  // above the true maximum (or 1e-6 of the diagonal), but for tangles (HausdorffBound).
+  // `mesh` is what a level displays: at least one face, model units. max_error is at most a
+  // fiftieth above the true maximum (or 1e-6 of the diagonal), but for tangles (HausdorffBound).
   LevelError measure(TriangleMesh mesh, const LevelRegions& regions = {}) const;
   // The same for the original with its vertices moved, by rounding say; fast for small moves.
   using Move = std::function<Vec3(const Vec3&)>;

@@ -11,23 +11,31 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "server/app/check_paths.h"
 #include "server/app/descriptor_limit.h"
 #include "server/app/port_file.h"
+#include "server/app/service_manager.h"
 #include "server/config/command_line.h"
+#include "server/config/live_settings.h"
+#include "server/config/reload.h"
 #include "server/http/http_server.h"
+#include "server/http/job_json.h"
 #include "server/http/routes.h"
 #include "server/http/services.h"
 #include "server/jobs/open_scanners.h"
+#include "server/jobs/publish_jobs.h"
 #include "server/store/installation.h"
 #include "server/stream/websocket.h"
+#include "server/transport/live_tls.h"
 
 namespace vitrine {
 namespace {
 
 constexpr std::size_t kAdminConnections = 64;
+constexpr std::chrono::minutes kCollectEvery{10};
 constexpr std::size_t kMaxExports = 64;  // each holds a decoded mesh while it runs
 
 Unexpected of_admin(const Error& error) {
@@ -41,59 +49,115 @@ Expected<void> check_addresses(const Settings& settings) {
   return usable ? Expected<void>{} : of_admin(usable.error());
 }
 
+// The configuration in force, and how it is read again.
+struct Configuration {
+  CommandLine line;
+  std::function<Expected<CommandLine>()> reread;
+};
+
+std::string url_of(const Endpoint& endpoint, std::uint16_t port, bool encrypted) {
+  if (!endpoint.path.empty()) return "unix:" + endpoint.path;
+  const bool v6 = endpoint.host.find(':') != std::string::npos;
+  return fmt::format("{}://{}{}{}:{}", encrypted ? "https" : "http", v6 ? "[" : "", endpoint.host,
+                     v6 ? "]" : "", port);
+}
+
+// Null where the settings want none.
+Expected<std::shared_ptr<LiveTls>> open_tls(const Settings& settings) {
+  const TlsFiles files{settings.tls_certificate, settings.tls_key};
+  if (files == TlsFiles{}) return nullptr;
+  if (files.certificate.empty() || files.key.empty()) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("{} is set alone; set {}, too",
+                            files.key.empty() ? "tls-certificate" : "tls-key",
+                            files.key.empty() ? "tls-key" : "tls-certificate"));
+  }
+  return LiveTls::open(files);
+}
+
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
  public:
-  Daemon(const Settings& settings, Installation installation, Log access_log,
-         std::vector<std::unique_ptr<ScannerBackend>> scanners)
-      : settings_(settings),
+  Daemon(Configuration configuration, Installation installation, Log access_log,
+         std::vector<std::unique_ptr<ScannerBackend>> scanners, std::shared_ptr<LiveTls> tls)
+      : configuration_(std::move(configuration)),
+        live_(configuration_.line.settings),
+        tls_(std::move(tls)),
         installation_(std::move(installation)),
         access_log_(std::move(access_log)),
         models_(*installation_.store, *installation_.catalogue),
+        uploads_(live_.get()->data / "uploads", {.bytes = live_.get()->max_upload_bytes,
+                                                 .per_token = live_.get()->max_uploads,
+                                                 .lifetime = live_.get()->upload_lifetime}),
+        quota_(*installation_.catalogue, uploads_, live_.get()->quota_bytes),
+        webhooks_(live_.get()->webhook_hosts, events_),
+        publishing_(
+            {*installation_.store, *installation_.catalogue, uploads_, quota_, live_.get()->data}),
+        collector_({*installation_.store, *installation_.catalogue, *installation_.jobs, uploads_,
+                    events_, live_.get()->collect_after}),
         scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
-                settings.data},
+                live_.get()->data, "/proc/self/exe", std::chrono::seconds(10),
+                [this](JobRun& run) { return publishing_.work(run); }},
                std::move(scanners)),
-        exports_(settings.export_cache_bytes),
+        exports_(live_.get()->export_cache_bytes),
         pages_(web_assets()),
         metrics_(Router(public_routes()).templates()),
         tokens_(*installation_.catalogue),
-        services_{*installation_.catalogue,
+        services_{*installation_.store,
+                  *installation_.catalogue,
                   tokens_,
                   models_,
                   scans_,
+                  uploads_,
+                  quota_,
+                  collector_,
+                  webhooks_,
                   exports_,
                   pages_,
+                  live_,
                   metrics_,
                   access_log_,
                   events_},
-        connections_(connections_within_limit(settings.max_connections)),
-        threads_(settings.threads > 0 ? settings.threads
-                                      : std::max(1u, std::thread::hardware_concurrency())),
+        connections_(connections_within_limit(live_.get()->max_connections)),
+        threads_(live_.get()->threads > 0 ? live_.get()->threads
+                                          : std::max(1u, std::thread::hardware_concurrency())),
         io_(static_cast<int>(threads_)),
         workers_(threads_, kMaxExports),
         public_(io_, services_, workers_, public_options()),
         admin_(io_, services_, workers_, admin_options()),
         signals_(io_, SIGTERM, SIGINT),
-        deadline_(io_) {}
+        reload_signals_(io_, SIGHUP, SIGUSR1),
+        deadline_(io_),
+        watchdog_(io_) {}
 
   Expected<void> open() {
-    if (auto bound = bind(public_, settings_.listen, settings_.port_file, ""); !bound) return bound;
-    if (auto bound = bind(admin_, settings_.admin_listen, settings_.admin_port_file, "admin ");
+    if (auto bound = bind(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
+      return bound;
+    if (auto bound =
+            bind(admin_, live_.get()->admin_listen, live_.get()->admin_port_file, "admin ");
         !bound)
       return bound;
+    scans_.jobs().when_ended([this](const JobStatus& job) {
+      constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+      webhooks_.tell(job.record.webhook, job_json(job).dump(-1, ' ', false, kReplace));
+    });
     return scans_.start();
   }
 
   void run() {
-    if (connections_ < settings_.max_connections) {
+    if (connections_ < live_.get()->max_connections) {
       events_.event(
           Severity::kWarning,
           fmt::format("only {} connections fit the limit on open files; raise it", connections_));
     }
     wait_for_signal();
+    wait_for_reload();
     public_.start();
     admin_.start();
+    collector_.start(kCollectEvery);
     services_.ready = true;
+    tell_service_manager(ServicePhase::kReady);
+    keep_watchdog();
     std::vector<std::thread> threads;
     for (unsigned i = 1; i < threads_; ++i)
       threads.emplace_back([this] { io_.run(); });
@@ -101,6 +165,8 @@ class Daemon {
     for (std::thread& thread : threads)
       thread.join();
     scans_.stop();
+    collector_.stop();
+    webhooks_.stop();
     workers_.stop();
     workers_.join();
     events_.event(Severity::kInfo, "stopped");
@@ -111,15 +177,22 @@ class Daemon {
     return {.routes = public_routes(),
             .recorded = true,
             .max_connections = connections_,
-            .patience = settings_.idle_timeout,
-            .stream = [this](StreamCall call) { return stream(std::move(call)); }};
+            .patience = live_.get()->idle_timeout,
+            .stream = [this](StreamCall call) { return stream(std::move(call)); },
+            .tls = tls_,
+            .max_connections_per_address = live_.get()->max_connections_per_address > 0
+                                               ? live_.get()->max_connections_per_address
+                                               : SIZE_MAX,
+            .proxies = live_.get()->trusted_proxies,
+            .request_rate = live_.get()->request_rate,
+            .min_rate = live_.get()->min_rate};
   }
 
   HttpOptions admin_options() {
     return {.routes = admin_routes(),
             .recorded = false,
             .max_connections = kAdminConnections,
-            .patience = settings_.idle_timeout,
+            .patience = live_.get()->idle_timeout,
             .stream = {}};
   }
 
@@ -128,18 +201,34 @@ class Daemon {
     const auto port = server.listen(endpoint);
     if (!port) return what.empty() ? Unexpected(port.error()) : of_admin(port.error());
     if (auto written = write_port_file(port_file, *port); !written) return written;
-    const bool v6 = endpoint.host.find(':') != std::string::npos;
-    events_.event(Severity::kInfo, fmt::format("{}listening on http://{}{}{}:{}", what,
-                                               v6 ? "[" : "", endpoint.host, v6 ? "]" : "", *port));
+    events_.event(Severity::kInfo, fmt::format("{}listening on {}", what,
+                                               url_of(endpoint, *port, what.empty() && tls_)));
     return {};
   }
 
+  // What a caller may see: with a token drafts, too, and all of a model of which less is public.
+  std::shared_ptr<const PublishedModel> visible(const ModelId& id, bool authorised) {
+    const auto published = models_.find(id);
+    const bool is_all = published && *published && !(*published)->record().public_part;
+    if (!authorised || !published || is_all) return published.value_or(nullptr);
+    return models_.open_whole(id).value_or(nullptr);
+  }
+
   asio::awaitable<void> stream(StreamCall call) {
-    const auto model = models_.find(call.model);
-    if (!model || !*model) co_return;  // it was there when the request was answered
+    const auto model = visible(call.model, call.authorised);
+    if (!model) co_return;  // it was there when the request was answered
     const std::shared_ptr<Connection> connection = call.connection;
     StreamOptions options;
-    options.patience = settings_.idle_timeout;
+    options.patience = live_.get()->idle_timeout;
+    options.head = call.head;
+    options.find = [this, authorised = call.authorised](std::string_view text) {
+      const auto id = ModelId::parse(text);
+      return id ? visible(*id, authorised) : nullptr;
+    };
+    options.waits_for_peer = [&connection = *connection,
+                              patience = live_.get()->idle_timeout](bool waits) {
+      waits ? connection.expires_after(patience) : connection.never_expires();
+    };
     options.on_drain = [connection](std::function<void()> stop) {
       if (connection->draining) stop();
       connection->on_drain = std::move(stop);
@@ -148,7 +237,7 @@ class Daemon {
       metrics_.stream_bytes.fetch_add(bytes, std::memory_order_relaxed);
     };
     metrics_.streams.fetch_add(1, std::memory_order_relaxed);
-    co_await serve_stream(connection->socket, std::move(call.request), *model, std::move(options));
+    co_await serve_stream(connection->socket, std::move(call.request), model, std::move(options));
     metrics_.streams.fetch_sub(1, std::memory_order_relaxed);
     connection->on_drain = nullptr;
   }
@@ -159,13 +248,66 @@ class Daemon {
     });
   }
 
+  void wait_for_reload() {
+    reload_signals_.async_wait([this](const boost::system::error_code& error, int signal) {
+      if (error) return;
+      signal == SIGHUP ? reload() : reopen_log(live_.get()->access_log);
+      wait_for_reload();
+    });
+  }
+
+  // Reads the configuration again. What can fail comes first: a fault leaves all as it was.
+  void reload() {
+    tell_service_manager(ServicePhase::kReloading);
+    if (const auto done = try_reload(); !done) {
+      events_.event(Severity::kError, "the configuration stays as it was: " + done.error().message);
+      reopen_log(live_.get()->access_log);
+    }
+    tell_service_manager(ServicePhase::kReady);
+  }
+
+  Expected<void> try_reload() {
+    const auto fresh = configuration_.reread();
+    if (!fresh) return Unexpected(fresh.error());
+    auto next = vitrine::reload(configuration_.line, *fresh);
+    if (!next) return Unexpected(next.error());
+    if (auto opened = access_log_.reopen(next->line.settings.access_log); !opened) return opened;
+    configuration_.line = std::move(next->line);
+    live_.replace(configuration_.line.settings);
+    exports_.set_capacity(live_.get()->export_cache_bytes);
+    events_.event(Severity::kInfo, "configuration read again; new: " + list_keys(next->changed));
+    if (!next->waiting.empty()) {
+      events_.event(Severity::kWarning, "restart to have the new " + list_keys(next->waiting));
+    }
+    return {};
+  }
+
+  void reopen_log(const std::filesystem::path& file) {
+    const auto opened = access_log_.reopen(file);
+    events_.event(opened ? Severity::kInfo : Severity::kError,
+                  opened ? "access log opened anew" : opened.error().message);
+  }
+
+  // Connections and workers both have to get on, or the service manager starts the daemon anew.
+  void keep_watchdog() {
+    const auto interval = watchdog_interval();
+    if (!interval) return;
+    watchdog_.expires_after(*interval);
+    watchdog_.async_wait([this](const boost::system::error_code& error) {
+      if (error) return;
+      asio::post(workers_.executor(Place::kWorker, ""), [] { tell_alive(); });
+      keep_watchdog();
+    });
+  }
+
   void drain() {
     services_.ready = false;
+    tell_service_manager(ServicePhase::kStopping);
     events_.event(Severity::kInfo, "stopping: finishing what is under way");
     signals_.async_wait([this](const boost::system::error_code& error, int) {
       if (!error) io_.stop();
     });
-    deadline_.expires_after(settings_.stop_timeout);
+    deadline_.expires_after(live_.get()->stop_timeout);
     deadline_.async_wait([this](const boost::system::error_code& error) {
       if (!error) io_.stop();
     });
@@ -174,11 +316,18 @@ class Daemon {
     public_.drain([this] { io_.stop(); });
   }
 
-  const Settings settings_;
+  Configuration configuration_;  // of the thread that handles signals, once they are awaited
+  LiveSettings live_;
+  const std::shared_ptr<LiveTls> tls_;  // null: without TLS
   const Installation installation_;
-  const Log access_log_;
+  Log access_log_;
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
+  Uploads uploads_;
+  const Quota quota_;
+  Webhooks webhooks_;
+  PublishJobs publishing_;
+  Collector collector_;
   ScanService scans_;
   ExportCache exports_;
   const WebPages pages_;
@@ -192,7 +341,9 @@ class Daemon {
   HttpServer public_;
   HttpServer admin_;
   asio::signal_set signals_;
+  asio::signal_set reload_signals_;
   asio::steady_timer deadline_;
+  asio::steady_timer watchdog_;
 };
 
 Expected<std::string> read_file(const std::string& path) {
@@ -218,15 +369,19 @@ int print(const std::string& text) {
                                              std::strerror(errno))});
 }
 
-int serve(const Settings& settings) {
+int serve(Configuration configuration) {
+  const Settings& settings = configuration.line.settings;
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
+  auto tls = open_tls(settings);
+  if (!tls) return report(tls.error());
   auto installation = open_installation(settings.data);
   if (!installation) return report({ErrorCode::kIo, installation.error().message});
   auto access_log = Log::open(settings.access_log);
   if (!access_log) return report(access_log.error());
   auto scanners = open_scanners(settings.scanners);
   if (!scanners) return report(scanners.error());
-  Daemon daemon(settings, std::move(*installation), std::move(*access_log), std::move(*scanners));
+  Daemon daemon(std::move(configuration), std::move(*installation), std::move(*access_log),
+                std::move(*scanners), std::move(*tls));
   if (const auto opened = daemon.open(); !opened) return report(opened.error());
   daemon.run();
   return kExitDone;
@@ -234,6 +389,7 @@ int serve(const Settings& settings) {
 
 int check(const Settings& settings) {
   if (const auto usable = check_paths(settings); !usable) return report(usable.error());
+  if (const auto tls = open_tls(settings); !tls) return report(tls.error());
   if (const auto scanners = open_scanners(settings.scanners); !scanners)  // uses no device yet
     return report(scanners.error());
   return print("the configuration is valid\n");
@@ -244,11 +400,12 @@ int check(const Settings& settings) {
 int run_daemon(std::span<const std::string_view> arguments,
                std::span<const std::string_view> environment) {
   std::signal(SIGPIPE, SIG_IGN);  // sendfile(2) has no MSG_NOSIGNAL
-  const auto line = parse_command_line(arguments, environment, read_file);
+  const auto read = [=] { return parse_command_line(arguments, environment, read_file); };
+  const auto line = read();
   if (!line) return report(line.error());
   switch (line->action) {
     case Action::kServe:
-      return serve(line->settings);
+      return serve({*line, read});
     case Action::kCheckConfig:
       return check(line->settings);
     case Action::kPrintConfig:

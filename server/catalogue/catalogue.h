@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "codec/core/expected.h"
@@ -15,7 +17,19 @@
 
 namespace vitrine {
 
+// The elements of Dublin Core (ISO 15836) that have no field of their own here.
+inline constexpr std::string_view kDublinCore[] = {
+    "contributor", "coverage", "date",   "description", "identifier", "language",
+    "publisher",   "relation", "source", "subject",     "type"};
+
 enum class ModelState : std::uint8_t { kDraft = 0, kPublished = 1 };
+
+// What visitors get of a model whose full resolution is not public: a file of its own.
+struct PublicPart {
+  std::uint32_t max_level = 0;
+  Sha256 file{};
+  std::uint64_t file_bytes = 0, head_bytes = 0, faces = 0, vertices = 0;
+};
 
 struct ModelRecord {
   ModelId id;
@@ -23,13 +37,23 @@ struct ModelRecord {
   std::int64_t created = 0;  // milliseconds since 1970, UTC
   std::string title;
   std::string creator;
-  std::string rights;   // a statement for people
-  std::string licence;  // an SPDX identifier or a URL
-  std::string unit;     // of the model's coordinates, empty where unknown
-  Sha256 file{};        // the .pmesh object
+  std::string rights;                       // a statement for people
+  std::string licence;                      // an SPDX identifier or a URL
+  std::map<std::string, std::string> more;  // elements of Dublin Core by name, none empty
+  std::string unit;                         // of the model's coordinates, empty where unknown
+  Sha256 file{};                            // the .pmesh object
   std::uint64_t file_bytes = 0;
   std::uint64_t head_bytes = 0;  // header and base mesh, the file's first bytes
   std::uint64_t faces = 0, vertices = 0;
+  std::optional<double> accuracy = {};         // of the scan, in `unit`
+  std::optional<PublicPart> public_part = {};  // nothing: all of it is public
+  std::uint64_t version = 0;                   // grows with each change
+};
+
+// An object that a model names.
+struct NamedFile {
+  Sha256 file{};
+  std::uint64_t bytes = 0;
 };
 
 // A chunk (or a base mesh) is a range of a stored file.
@@ -79,10 +103,21 @@ class Catalogue {
   // Makes a model visible or hides it, in one statement. kState where there is no such model.
   virtual Expected<void> set_state(const ModelId& id, ModelState state) = 0;
 
+  // Writes over the model of that id but for its `created`, and over its chunks where some are
+  // given, in one transaction; its version grows. kState where there is none, or its version is not
+  // `model.version`: somebody else has changed it meanwhile.
+  virtual Expected<void> update(const ModelRecord& model,
+                                std::optional<std::span<const ChunkPlace>> chunks) = 0;
+
+  // Takes a model away, with its chunks. kState where there is none.
+  virtual Expected<void> remove(const ModelId& id) = 0;
+
+  // Every object that some model names, drafts too; each once.
+  virtual Expected<std::vector<NamedFile>> files() = 0;
+
   virtual Expected<std::optional<ModelRecord>> find(const ModelId& id) = 0;  // drafts too
 
-  // The newest published model of the same file whose title, creator, rights and licence are those
-  // of `model`.
+  // The newest published model of the same file whose texts are those of `model`.
   virtual Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) = 0;
 
   virtual Expected<ModelPage> search(const ModelQuery& query) = 0;
@@ -96,6 +131,8 @@ class Catalogue {
   // The tokens, none of them revoked, whose hashes start with the same four bytes as `hash`: the
   // caller compares the rest, in constant time.
   virtual Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) = 0;
+
+  virtual Expected<std::vector<TokenRecord>> tokens() = 0;  // those in force, oldest first
 
   // Makes a token worthless for good. kState where there is none, or it was revoked before.
   virtual Expected<void> revoke_token(const ModelId& id) = 0;

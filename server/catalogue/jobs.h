@@ -2,6 +2,7 @@
 // Which jobs and scans there are and how far they have come: what outlives the daemon.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,7 +17,12 @@ namespace vitrine {
 using JobId = ModelId;   // jobs and scans are named
 using ScanId = ModelId;  // as models are
 
-enum class JobKind : std::uint8_t { kScan = 0, kCalibrate = 1, kReprocess = 2 };
+enum class JobKind : std::uint8_t { kScan = 0, kCalibrate = 1, kReprocess = 2, kPublish = 3 };
+
+// Whether it has the scanner for itself; all others share their time.
+constexpr bool needs_scanner(JobKind kind) {
+  return kind == JobKind::kScan || kind == JobKind::kCalibrate;
+}
 
 enum class JobState : std::uint8_t {
   kQueued = 0,
@@ -35,7 +41,7 @@ struct JobRecord {
   JobId id;
   JobKind kind = JobKind::kScan;
   JobState state = JobState::kQueued;
-  std::string scanner;  // its name
+  std::string scanner;  // its name; empty where none has to do with it
   std::optional<ScanId> scan;
   std::optional<ModelId> model;         // what came of it
   std::string stage;                    // what it is at, in a word; empty before it starts
@@ -43,6 +49,7 @@ struct JobRecord {
   std::string error;                    // one line; empty unless it failed
   std::string parameters;               // JSON, for who runs it
   std::int64_t created = 0, ended = 0;  // milliseconds since 1970, UTC; 0: not yet
+  std::string webhook = {};             // a URL that is told of its end; empty: none
 
   bool operator==(const JobRecord&) const = default;
 };
@@ -84,6 +91,9 @@ struct PageOf {
   std::uint32_t limit = 50;      // 1..kMaxPage of catalogue.h
 };
 
+// How many jobs are in each state, in the order of JobState.
+using JobCounts = std::array<std::uint64_t, 6>;
+
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
 // kIo where the database refuses, kState as stated.
 class JobCatalogue {
@@ -104,6 +114,7 @@ class JobCatalogue {
   virtual Expected<std::vector<JobRecord>> jobs(const PageOf& page) = 0;
   virtual Expected<std::vector<ScanEntry>> scans(const PageOf& page) = 0;
   virtual Expected<std::vector<JobRecord>> unfinished_jobs() = 0;  // oldest first
+  virtual Expected<JobCounts> count_jobs() = 0;
 
   // The job that was added with this key, and the request of then.
   struct Earlier {

@@ -53,6 +53,18 @@ ALTER TABLE scan ADD COLUMN empty_rows REAL;
 ALTER TABLE scan ADD COLUMN saturated_rows REAL;
 ALTER TABLE scan ADD COLUMN doubled_rows REAL;
 )sql",
+    R"sql(
+ALTER TABLE model ADD COLUMN more TEXT NOT NULL DEFAULT '{}';
+ALTER TABLE model ADD COLUMN accuracy REAL;
+ALTER TABLE model ADD COLUMN version INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE model ADD COLUMN public_max_level INTEGER;
+ALTER TABLE model ADD COLUMN public_file BLOB;
+ALTER TABLE model ADD COLUMN public_file_bytes INTEGER;
+ALTER TABLE model ADD COLUMN public_head_bytes INTEGER;
+ALTER TABLE model ADD COLUMN public_faces INTEGER;
+ALTER TABLE model ADD COLUMN public_vertices INTEGER;
+ALTER TABLE job ADD COLUMN webhook TEXT NOT NULL DEFAULT '';
+)sql",
 };
 constexpr std::int64_t kSchemaVersion = std::size(kMigrations);
 

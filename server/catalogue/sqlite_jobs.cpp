@@ -16,7 +16,8 @@ using sqlite::Statement;
 using sqlite::Transaction;
 
 constexpr std::string_view kJobColumns =
-    "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended";
+    "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended, "
+    "webhook";
 constexpr std::string_view kScanColumns =
     "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
     "created, "
@@ -44,7 +45,7 @@ Statement& bind_record(Statement& row, const JobRecord& job) {
   bind_id(row, job.scan);
   bind_id(row, job.model);
   row.bind(job.stage).bind_real(job.progress).bind(job.error).bind(job.parameters);
-  return row.bind(job.created).bind(job.ended);
+  return row.bind(job.created).bind(job.ended).bind(job.webhook);
 }
 
 Statement& bind_record(Statement& row, const ScanEntry& scan) {
@@ -72,6 +73,7 @@ void read(const Statement& row, JobRecord& job) {
   job.parameters = row.text(9);
   job.created = row.integer(10);
   job.ended = row.integer(11);
+  job.webhook = row.text(12);
 }
 
 void read(const Statement& row, ScanEntry& scan) {
@@ -153,6 +155,17 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
       Statement rows(database_,
                      fmt::format("SELECT {} FROM job WHERE state < ? ORDER BY id", kJobColumns));
       return all<JobRecord>(rows.bind(number(JobState::kDone)));
+    });
+  }
+
+  Expected<JobCounts> count_jobs() override {
+    return guarded<JobCounts>([&]() -> Expected<JobCounts> {
+      Statement row(database_, "SELECT state, count(*) FROM job GROUP BY state");
+      JobCounts counts{};
+      while (row.step())
+        counts.at(static_cast<std::size_t>(row.integer(0))) =
+            static_cast<std::uint64_t>(row.integer(1));
+      return counts;
     });
   }
 

@@ -18,8 +18,8 @@ struct Command {
   Outcome (*run)(const Arguments& arguments);
 };
 
-extern const Command kBuild, kInfo, kDecode, kVerify, kMeasure, kPublish, kCalibrate, kScan,
-    kReprocess, kMerge, kToken;
+extern const Command kBuild, kInfo, kDecode, kVerify, kMeasure, kPublish, kFetch, kCalibrate, kScan,
+    kReprocess, kMerge, kToken, kBackup, kRestore, kDoctor;
 
 // Runs a whole command line (without the program's name). Prints the fault, returns the exit code.
 int run(std::span<const std::string_view> words);

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "codec/files/file_descriptor.h"
-#include "codec/progressive/manifest.h"
+#include "codec/progressive/signature.h"
 
 namespace vitrine::cli {
 namespace {
@@ -62,8 +62,7 @@ InputFile::~InputFile() {
 }
 
 bool InputFile::is_pmesh() const {
-  const auto length = header_bytes(bytes_.first(std::min(bytes_.size(), kHeaderPrefix)));
-  return length.has_value() || length.error().code == ErrorCode::kUnsupported;
+  return vitrine::is_pmesh(bytes_);
 }
 
 }  // namespace vitrine::cli

@@ -11,6 +11,7 @@
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
 #include "server/cli/reading.h"
+#include "server/cli/remote_vitrine.h"
 #include "server/jobs/build_model.h"
 #include "server/jobs/verify_model.h"
 #include "server/store/installation.h"
@@ -40,21 +41,72 @@ tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& 
   return product->file;
 }
 
+tl::expected<InputFile, Fault> open_input(const Arguments& arguments) {
+  auto file = InputFile::open(arguments.operand(0));
+  if (!file) return failed(file.error());
+  if (file->is_pmesh() && (arguments.has("--unit") || arguments.has("--up")))
+    return misused("--unit and --up are for meshes; a .pmesh has its own, so build it again");
+  return std::move(*file);
+}
+
+// The server opens no files beside the mesh: what has some is built here.
+tl::expected<Bytes, Fault> bytes_to_send(const InputFile& file, const std::string& path,
+                                         ReadOptions reading) {
+  const CompanionFiles companions(path, file.bytes());
+  reading.beside = companions.contents();
+  if (!file.is_pmesh() && !reading.beside.empty()) return make_pmesh(file, path, reading, {});
+  return Bytes(file.bytes().begin(), file.bytes().end());
+}
+
+// The id of the model, once it is public.
+tl::expected<std::string, Fault> publish_bytes(RemoteVitrine& remote, const Bytes& bytes,
+                                               nlohmann::json order) {
+  ProgressBar bar;
+  const auto upload = remote.upload(bytes, bar.report());
+  if (!upload) return tl::unexpected(upload.error());
+  order["upload"] = *upload;
+  const auto started = remote.ask("POST", "/api/v1/models", order, "Idempotency-Key: " + *upload);
+  if (!started) return tl::unexpected(started.error());
+  const auto done = remote.await(started->value("job", ""), bar.report());
+  if (!done) return tl::unexpected(done.error());
+  return done->value("model", "");
+}
+
+nlohmann::json order_of(const Arguments& arguments, const ReadOptions& reading) {
+  const std::string stem = std::filesystem::path(arguments.operand(0)).stem().string();
+  nlohmann::json order = {{"publish", true}, {"up", reading.up == UpAxis::kZ ? "z" : "y"}};
+  order["metadata"]["title"] = arguments.text("--title", stem);
+  if (!reading.unit.empty()) order["unit"] = reading.unit;
+  return order;
+}
+
+Outcome publish_at_server(const Arguments& arguments) {
+  if (arguments.has("--data")) return misused("give --data or --server; leave one of them out");
+  auto remote = RemoteVitrine::of(arguments);
+  if (!remote) return tl::unexpected(remote.error());
+  const auto reading = reading_options(arguments);
+  if (!reading) return tl::unexpected(reading.error());
+  const std::string path = arguments.operand(0);
+  const auto file = open_input(arguments);
+  if (!file) return tl::unexpected(file.error());
+  const auto bytes = bytes_to_send(*file, path, *reading);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto id = publish_bytes(*remote, *bytes, order_of(arguments, *reading));
+  if (!id) return failed(fmt::format("{}: {}", path, id.error().message));
+  const std::string url = remote->origin() + "/models/" + *id;
+  return arguments.has("--json") ? print_json({{"id", *id}, {"url", url}}) : print(url);
+}
+
 Outcome publish_file(const Arguments& arguments) {
-  if (arguments.has("--server") || arguments.has("--token")) {
-    return failed(
-        "publishing to a remote server is not available in this version; run "
-        "vitrine publish IN --data DIR on the server itself");
-  }
-  if (!arguments.has("--data")) return misused("--data is missing; name the data folder");
+  if (arguments.has("--server")) return publish_at_server(arguments);
+  if (arguments.has("--token")) return misused("--token goes with --server; leave it out");
+  if (!arguments.has("--data"))
+    return misused("--data or --server is missing; name the data folder or the server");
   auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
   const std::string path = arguments.operand(0);
-  const auto file = InputFile::open(path);
-  if (!file) return failed(file.error());
-  if (file->is_pmesh() && (arguments.has("--unit") || arguments.has("--up"))) {
-    return misused("--unit and --up are for meshes; a .pmesh has its own, so build it again");
-  }
+  const auto file = open_input(arguments);
+  if (!file) return tl::unexpected(file.error());
   const std::filesystem::path data = arguments.text("--data");
   if (const auto usable = check_installation(data); !usable) return failed(usable.error());
   if (const auto there = check_data_folder(data); !there) return failed(there.error());
@@ -84,8 +136,8 @@ constexpr std::string_view kPublishOperands[] = {"IN"};
 constexpr Flag kPublishFlags[] = {{"--data", "DIR", "the daemon's data folder; it may be running"},
                                   kUnitFlag,
                                   kUpFlag,
-                                  {"--server", "URL", "a remote server (not in this version)"},
-                                  {"--token", "T", "its access token (not in this version)"},
+                                  {"--server", "URL", "or a server: its URL"},
+                                  {"--token", "T", "an operator's token of the server"},
                                   {"--title", "T", "default: the file's name"},
                                   {"--json", "", "print one JSON object: id and url"}};
 

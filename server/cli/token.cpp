@@ -5,6 +5,7 @@
 #include "server/auth/role.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
+#include "server/cli/remote_vitrine.h"
 #include "server/store/installation.h"
 
 namespace vitrine::cli {
@@ -19,25 +20,48 @@ Expected<Installation> open_existing(const std::string& data) {
   return open_installation(data);
 }
 
+// Of a server, or of a data folder.
+tl::expected<nlohmann::json, Fault> make_token(const Arguments& arguments, Role role) {
+  const std::string label = arguments.text("--label");
+  if (arguments.has("--server")) {
+    auto remote = RemoteVitrine::of(arguments);
+    if (!remote) return tl::unexpected(remote.error());
+    return remote->ask("POST", "/api/v1/tokens", {{"role", name_of(role)}, {"label", label}});
+  }
+  const auto installation = open_existing(arguments.text("--data"));
+  if (!installation) return failed(installation.error());
+  const auto token = create_token(*installation->catalogue, role, label);
+  if (!token) return failed(token.error());
+  return nlohmann::json{{"id", token->id.to_string()},
+                        {"role", name_of(role)},
+                        {"label", label},
+                        {"token", token->text}};
+}
+
+Outcome revoke_token(const Arguments& arguments, const ModelId& id) {
+  if (arguments.has("--server")) {
+    auto remote = RemoteVitrine::of(arguments);
+    if (!remote) return tl::unexpected(remote.error());
+    const auto revoked = remote->ask("DELETE", "/api/v1/tokens/" + id.to_string());
+    return revoked ? Outcome{} : tl::unexpected(revoked.error());
+  }
+  const auto installation = open_existing(arguments.text("--data"));
+  if (!installation) return failed(installation.error());
+  const auto revoked = installation->catalogue->revoke_token(id);
+  return revoked ? Outcome{} : failed(revoked.error());
+}
+
 Outcome create(const Arguments& arguments) {
   if (!arguments.has("--role")) return misused("--role is missing; give viewer, operator or admin");
   if (arguments.has("--id")) return misused("--id goes with revoke; leave it out");
   const auto choice = arguments.choice("--role", kRoleNames);
   if (!choice) return tl::unexpected(choice.error());
-  const auto installation = open_existing(arguments.text("--data"));
-  if (!installation) return failed(installation.error());
-  const Role role = *parse_role(kRoleNames[*choice]);
-  const auto token = create_token(*installation->catalogue, role, arguments.text("--label"));
-  if (!token) return failed(token.error());
-  if (arguments.has("--json")) {
-    return print_json({{"id", token->id.to_string()},
-                       {"role", name_of(role)},
-                       {"label", arguments.text("--label")},
-                       {"token", token->text}});
-  }
+  const auto token = make_token(arguments, *parse_role(kRoleNames[*choice]));
+  if (!token) return tl::unexpected(token.error());
+  if (arguments.has("--json")) return print_json(*token);
   print_note(fmt::format("token {} is shown this once; keep it where only its user can read it",
-                         token->id.to_string()));
-  return print(token->text);
+                         token->value("id", "")));
+  return print(token->value("token", ""));
 }
 
 Outcome revoke(const Arguments& arguments) {
@@ -45,10 +69,7 @@ Outcome revoke(const Arguments& arguments) {
     return misused("--role and --label go with create; leave them out");
   const auto id = ModelId::parse(arguments.text("--id"));
   if (!id) return misused("--id is missing or no id; give the one that create has printed");
-  const auto installation = open_existing(arguments.text("--data"));
-  if (!installation) return failed(installation.error());
-  if (const auto revoked = installation->catalogue->revoke_token(*id); !revoked)
-    return failed(revoked.error());
+  if (const auto revoked = revoke_token(arguments, *id); !revoked) return revoked;
   if (!arguments.has("--json")) return print(id->to_string());
   return print_json({{"id", id->to_string()}});
 }
@@ -57,12 +78,8 @@ Outcome change_tokens(const Arguments& arguments) {
   const std::string action = arguments.operand(0);
   if (action != kActions[0] && action != kActions[1])
     return misused(fmt::format("unknown action \"{}\"; give create or revoke", action));
-  if (arguments.has("--server") || arguments.has("--token")) {
-    return failed(
-        "tokens of a remote server are not available in this version; run vitrine token with "
-        "--data DIR on the server itself");
-  }
-  if (!arguments.has("--data")) return misused("--data is missing; name the data folder");
+  if (arguments.has("--data") == arguments.has("--server"))
+    return misused("--data or --server is missing; name the data folder or the server, not both");
   return action == "create" ? create(arguments) : revoke(arguments);
 }
 
@@ -72,8 +89,8 @@ constexpr Flag kFlags[] = {
     {"--role", "R", "create: viewer, operator or admin"},
     {"--label", "L", "create: whose token it is, for people"},
     {"--id", "ID", "revoke: the id that create has printed"},
-    {"--server", "URL", "a remote server (not in this version)"},
-    {"--token", "T", "its access token (not in this version)"},
+    {"--server", "URL", "or a server: its URL"},
+    {"--token", "T", "an administrator's token of the server"},
     {"--json", "", "print one JSON object: id, role, label and token"}};
 
 }  // namespace

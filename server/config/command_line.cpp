@@ -230,10 +230,14 @@ std::string reference() {
       "vitrined serves progressive meshes over HTTP and WebSocket.\n\n"
       "Usage: vitrined [--config FILE] [--KEY VALUE]...\n\n"
       "Each key can be given in the file (key = value), in the environment (VITRINE_KEY) and as a\n"
-      "flag (--key); a flag wins over the environment, which wins over the file.\n\n";
+      "flag (--key); a flag wins over the environment, which wins over the file. SIGHUP reads all\n"
+      "three again: what is reloadable takes effect, unless there is a fault, which the log "
+      "tells.\n"
+      "SIGUSR1 opens the access log anew, for those who rotate it.\n\n";
   for (const Option& option : options()) {
-    text += fmt::format("  --{} {}\n      {} Default: {}\n", option.key, type_name(option.type),
-                        option.doc, option.default_value.empty() ? "none" : option.default_value);
+    text += fmt::format("  --{} {}\n      {} Default: {}{}\n", option.key, type_name(option.type),
+                        option.doc, option.default_value.empty() ? "none" : option.default_value,
+                        option.reloadable ? "; reloadable" : "");
   }
   text += "\n";
   for (const ActionFlag& action : kActions) {
@@ -246,8 +250,9 @@ std::string print_config(const CommandLine& line) {
   std::string text;
   for (const SettingSource& setting : line.sources) {
     const Option& option = *find_option(setting.key);
-    text += fmt::format("# {}\n# {}; {}; from {}\n", option.doc, type_name(option.type),
-                        environment_name(option), setting.source);
+    text += fmt::format("# {}\n# {}; {}; from {}{}\n", option.doc, type_name(option.type),
+                        environment_name(option), setting.source,
+                        option.reloadable ? "; reloadable" : "");
     text += option.secret ? fmt::format("# {} is not shown\n\n", option.key)
                           : fmt::format("{} = \"{}\"\n\n", option.key, setting.value);
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/config/options.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <sys/un.h>
 
 #include <algorithm>
 #include <array>
@@ -23,14 +23,18 @@ Expected<std::uint64_t> parse_number(std::string_view text, std::uint64_t min, s
   return value;
 }
 
-bool is_numeric_address(std::string_view host) {
-  const std::string address(host.substr(0, host.find('%')));  // without the zone of fe80::1%eth0
-  in6_addr parsed;
-  return ::inet_pton(AF_INET, address.c_str(), &parsed) == 1 ||
-         ::inet_pton(AF_INET6, address.c_str(), &parsed) == 1;
+Expected<Endpoint> parse_unix_socket(std::string_view path) {
+  if (path.empty() || path.size() >= sizeof(sockaddr_un::sun_path)) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is not the path of a socket, 1 to {} bytes; give one", path,
+                            sizeof(sockaddr_un::sun_path) - 1));
+  }
+  return Endpoint{.path = std::string(path)};
 }
 
 Expected<Endpoint> parse_endpoint(std::string_view text) {
+  constexpr std::string_view kUnix = "unix:";
+  if (text.starts_with(kUnix)) return parse_unix_socket(text.substr(kUnix.size()));
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0) {
     return fail(ErrorCode::kBadInput,
@@ -39,14 +43,14 @@ Expected<Endpoint> parse_endpoint(std::string_view text) {
   std::string_view host = text.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
   if (host == "localhost") host = "127.0.0.1";
-  if (!is_numeric_address(host)) {
+  if (!is_address(host.substr(0, host.find('%')))) {  // without the zone of fe80::1%eth0
     return fail(
         ErrorCode::kBadInput,
         fmt::format("'{}' is not a numeric address; give, for example, 127.0.0.1 or [::1]", host));
   }
   const auto port = parse_number(text.substr(colon + 1), 0, 65535);
   if (!port) return Unexpected(port.error());
-  return Endpoint{std::string(host), static_cast<std::uint16_t>(*port)};
+  return Endpoint{.host = std::string(host), .port = static_cast<std::uint16_t>(*port)};
 }
 
 template <auto Member>
@@ -63,14 +67,53 @@ Expected<void> path(Settings& settings, std::string_view text) {
   return {};
 }
 
-Expected<void> scanners(Settings& settings, std::string_view text) {
-  settings.scanners.clear();
+// Replaces `list` by the parts of "A,B,…". `missing`: what to say of an empty one.
+template <class List>
+Expected<void> parse_list(List& list, std::string_view text, const char* missing) {
+  list.clear();
   while (!text.empty()) {
     const std::string_view one = text.substr(0, text.find(','));
-    if (one.empty()) return fail(ErrorCode::kBadInput, "a path in it is empty; name the rig.json");
-    settings.scanners.emplace_back(one);
+    if (one.empty()) return fail(ErrorCode::kBadInput, missing);
+    list.emplace_back(one);
     text.remove_prefix(std::min(text.size(), one.size() + 1));
   }
+  return {};
+}
+
+// As browsers write it: scheme, host in lower case, the port where it is not the scheme's.
+bool is_origin(std::string_view text) {
+  const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
+  const std::string_view host = text.substr(scheme);
+  return scheme > 0 && !host.empty() && std::ranges::all_of(host, [](unsigned char c) {
+           return std::islower(c) || std::isdigit(c) ||
+                  std::string_view("-.:[]").find(static_cast<char>(c)) != std::string_view::npos;
+         });
+}
+
+Expected<void> origins(Settings& settings, std::string_view text) {
+  if (auto done = parse_list(settings.allowed_origins, text, "an origin in it is empty"); !done)
+    return done;
+  for (const std::string& origin : settings.allowed_origins) {
+    if (is_origin(origin)) continue;
+    return fail(
+        ErrorCode::kBadInput,
+        fmt::format("'{}' is no origin; give, for example, https://museum.example", origin));
+  }
+  return {};
+}
+
+Expected<void> scanners(Settings& settings, std::string_view text) {
+  return parse_list(settings.scanners, text, "a path in it is empty; name the rig.json");
+}
+
+Expected<void> webhook_hosts(Settings& settings, std::string_view text) {
+  return parse_list(settings.webhook_hosts, text, "a host in it is empty; name the server");
+}
+
+Expected<void> trusted_proxies(Settings& settings, std::string_view text) {
+  auto networks = Networks::parse(text);
+  if (!networks) return Unexpected(networks.error());
+  settings.trusted_proxies = std::move(*networks);
   return {};
 }
 
@@ -88,12 +131,41 @@ Expected<void> number(Settings& settings, std::string_view text) {
   return {};
 }
 
+// An origin and, behind a proxy that adds one, a path; what a browser would show.
+Expected<void> public_url(Settings& settings, std::string_view text) {
+  while (text.ends_with('/'))
+    text.remove_suffix(1);
+  const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
+  const auto fits = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-._~:/[]").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && (scheme == 0 || text.size() == scheme || !std::ranges::all_of(text, fits))) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is no URL; give, for example, https://museum.example", text));
+  }
+  settings.public_url = std::string(text);
+  return {};
+}
+
 using S = Settings;
+constexpr bool kReloadable = true;
 using enum OptionType;
 
 constexpr std::array kOptions{
     Option{"listen", kEndpoint, "127.0.0.1:8080",
-           "Where visitors connect. Port 0 takes any free port.", false, endpoint<&S::listen>},
+           "Where visitors connect. Port 0 takes any free port; unix:/PATH is a Unix socket.",
+           false, endpoint<&S::listen>},
+    Option{
+        "tls-certificate", kPath, "",
+        "The certificate chain (PEM) that 'listen' speaks TLS with; empty is without TLS. It and "
+        "the key are read again when they change.",
+        false, path<&S::tls_certificate>},
+    Option{"tls-key", kPath, "", "The certificate's private key (PEM).", false, path<&S::tls_key>},
+    Option{"trusted-proxies", kNetworks, "",
+           "Whose X-Forwarded-For, X-Forwarded-Proto and Forwarded are believed: addresses, "
+           "networks, or unix.",
+           false, trusted_proxies},
     Option{"data", kPath, "./data", "The folder of this installation: objects and catalogue.",
            false, data_folder},
     Option{"port-file", kPath, "", "A file to write the port of 'listen' to once it is bound.",
@@ -105,22 +177,59 @@ constexpr std::array kOptions{
            "A file to write the port of 'admin-listen' to once it is bound.", false,
            path<&S::admin_port_file>},
     Option{"access-log", kPath, "-", "One line per request. '-' is standard error; empty is none.",
-           false, path<&S::access_log>},
+           false, path<&S::access_log>, kReloadable},
     Option{"threads", kCount, "0", "Threads that serve connections. 0 is one per core.", false,
            number<&S::threads, 0, 1024>},
     Option{"max-connections", kCount, "10000", "Connections beyond this number are closed at once.",
            false, number<&S::max_connections, 1, 1'000'000>},
+    Option{"max-connections-per-address", kCount, "5000",
+           "Likewise of one address that is no trusted proxy's. 0 is no limit.", false,
+           number<&S::max_connections_per_address, 0, 1'000'000>},
+    Option{"request-rate", kCount, "1000",
+           "Requests a second that each address and each token may make beyond what is answered "
+           "from memory, ten seconds' worth at once. 0 is no limit.",
+           false, number<&S::request_rate, 0, 1'000'000>},
+    Option{"min-rate", kBytes, "256",
+           "Bytes a second that a reader takes on average, or it is cut. 0 is no limit.", false,
+           number<&S::min_rate, 0, 1'000'000'000>},
     Option{"idle-timeout", kSeconds, "30",
            "How long a connection may take for a request's header, or to accept more bytes.", false,
            number<&S::idle_timeout, 1, 3600>},
     Option{"stop-timeout", kSeconds, "20",
            "After SIGTERM, how long transfers may take to finish before they are cut.", false,
-           number<&S::stop_timeout, 0, 3600>},
-    Option{"export-cache", kBytes, "268435456", "Memory for exported files that are kept ready.",
-           false, number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>},
+           number<&S::stop_timeout, 0, 3600>, kReloadable},
+    Option{"export-cache", kBytes, "268435456",
+           "Memory for exported files and posters that are kept ready.", false,
+           number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
+           kReloadable},
+    Option{"allowed-origins", kOrigins, "",
+           "The sites whose pages may open streams besides this one's. Empty: every site's, but "
+           "with a token none's.",
+           false, origins, kReloadable},
+    Option{"max-upload", kBytes, "8589934592", "Bytes that an uploaded file may have.", false,
+           number<&S::max_upload_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
+    Option{"max-uploads", kCount, "16", "Uploads that one token may have open at a time.", false,
+           number<&S::max_uploads, 1, 100'000>},
+    Option{"upload-lifetime", kSeconds, "86400",
+           "How long an upload is kept after its last piece, unless a job uses it.", false,
+           number<&S::upload_lifetime, 1, 31'536'000>},
+    Option{"collect-after", kSeconds, "3600",
+           "How long a stored file is kept that no model names any more.", false,
+           number<&S::collect_after, 0, 31'536'000>},
+    Option{"quota", kBytes, "0", "Bytes that models and uploads together may take. 0: no limit.",
+           false, number<&S::quota_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
+    Option{
+        "webhook-hosts", kNames, "",
+        "The servers that may be told of the ends of jobs: HOST or HOST:PORT, separated by commas.",
+        false, webhook_hosts},
     Option{"scanners", kPaths, "",
            "The rig.json files of the scanners that this daemon drives, separated by commas.",
            false, scanners},
+    Option{
+        "public-url", kUrl, "",
+        "What visitors' addresses begin with, where a proxy changes that: https://museum.example. "
+        "Empty: what each request says.",
+        false, public_url, kReloadable},
 };
 
 }  // namespace
@@ -156,6 +265,14 @@ std::string_view type_name(OptionType type) {
       return "BYTES";
     case kPaths:
       return "PATH,...";
+    case kOrigins:
+      return "ORIGIN,...";
+    case kUrl:
+      return "URL";
+    case kNames:
+      return "NAME,...";
+    case kNetworks:
+      return "NETWORK,...";
   }
   return "";
 }

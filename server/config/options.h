@@ -12,7 +12,18 @@
 
 namespace vitrine {
 
-enum class OptionType { kEndpoint, kPath, kCount, kSeconds, kBytes, kPaths };
+enum class OptionType {
+  kEndpoint,
+  kPath,
+  kCount,
+  kSeconds,
+  kBytes,
+  kPaths,
+  kOrigins,
+  kNames,
+  kNetworks,
+  kUrl
+};
 
 struct Option {
   std::string_view key;  // flag --key, environment VITRINE_KEY with underscores, file "key = value"
@@ -22,6 +33,7 @@ struct Option {
   bool secret;  // never printed
   // Parses and range-checks `text`; the error says what is expected.
   Expected<void> (*apply)(Settings& settings, std::string_view text);
+  bool reloadable = false;  // SIGHUP takes a new value; the others wait for a new start
 };
 
 std::span<const Option> options();

@@ -9,11 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "server/config/networks.h"
+
 namespace vitrine {
 
 struct Endpoint {
   std::string host;        // a numeric address
   std::uint16_t port = 0;  // 0: any free port
+  std::string path = {};   // of a Unix socket, in place of both
 
   bool operator==(const Endpoint&) const = default;
 };
@@ -30,7 +33,21 @@ struct Settings {
   std::chrono::seconds idle_timeout{};  // for a whole request header, and for each write to advance
   std::chrono::seconds stop_timeout{};  // from SIGTERM to the end
   std::uint64_t export_cache_bytes = 0;
+  std::vector<std::string> allowed_origins;  // "https://museum.example"
+  std::uint64_t max_upload_bytes = 0;
+  std::uint32_t max_uploads = 0;                // open at a time, of one token
+  std::chrono::seconds upload_lifetime{};       // since its last piece
+  std::chrono::seconds collect_after{};         // that an object stays which nothing names
+  std::uint64_t quota_bytes = 0;                // of models and uploads; 0: none
+  std::vector<std::string> webhook_hosts;       // host or host:port
   std::vector<std::filesystem::path> scanners;  // their rig.json files
+  std::filesystem::path tls_certificate;        // empty: no TLS
+  std::filesystem::path tls_key;
+  Networks trusted_proxies;
+  std::uint32_t max_connections_per_address = 0;
+  std::uint32_t request_rate = 0;  // a second, of each address and token; 0: no limit
+  std::uint32_t min_rate = 0;      // bytes a second that the reader of an answer takes at least
+  std::string public_url;  // what addresses begin with, no slash at its end; empty: the request's
 };
 
 }  // namespace vitrine

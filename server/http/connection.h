@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "server/http/beast.h"
+#include "server/transport/byte_stream.h"
 
 namespace vitrine {
 
@@ -15,13 +16,13 @@ namespace vitrine {
 struct Connection : std::enable_shared_from_this<Connection> {
   using Clock = std::chrono::steady_clock;
 
-  explicit Connection(Tcp::socket s) : socket(std::move(s)) {}
+  explicit Connection(ByteStream::Socket s) : socket(std::move(s)), remote(socket.peer_address()) {}
 
-  Tcp::socket socket;
-  std::string remote;       // the peer's address
-  bool idle = false;        // between two requests: may be closed without loss
-  bool reads_body = false;  // is told of its deadline before it is cut: it has an answer to give
-  bool draining = false;    // the answer under way is the last one
+  ByteStream socket;
+  const std::string remote;  // the peer's address, or "unix"
+  bool idle = false;         // between two requests: may be closed without loss
+  bool reads_body = false;   // is told of its deadline before it is cut: it has an answer to give
+  bool draining = false;     // the answer under way is the last one
   std::function<void()> on_drain;  // how an upgraded connection says goodbye; empty before
 
   // The sweeper closes the socket once this has passed; one store per step is all it costs.

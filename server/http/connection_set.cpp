@@ -39,11 +39,15 @@ void post(const std::shared_ptr<Connection>& connection, void (*action)(Connecti
 
 }  // namespace
 
-bool ConnectionSet::add(const std::shared_ptr<Connection>& connection) {
+ConnectionSet::Admission ConnectionSet::add(const std::shared_ptr<Connection>& connection) {
+  const bool is_proxy = proxies_.contain(connection->remote);
   const std::scoped_lock lock(mutex_);
-  if (draining_ || connections_.size() >= capacity_) return false;
+  if (draining_ || connections_.size() >= capacity_) return Admission::kFull;
+  std::size_t& count = of_address_[connection->remote];
+  if (count >= per_address_ && !is_proxy) return Admission::kAddressFull;
+  ++count;
   connections_.emplace(connection.get(), connection);
-  return true;
+  return Admission::kAdmitted;
 }
 
 void ConnectionSet::remove(const Connection& connection) {
@@ -51,6 +55,8 @@ void ConnectionSet::remove(const Connection& connection) {
   {
     const std::scoped_lock lock(mutex_);
     connections_.erase(&connection);
+    const auto count = of_address_.find(connection.remote);
+    if (--count->second == 0) of_address_.erase(count);
     if (connections_.empty()) on_empty = std::exchange(on_empty_, nullptr);
   }
   if (on_empty) on_empty();

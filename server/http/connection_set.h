@@ -7,6 +7,7 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "server/config/networks.h"
 #include "server/http/connection.h"
 
 namespace vitrine {
@@ -14,9 +15,12 @@ namespace vitrine {
 // Thread-safe.
 class ConnectionSet {
  public:
-  explicit ConnectionSet(std::size_t capacity) : capacity_(capacity) {}
+  // At most `capacity`, and `per_address` of each address but for the trusted proxies'.
+  ConnectionSet(std::size_t capacity, std::size_t per_address, Networks proxies = {})
+      : capacity_(capacity), per_address_(per_address), proxies_(std::move(proxies)) {}
 
-  bool add(const std::shared_ptr<Connection>& connection);  // false where the set is full
+  enum class Admission { kAdmitted, kFull, kAddressFull };
+  Admission add(const std::shared_ptr<Connection>& connection);
   void remove(const Connection& connection);
 
   // Closes every connection whose deadline has passed.
@@ -29,11 +33,13 @@ class ConnectionSet {
  private:
   std::vector<std::shared_ptr<Connection>> alive();
 
-  const std::size_t capacity_;
+  const std::size_t capacity_, per_address_;
+  const Networks proxies_;
   std::mutex mutex_;  // guards what follows
   bool draining_ = false;
   std::function<void()> on_empty_;
   std::unordered_map<const Connection*, std::weak_ptr<Connection>> connections_;
+  std::unordered_map<std::string, std::size_t> of_address_;
 };
 
 }  // namespace vitrine

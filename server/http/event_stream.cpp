@@ -37,7 +37,7 @@ asio::awaitable<std::uint64_t> send_events(Connection& connection, EventSource& 
     if (const auto event = source.next()) text = event_text(*event);
     if (text.empty() && Connection::Clock::now() - spoke >= kHeartbeat) text = ":\n\n";
     if (!text.empty()) {
-      const std::uint64_t sent = co_await send_text(connection, text, patience);
+      const std::uint64_t sent = co_await send_text(connection, text, {.patience = patience});
       total += sent;
       if (sent < text.size()) break;
       spoke = Connection::Clock::now();

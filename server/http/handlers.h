@@ -10,11 +10,17 @@ namespace vitrine {
 // models.cpp
 Response list_models(const Request& request, Services& services);  // ?q= &limit= &cursor= &drafts=
 Response show_model(const Request& request, Services& services);
-Response show_manifest(const Request& request, Services& services);
+Response show_manifest(const Request& request, Services& services);  // ? as of exports, to foresee
+std::optional<Response> show_held_manifest(const Request& request, Services& services);
 Response show_head(const Request& request, Services& services);
 Response show_file(const Request& request, Services& services);
 Response publish_model(const Request& request, Services& services);
 Response unpublish_model(const Request& request, Services& services);  // a draft again
+
+// model_orders.cpp
+Response make_model(const Request& request, Services& services);    // of an upload; 202: a job
+Response change_model(const Request& request, Services& services);  // texts, unit, what is public
+Response remove_model(const Request& request, Services& services);
 
 // chunks.cpp
 Response show_chunk(const Request& request, Services& services);
@@ -25,8 +31,24 @@ Response show_model_chunk(const Request& request, Services& services);
 Response export_model(const Request& request,
                       Services& services);  // ?triangles= | error= | bytes= | level=
 
+// posters.cpp
+Response show_poster(const Request& request, Services& services);  // ?width=; PNG
+
+// iiif.cpp
+Response show_iiif_manifest(const Request& request, Services& services);
+Response redirect_to_iiif(const Request& request, Services& services);  // from its short address
+
+// oembed.cpp
+Response show_oembed(const Request& request,
+                     Services& services);  // ?url= maxwidth maxheight format
+
+// openapi.cpp
+Response show_openapi(const Request& request, Services& services);
+
 // streams.cpp
-Response open_stream(const Request& request, Services& services);  // 101: go on as a WebSocket
+// ?head=; 101: go on as a WebSocket
+Response open_stream(const Request& request, Services& services);
+bool asks_for_head(std::string_view target);  // of a request that open_stream() has let in
 
 // scanners.cpp
 Response list_scanners(const Request& request, Services& services);
@@ -59,9 +81,22 @@ Response cancel_job(const Request& request, Services& services);
 Response resume_job(const Request& request, Services& services);
 Response show_job_events(const Request& request, Services& services);
 
+// uploads.cpp: tus 1.0
+Response show_upload_options(const Request& request, Services& services);
+Response create_upload(const Request& request, Services& services);
+Response show_upload(const Request& request, Services& services);
+Response append_to_upload(const Request& request, Services& services);
+Response remove_upload(const Request& request, Services& services);
+
+// tokens.cpp
+Response list_tokens(const Request& request, Services& services);
+Response add_token(const Request& request, Services& services);  // {"role": r, "label": l}
+Response revoke_token(const Request& request, Services& services);
+
 // pages.cpp
 Response show_gallery(const Request& request, Services& services);
 Response show_viewer(const Request& request, Services& services);
+Response show_docs(const Request& request, Services& services);
 Response show_scan_page(const Request& request, Services& services);
 Response show_asset(const Request& request, Services& services);
 

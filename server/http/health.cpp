@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+
 #include "server/http/handlers.h"
+#include "server/http/job_json.h"
 #include "server/http/problem.h"
 #include "server/http/services.h"
 
@@ -11,6 +15,31 @@ Response text(std::string body) {
   response.type = "text/plain; charset=utf-8";
   response.body = std::move(body);
   return response;
+}
+
+void append_exports(std::string& text, ExportCache& exports) {
+  append_metric(text, "vitrine_export_cache_hits_total", "", "counter",
+                "Exports and posters that were ready.", exports.hits.load());
+  append_metric(text, "vitrine_exports_made_total", "", "counter",
+                "Exports and posters that were computed.", exports.made.load());
+  append_metric(text, "vitrine_export_cache_bytes", "", "gauge", "Held ready.", exports.bytes());
+}
+
+// Without a catalogue there are no numbers: /readyz says why.
+void append_jobs(std::string& text, JobQueue& jobs) {
+  const auto counts = jobs.count();
+  for (std::size_t i = 0; counts && i < counts->size(); ++i) {
+    append_metric(text, "vitrine_jobs", fmt::format("{{state=\"{}\"}}", kJobStates[i]), "gauge",
+                  i == 0 ? "Jobs by state, as the catalogue has them." : "", (*counts)[i]);
+  }
+}
+
+void append_disk(std::string& text, const std::filesystem::path& data) {
+  struct statvfs disk {};
+  if (::statvfs(data.c_str(), &disk) != 0) return;
+  append_metric(text, "vitrine_data_free_bytes", "", "gauge",
+                "Free for this process on the disk of the data folder.",
+                std::uint64_t{disk.f_bavail} * disk.f_frsize);
 }
 
 }  // namespace
@@ -31,7 +60,13 @@ Response show_readyz(const Request& request, Services& services) {
 }
 
 Response show_metrics(const Request&, Services& services) {
-  Response response = text(services.metrics.text());
+  std::string samples = services.metrics.text();
+  append_metric(samples, "vitrine_build_info", "{version=\"" VITRINE_VERSION "\"}", "gauge",
+                "The version that runs.", 1);
+  append_exports(samples, services.exports);
+  append_jobs(samples, services.scans.jobs());
+  append_disk(samples, services.settings.get()->data);
+  Response response = text(std::move(samples));
   response.type = "text/plain; version=0.0.4; charset=utf-8";
   return response;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/http_server.h"
 
-#include <fmt/format.h>
+#include <sys/socket.h>
 
 #include "server/http/services.h"
 #include "server/http/session.h"
@@ -11,33 +11,13 @@ namespace {
 
 constexpr std::size_t kLanes = 16;
 
-Unexpected cannot_listen(const Endpoint& endpoint, const boost::system::error_code& error) {
-  const bool taken = error == asio::error::address_in_use;
-  return fail(ErrorCode::kIo, fmt::format("cannot listen on {}:{}: {}; {}", endpoint.host,
-                                          endpoint.port, error.message(),
-                                          taken ? "stop the other program or choose another port"
-                                                : "choose another address"));
-}
-
-Expected<void> bind(Tcp::acceptor& acceptor, const Endpoint& endpoint) {
-  boost::system::error_code error;
-  const auto address = asio::ip::make_address(endpoint.host, error);
-  if (error) return cannot_listen(endpoint, error);
-  const Tcp::endpoint local(address, endpoint.port);
-  acceptor.open(local.protocol(), error);
-  if (!error) acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
-  if (!error) acceptor.bind(local, error);
-  if (error) return cannot_listen(endpoint, error);
-  return {};
+// Best effort: nobody waits for the peer to take it.
+void answer_at_once(ByteStream& stream, std::string_view text) {
+  static_cast<void>(
+      ::send(stream.native_handle(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
 }  // namespace
-
-Expected<void> check_address(const Endpoint& endpoint) {
-  asio::io_context io;
-  Tcp::acceptor acceptor(io);
-  return bind(acceptor, endpoint);
-}
 
 Workers::Workers(unsigned threads, std::size_t max_exports)
     : pool_(threads), exports_(threads), export_seats_(std::make_shared<Seats>(max_exports)) {
@@ -68,17 +48,16 @@ HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& worker
       workers_(workers),
       options_(std::move(options)),
       router_(options_.routes),
-      connections_(options_.max_connections),
+      connections_(options_.max_connections, options_.max_connections_per_address,
+                   options_.proxies),
+      rate_limit_(options_.request_rate),
       strand_(asio::make_strand(io)),
       acceptor_(strand_),
       sweeper_(strand_) {}
 
 Expected<std::uint16_t> HttpServer::listen(const Endpoint& endpoint) {
-  if (auto bound = bind(acceptor_, endpoint); !bound) return Unexpected(bound.error());
-  boost::system::error_code error;
-  acceptor_.listen(asio::socket_base::max_listen_connections, error);
-  if (error) return cannot_listen(endpoint, error);
-  return acceptor_.local_endpoint().port();
+  socket_file_ = endpoint.path;
+  return vitrine::listen(acceptor_, endpoint);
 }
 
 void HttpServer::start() {
@@ -103,14 +82,23 @@ asio::awaitable<void> HttpServer::accept() {
   }
 }
 
-void HttpServer::admit(Tcp::socket socket) {
+void HttpServer::admit(ByteStream::Socket socket) {
   auto connection = std::make_shared<Connection>(std::move(socket));
-  if (!connections_.add(connection)) {
-    services_.metrics.refused.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
+  const auto admission = connections_.add(connection);
+  if (admission != ConnectionSet::Admission::kAdmitted)
+    return refuse(connection->socket, admission);
   const auto executor = connection->socket.get_executor();
   asio::co_spawn(executor, serve(std::move(connection)), asio::detached);
+}
+
+void HttpServer::refuse(ByteStream& stream, ConnectionSet::Admission why) {
+  services_.metrics.refused.fetch_add(1, std::memory_order_relaxed);
+  if (options_.tls) return;  // a handshake would be work
+  answer_at_once(stream, why == ConnectionSet::Admission::kFull
+                             ? "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\n"
+                               "Content-Length: 0\r\nConnection: close\r\n\r\n"
+                             : "HTTP/1.1 429 Too Many Requests\r\nRetry-After: 5\r\n"
+                               "Content-Length: 0\r\nConnection: close\r\n\r\n");
 }
 
 asio::awaitable<void> HttpServer::serve(std::shared_ptr<Connection> connection) {
@@ -130,6 +118,18 @@ asio::awaitable<void> HttpServer::sweep() {
     const auto [error] = co_await sweeper_.async_wait(kNoThrow);
     if (error) co_return;
     connections_.sweep();
+    refresh_certificate();
+  }
+}
+
+void HttpServer::refresh_certificate() {
+  if (!options_.tls) return;
+  const auto refreshed = options_.tls->refresh();
+  if (!refreshed) {
+    services_.errors.event(Severity::kError,
+                           "the certificate stays as it was: " + refreshed.error().message);
+  } else if (*refreshed) {
+    services_.errors.event(Severity::kInfo, "certificate read again");
   }
 }
 
@@ -137,6 +137,8 @@ void HttpServer::drain(std::function<void()> on_empty) {
   asio::post(strand_, [this, on_empty = std::move(on_empty)]() mutable {
     boost::system::error_code ignored;
     acceptor_.close(ignored);
+    std::error_code gone;
+    if (!socket_file_.empty()) std::filesystem::remove(socket_file_, gone);
     connections_.drain(std::move(on_empty));
   });
 }

@@ -8,10 +8,13 @@
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "server/auth/rate_limit.h"
 #include "server/config/settings.h"
 #include "server/http/beast.h"
 #include "server/http/connection_set.h"
+#include "server/http/listening.h"
 #include "server/http/router.h"
+#include "server/transport/live_tls.h"
 
 namespace vitrine {
 
@@ -21,6 +24,8 @@ struct StreamCall {
   beast::http::request<beast::http::string_body> request;
   ModelId model;
   std::string request_id;
+  bool authorised = false;  // the caller has a token
+  bool head = false;        // the model's head comes first
 };
 using StreamHandler = std::function<asio::awaitable<void>(StreamCall call)>;
 
@@ -63,16 +68,19 @@ struct HttpOptions {
   std::size_t max_connections = 1;
   std::chrono::seconds patience{30};
   StreamHandler stream;
+  std::shared_ptr<LiveTls> tls = {};  // null: without TLS
+  std::size_t max_connections_per_address = SIZE_MAX;
+  Networks proxies = {};
+  std::uint32_t request_rate = 0;  // RateLimit
+  std::uint32_t min_rate = 0;      // Pace
 };
-
-// Whether an HttpServer could listen there now. Fails (kIo) with the cause.
-Expected<void> check_address(const Endpoint& endpoint);
 
 class HttpServer {
  public:
   HttpServer(asio::io_context& io, Services& services, Workers& workers, HttpOptions options);
 
-  // Binds and listens, but accepts nobody yet: connections wait. Fails (kIo) with the cause.
+  // Binds and listens, but accepts nobody yet: connections wait. Returns the port, 0 for a Unix
+  // socket. Fails (kIo) with the cause.
   Expected<std::uint16_t> listen(const Endpoint& endpoint);
   void start();
 
@@ -84,10 +92,14 @@ class HttpServer {
   const HttpOptions& options() const { return options_; }
   Services& services() { return services_; }
   Workers& workers() { return workers_; }
+  asio::io_context& io() { return io_; }
+  RateLimit& rate_limit() { return rate_limit_; }
 
  private:
   asio::awaitable<void> accept();
-  void admit(Tcp::socket socket);
+  void admit(ByteStream::Socket socket);
+  void refuse(ByteStream& stream, ConnectionSet::Admission why);
+  void refresh_certificate();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
   asio::awaitable<void> sweep();
 
@@ -97,8 +109,10 @@ class HttpServer {
   const HttpOptions options_;
   const Router router_;
   ConnectionSet connections_;
+  RateLimit rate_limit_;
   asio::strand<asio::io_context::executor_type> strand_;  // of the two below
-  Tcp::acceptor acceptor_;
+  Acceptor acceptor_;
+  std::filesystem::path socket_file_;  // empty but for a Unix socket
   asio::steady_timer sweeper_;
 };
 

@@ -16,9 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kKinds[] = {"scan", "calibrate", "reprocess"};
-constexpr std::string_view kStates[] = {"queued", "running", "paused",
-                                        "done",   "failed",  "cancelled"};
+constexpr std::string_view kKinds[] = {"scan", "calibrate", "reprocess", "publish"};
 constexpr std::string_view kScannerStates[] = {"idle", "busy", "unreachable"};
 constexpr std::size_t kMaxKey = 200;
 
@@ -36,7 +34,7 @@ Json number_or_null(const auto& number) {
 
 std::string_view state_of_scan(const JobRecord& job) {
   if (job.state == JobState::kQueued) return "waiting";
-  if (job.state != JobState::kRunning) return kStates[static_cast<std::size_t>(job.state)];
+  if (job.state != JobState::kRunning) return kJobStates[static_cast<std::size_t>(job.state)];
   return job.stage.empty() ? std::string_view("waiting") : std::string_view(job.stage);
 }
 
@@ -61,13 +59,13 @@ Json job_json(const JobStatus& job) {
   const JobRecord& record = job.record;
   return {{"id", record.id.to_string()},
           {"kind", kKinds[static_cast<std::size_t>(record.kind)]},
-          {"state", kStates[static_cast<std::size_t>(record.state)]},
+          {"state", kJobStates[static_cast<std::size_t>(record.state)]},
           {"stage", text_or_null(record.stage)},
           {"progress", record.progress},
           {"eta", number_or_null(job.eta)},
           {"error", text_or_null(record.error)},
           {"note", text_or_null(job.note)},
-          {"scanner", record.scanner},
+          {"scanner", text_or_null(record.scanner)},
           {"scan", id_or_null(record.scan)},
           {"model", id_or_null(record.model)},
           {"created", timestamp(record.created)},

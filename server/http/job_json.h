@@ -11,6 +11,10 @@
 
 namespace vitrine {
 
+// In the order of JobState.
+inline constexpr std::string_view kJobStates[] = {"queued", "running", "paused",
+                                                  "done",   "failed",  "cancelled"};
+
 // As everybody may see it: the server's own words may tell its paths.
 JobStatus without_reasons(JobStatus job);
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/http/timestamp.h"
+#include "server/store/change.h"
 
 namespace vitrine {
 namespace {
@@ -17,25 +18,32 @@ std::string dump(const Json& json) {
 
 Json model(const ModelRecord& record) {
   const std::string self = "/api/v1/models/" + record.id.to_string();
-  return {{"id", record.id.to_string()},
-          {"state", record.state == ModelState::kPublished ? "published" : "draft"},
-          {"title", record.title},
-          {"creator", record.creator},
-          {"rights", record.rights},
-          {"licence", record.licence},
-          {"unit", record.unit},
-          {"created", timestamp(record.created)},
-          {"vertices", record.vertices},
-          {"faces", record.faces},
-          {"bytes", record.file_bytes},
-          {"head_bytes", record.head_bytes},
-          {"links",
-           {{"self", self},
-            {"page", "/models/" + record.id.to_string()},
-            {"manifest", self + "/manifest"},
-            {"head", self + "/head"},
-            {"file", self + "/file.pmesh"},
-            {"stream", self + "/stream"}}}};
+  Json json = {{"id", record.id.to_string()},
+               {"state", record.state == ModelState::kPublished ? "published" : "draft"},
+               {"title", record.title},
+               {"creator", record.creator},
+               {"rights", record.rights},
+               {"licence", record.licence},
+               {"unit", record.unit},
+               {"accuracy", record.accuracy ? Json(*record.accuracy) : Json(nullptr)},
+               {"public_max_level",
+                record.public_part ? Json(record.public_part->max_level) : Json(nullptr)},
+               {"created", timestamp(record.created)},
+               {"vertices", record.vertices},
+               {"faces", record.faces},
+               {"bytes", record.file_bytes},
+               {"head_bytes", record.head_bytes},
+               {"links",
+                {{"self", self},
+                 {"page", "/models/" + record.id.to_string()},
+                 {"manifest", self + "/manifest"},
+                 {"head", self + "/head"},
+                 {"file", self + "/file.pmesh"},
+                 {"stream", self + "/stream"},
+                 {"poster", self + "/poster.png"}}}};
+  for (const auto& [name, text] : record.more)
+    json[name] = text;
+  return json;
 }
 
 Json vector(const Vec3& v) {
@@ -87,23 +95,34 @@ Json chunks(const Manifest& manifest) {
   return all;
 }
 
+// `seconds` is how long the client's line takes for the bytes; null where it was not told of.
+Json expectation(const Wish& wish, const Manifest& manifest) {
+  const Outlook outlook = outlook_of(wish.want, manifest);
+  const double kilobits = static_cast<double>(outlook.bytes) * 8 / 1000;
+  return {{"level", outlook.level},
+          {"triangles", outlook.triangles},
+          {"bytes", outlook.bytes},
+          {"error", outlook.error},
+          {"seconds", wish.kbps > 0 ? Json(kilobits / wish.kbps) : Json(nullptr)}};
+}
+
 }  // namespace
 
 std::string model_json(const ModelRecord& record) {
   return dump(model(record));
 }
 
-std::string model_page_json(const ModelPage& page) {
+std::string model_page_json(const ModelPage& page, bool whole) {
   Json json = {{"models", Json::array()}, {"next", nullptr}};
   for (const ModelRecord& record : page.models)
-    json["models"].push_back(model(record));
+    json["models"].push_back(model(whole ? record : public_view(record)));
   if (page.next) json["next"] = page.next->to_string();
   return dump(json);
 }
 
-std::string manifest_json(const PublishedModel& published) {
+std::string manifest_json(const PublishedModel& published, const std::optional<Wish>& wish) {
   const Manifest& manifest = published.manifest();
-  return dump({{"id", published.record().id.to_string()},
+  Json json = {{"id", published.record().id.to_string()},
                {"sha256", to_hex(published.record().file)},
                {"bytes", manifest.file_bytes},
                {"head_bytes", manifest.head_bytes()},
@@ -120,7 +139,9 @@ std::string manifest_json(const PublishedModel& published) {
                 {{"offset", manifest.base_offset},
                  {"length", manifest.base_length},
                  {"sha256", to_hex(manifest.base_sha256)}}},
-               {"chunks", chunks(manifest)}});
+               {"chunks", chunks(manifest)}};
+  if (wish) json["expect"] = expectation(*wish, manifest);
+  return dump(json);
 }
 
 }  // namespace vitrine

@@ -8,21 +8,12 @@
 #include "server/http/model_json.h"
 #include "server/http/published.h"
 #include "server/http/query.h"
+#include "server/http/wish.h"
 
 namespace vitrine {
 namespace {
 
 using Faults = std::vector<ParameterFault>;
-
-Response json_response(std::string body) {
-  Response response;
-  response.type = "application/json";
-  response.caching = Caching::kRevalidate;
-  response.etag =
-      '"' + to_hex(sha256({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()})) + '"';
-  response.body = std::move(body);
-  return response;
-}
 
 // Bytes of the model's file under a name that changes with the file: "<sha256><suffix>".
 Response stored(const std::shared_ptr<const PublishedModel>& model, ByteRange range,
@@ -89,19 +80,48 @@ Response list_models(const Request& request, Services& services) {
   if (wanted.drafts && !request.caller) return token_needed(request);
   const auto page = services.catalogue.search(wanted);
   if (!page) return internal_error(page.error(), request, services);
-  Response response = json_response(model_page_json(*page));
+  Response response =
+      revalidated("application/json", model_page_json(*page, request.caller.has_value()));
   if (wanted.drafts) response.caching = Caching::kPrivate;
   return response;
 }
 
 Response show_model(const Request& request, Services& services) {
-  return with_model(request, services,
-                    [](const auto& model) { return json_response(model_json(model->record())); });
+  return with_model(request, services, [](const auto& model) {
+    return revalidated("application/json", model_json(model->record()));
+  });
 }
 
 Response show_manifest(const Request& request, Services& services) {
-  return with_model(request, services,
-                    [](const auto& model) { return json_response(manifest_json(*model)); });
+  const auto query = Query::parse(request.query);
+  if (!query) return problem(400, "the query is malformed", request.id);
+  return with_model(request, services, [&](const auto& model) {
+    const auto wish = read_wish(*query, request.header, model->manifest());
+    if (!wish) return problem(400, "a parameter is out of range", request.id, {wish.error()});
+    const bool asked = wish->stated || saves_data(request.header);
+    Response response = revalidated(
+        "application/json", manifest_json(*model, asked ? std::optional(*wish) : std::nullopt));
+    response.fields = {{"Vary", "Save-Data"}};
+    if (!asked) model->keep_manifest({std::get<std::string>(response.body), response.etag});
+    return response;
+  });
+}
+
+std::optional<Response> show_held_manifest(const Request& request, Services& services) {
+  const bool is_plain = request.query.empty() && !saves_data(request.header) &&
+                        request.header.count(beast::http::field::authorization) == 0;
+  if (!is_plain) return std::nullopt;
+  const auto model = services.models.held(request.parameters.id);
+  const auto kept = model ? model->kept_manifest() : nullptr;
+  if (!kept) return std::nullopt;
+  const auto* text = reinterpret_cast<const std::uint8_t*>(kept->text.data());
+  Response response;
+  response.type = "application/json";
+  response.caching = Caching::kRevalidate;
+  response.etag = kept->etag;
+  response.fields = {{"Vary", "Save-Data"}};
+  response.body = SharedBytes{kept, {text, kept->text.size()}};
+  return response;
 }
 
 Response show_head(const Request& request, Services& services) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/handlers.h"
+#include "server/http/preview.h"
+#include "server/http/public_url.h"
 #include "server/http/published.h"
 
 namespace vitrine {
@@ -23,8 +25,18 @@ Response show_gallery(const Request& request, Services& services) {
 }
 
 Response show_viewer(const Request& request, Services& services) {
-  return with_model(request, services,
-                    [&](const auto&) { return page("/model.html", request, services); });
+  return with_model(request, services, [&](const auto& model) {
+    const WebPage* found = services.pages.find("/model.html");
+    if (found == nullptr) return problem(404, "there is no such page", request.id);
+    const std::span html = found->asset.bytes;
+    return revalidated(found->asset.type,
+                       with_preview({reinterpret_cast<const char*>(html.data()), html.size()},
+                                    model->record(), origin_of(request, services)));
+  });
+}
+
+Response show_docs(const Request& request, Services& services) {
+  return page("/docs.html", request, services);
 }
 
 // For every id: which scans there are is for the API to tell, and whom.

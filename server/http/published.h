@@ -43,14 +43,16 @@ Response with_published(const Request& request, Services& services, Answer&& ans
   return with_found(services.models.find(request.parameters.id), request, services, answer);
 }
 
-// With that or, where the caller has a token, a draft: what is told of one is for nobody to keep.
+// With that or, where the caller has a token, a draft, or all of a model of which less is public:
+// what is told of those is for nobody to keep.
 template <class Answer>
 Response with_model(const Request& request, Services& services, Answer&& answer) {
   const FoundModel published = services.models.find(request.parameters.id);
-  if (!request.caller || !published || *published)
+  const bool is_all = published && *published && !(*published)->record().public_part;
+  if (!request.caller || !published || is_all)
     return with_found(published, request, services, answer);
   Response response =
-      with_found(services.models.open_draft(request.parameters.id), request, services, answer);
+      with_found(services.models.open_whole(request.parameters.id), request, services, answer);
   response.caching = Caching::kPrivate;
   return response;
 }

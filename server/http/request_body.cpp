@@ -8,8 +8,6 @@
 namespace vitrine {
 namespace {
 
-using Json = nlohmann::json;
-
 // Parameters ("; charset=utf-8") do not matter: JSON is UTF-8.
 bool is_json(std::string_view media_type) {
   std::string_view name = media_type.substr(0, media_type.find(';'));
@@ -21,8 +19,8 @@ bool is_json(std::string_view media_type) {
 // Watches the parser's events: what is wrong is known before it has been built.
 class Watch {
  public:
-  bool operator()(int depth, Json::parse_event_t event, const Json& value) {
-    using Event = Json::parse_event_t;
+  bool operator()(int depth, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
+    using Event = nlohmann::json::parse_event_t;
     const bool starts = event == Event::object_start || event == Event::array_start;
     if (starts && depth >= kMaxBodyDepth) too_deep_ = true;
     if (event == Event::object_start) names_.emplace_back();
@@ -41,15 +39,16 @@ class Watch {
 
 }  // namespace
 
-tl::expected<Json, BodyFault> parse_body(std::string_view media_type, std::string_view text) {
-  if (text.empty()) return Json::object();
+tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
+                                                   std::string_view text) {
+  if (text.empty()) return nlohmann::json::object();
   if (text.size() > kMaxRequestBody) return tl::unexpected(BodyFault{413, "the body is too large"});
   if (!is_json(media_type))
     return tl::unexpected(BodyFault{415, "send the body as application/json"});
   // The library would take this byte for the end.
   if (text.find('\0') != text.npos) return tl::unexpected(BodyFault{400, "the body is not JSON"});
   Watch watch;
-  Json json = Json::parse(text, std::ref(watch), /*allow_exceptions=*/false);
+  nlohmann::json json = nlohmann::json::parse(text, std::ref(watch), /*allow_exceptions=*/false);
   if (watch.too_deep()) return tl::unexpected(BodyFault{400, "the body is nested too deep"});
   if (watch.repeated()) return tl::unexpected(BodyFault{400, "the body has a name twice"});
   if (!json.is_object()) return tl::unexpected(BodyFault{400, "the body is not a JSON object"});

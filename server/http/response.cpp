@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <ctime>
-#include <iterator>
+#include <initializer_list>
 
+#include "codec/core/sha256.h"
 #include "server/http/http_header.h"
 
 namespace vitrine {
@@ -38,26 +39,53 @@ std::string_view http_date() {
   return text;
 }
 
+// Pages run our own modules, their worker and WebAssembly, and nothing that somebody has written
+// into a title.
+constexpr std::string_view kPagePolicy =
+    "Content-Security-Policy: default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; "
+    "worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
+    "connect-src 'self' ws: wss:; object-src 'none'; base-uri 'none'; form-action 'self'\r\n"
+    "Referrer-Policy: strict-origin-when-cross-origin\r\n";
+
 std::string_view reason(unsigned status) {
   const auto text = beast::http::obsolete_reason(static_cast<beast::http::status>(status));
   return {text.data(), text.size()};
 }
 
+void append(std::string& text, std::initializer_list<std::string_view> parts) {
+  for (const std::string_view part : parts)
+    text += part;
+}
+
 }  // namespace
+
+std::string entity_tag(std::string_view body) {
+  return '"' + to_hex(sha256({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()})) +
+         '"';
+}
+
+Response revalidated(std::string_view type, std::string body) {
+  Response response;
+  response.type = type;
+  response.caching = Caching::kRevalidate;
+  response.etag = entity_tag(body);
+  response.body = std::move(body);
+  return response;
+}
 
 std::string response_head(const Response& response, const HeadOptions& options) {
   std::string head;
-  head.reserve(512);
-  const auto out = std::back_inserter(head);
-  fmt::format_to(out, "HTTP/1.1 {} {}\r\nDate: {}\r\nServer: vitrine\r\nX-Request-Id: {}\r\n",
-                 response.status, reason(response.status), http_date(), options.request_id);
-  if (!response.type.empty()) fmt::format_to(out, "Content-Type: {}\r\n", response.type);
+  head.reserve(1024);
+  append(head, {"HTTP/1.1 ", fmt::format_int(response.status).c_str(), " ", reason(response.status),
+                "\r\nDate: ", http_date(),
+                "\r\nServer: vitrine\r\nX-Request-Id: ", options.request_id, "\r\n"});
+  if (!response.type.empty()) append(head, {"Content-Type: ", response.type, "\r\n"});
   if (response.status != 204 && response.status != 304 && !response.events) {
-    fmt::format_to(out, "Content-Length: {}\r\n", body_size(response.body));
+    append(head, {"Content-Length: ", fmt::format_int(body_size(response.body)).c_str(), "\r\n"});
   }
-  fmt::format_to(out, "Cache-Control: {}\r\n", cache_control(response.caching));
+  append(head, {"Cache-Control: ", cache_control(response.caching), "\r\n"});
   if (!response.etag.empty()) {
-    fmt::format_to(out, "ETag: {}\r\nAccept-Ranges: bytes\r\n", response.etag);
+    append(head, {"ETag: ", response.etag, "\r\nAccept-Ranges: bytes\r\n"});
   }
   if (options.public_read) {
     head +=
@@ -66,8 +94,10 @@ std::string response_head(const Response& response, const HeadOptions& options) 
         "Cross-Origin-Resource-Policy: cross-origin\r\n";
   }
   head += "X-Content-Type-Options: nosniff\r\n";
+  if (response.type.starts_with("text/html")) head += kPagePolicy;
+  if (options.encrypted) head += "Strict-Transport-Security: max-age=31536000\r\n";
   for (const auto& [name, value] : response.fields)
-    fmt::format_to(out, "{}: {}\r\n", name, value);
+    append(head, {name, ": ", value, "\r\n"});
   if (!options.keep_alive) {
     head += "Connection: close\r\n";
   } else if (options.version < 11) {

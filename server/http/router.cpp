@@ -65,8 +65,12 @@ std::string_view allowed_by(Method method) {
       return "GET, HEAD, ";
     case Method::kPost:
       return "POST, ";
+    case Method::kPatch:
+      return "PATCH, ";
     case Method::kDelete:
       return "DELETE, ";
+    case Method::kOptions:
+      break;  // of every path
   }
   return "";
 }
@@ -97,7 +101,7 @@ std::optional<std::size_t> Router::find(const RouteMatch& match, Method method) 
 
 std::string Router::allow(const RouteMatch& match) const {
   std::string methods;
-  for (const Method method : {Method::kGet, Method::kPost, Method::kDelete}) {
+  for (const Method method : {Method::kGet, Method::kPost, Method::kPatch, Method::kDelete}) {
     if (find(match, method)) methods += allowed_by(method);
   }
   return methods + "OPTIONS";

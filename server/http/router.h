@@ -39,6 +39,7 @@ struct Request {
   const nlohmann::json& body;  // an object; empty where the request has none
   // Whose token it is. Where the route asks for a role, there is one, and its role suffices.
   const std::optional<Caller>& caller;
+  bool encrypted = false;  // the visitor came by https
 };
 
 using Handler = Response (*)(const Request& request, Services& services);
@@ -53,7 +54,8 @@ enum class Place : std::uint8_t {
   kDevice,  // on a thread for what waits for devices: it may do so for seconds
 };
 
-enum class Method : std::uint8_t { kGet, kPost, kDelete };  // kGet answers HEAD as well
+// kGet answers HEAD as well. What a path takes is told without a route for kOptions.
+enum class Method : std::uint8_t { kGet, kPost, kPatch, kDelete, kOptions };
 
 struct Route {
   Method method;
@@ -62,7 +64,8 @@ struct Route {
   Place place;
   Role role = Role::kNone;       // the least that a caller needs; kNone: everybody may
   QuickHandler quick = nullptr;  // tried first, on the connection's own thread, for everybody
-  bool reads_body = true;        // of a POST; else whatever the body is does not matter
+  bool reads_body = true;        // of a POST or PATCH: JSON; else it does not matter, or goes
+                                 // where the answer's sink is
 };
 
 // Whether other origins' pages may read the answers.

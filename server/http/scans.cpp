@@ -60,6 +60,14 @@ Response unknown_calibration(const Request& request) {
   return invalid({{"calibration", "the number of one of the scanner's calibrations"}}, request);
 }
 
+bool allows_webhook(const ScanOrder& order, Services& services) {
+  return order.webhook.empty() || services.webhooks.allows(order.webhook);
+}
+
+Response forbidden_webhook(const Request& request) {
+  return invalid({{"webhook", "a URL at a host of the setting webhook-hosts"}}, request);
+}
+
 std::string little_endian(std::span<const std::array<float, 3>> points) {
   static_assert(std::endian::native == std::endian::little);
   return {reinterpret_cast<const char*>(points.data()), points.size_bytes()};
@@ -73,6 +81,7 @@ Response start_scan(const Request& request, Services& services) {
   if (services.scans.scanner(order->scanner) == nullptr)
     return invalid({{"scanner", "the name of one of /api/v1/scanners"}}, request);
   if (!knows_calibration(*order, services)) return unknown_calibration(request);
+  if (!allows_webhook(*order, services)) return forbidden_webhook(request);
   const auto once = once_key(request);
   if (!once) return once.error();
   const auto scan = services.scans.scan(*order, *once);
@@ -150,6 +159,7 @@ Response reprocess_scan(const Request& request, Services& services) {
     const auto order = parse_reprocess_order(request.body, *before);
     if (!order) return invalid(order.error(), request);
     if (!knows_calibration(*order, services)) return unknown_calibration(request);
+    if (!allows_webhook(*order, services)) return forbidden_webhook(request);
     const auto once = once_key(request);
     if (!once) return once.error();
     const auto job = services.scans.reprocess(scan.entry, *order, *once);

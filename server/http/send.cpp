@@ -16,10 +16,31 @@ Bytes bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-// Gives the peer another `patience` to take bytes. False where the connection is gone.
-asio::awaitable<bool> wait_writable(Connection& connection, std::chrono::seconds patience) {
-  connection.expires_after(patience);
-  const auto [error] = co_await connection.socket.async_wait(Tcp::socket::wait_write, kNoThrow);
+// When a peer that takes bytes is too slow.
+class Patience {
+ public:
+  Patience(Connection& connection, Pace pace) : connection_(connection), pace_(pace) {}
+
+  // Another `patience` for the next byte, or until `sent` bytes are too few.
+  void renew(std::uint64_t sent) {
+    Connection::Clock::duration left = pace_.patience;
+    if (pace_.min_rate > 0) {
+      const auto allowed = pace_.patience + std::chrono::milliseconds(sent * 1000 / pace_.min_rate);
+      left = std::min(left, start_ + allowed - Connection::Clock::now());
+    }
+    connection_.expires_after(left);
+  }
+
+ private:
+  Connection& connection_;
+  const Pace pace_;
+  const Connection::Clock::time_point start_ = Connection::Clock::now();
+};
+
+// False where the connection is gone.
+asio::awaitable<bool> wait_writable(Connection& connection) {
+  const auto [error] =
+      co_await connection.socket.async_wait(ByteStream::Socket::wait_write, kNoThrow);
   co_return !error;
 }
 
@@ -28,8 +49,9 @@ constexpr std::uint64_t kBurst = 4 << 20;  // then it is another connection's tu
 // Calls `write(sent)` for the bytes from `sent` on until `size` are sent. `write` returns what the
 // socket took, or -1 and errno.
 template <class Write>
-asio::awaitable<std::uint64_t> send_all(Connection& connection, std::uint64_t size,
-                                        std::chrono::seconds patience, Write write) {
+asio::awaitable<std::uint64_t> send_all(Connection& connection, std::uint64_t size, Pace pace,
+                                        Write write) {
+  Patience patience(connection, pace);
   std::uint64_t sent = 0, pause = kBurst;
   while (sent < size) {
     if (sent >= pause) {
@@ -42,41 +64,57 @@ asio::awaitable<std::uint64_t> send_all(Connection& connection, std::uint64_t si
     } else if (taken == 0 || (errno != EAGAIN && errno != EINTR)) {
       break;
     } else if (errno == EAGAIN) {
-      const bool writable = co_await wait_writable(connection, patience);
+      patience.renew(sent);
+      const bool writable = co_await wait_writable(connection);
       if (!writable) break;
     }
   }
   co_return sent;
 }
 
+asio::awaitable<std::uint64_t> send_encrypted(Connection& connection, Bytes bytes, Pace pace) {
+  Patience patience(connection, pace);
+  std::uint64_t sent = 0;
+  while (sent < bytes.size()) {
+    patience.renew(sent);
+    const Bytes left = bytes.subspan(sent);
+    const auto [error, taken] = co_await connection.socket.async_write_some(
+        asio::buffer(left.data(), left.size()), kNoThrow);
+    if (error) break;
+    sent += taken;
+  }
+  co_return sent;
+}
+
 asio::awaitable<std::uint64_t> send_memory(Connection& connection, Bytes bytes, int flags,
-                                           std::chrono::seconds patience) {
+                                           Pace pace) {
+  if (connection.socket.is_encrypted()) co_return co_await send_encrypted(connection, bytes, pace);
   const int socket = connection.socket.native_handle();
   auto write = [socket, bytes, flags](std::uint64_t sent) {
     return ::send(socket, bytes.data() + sent, bytes.size() - sent, flags | MSG_NOSIGNAL);
   };
-  co_return co_await send_all(connection, bytes.size(), patience, write);
+  co_return co_await send_all(connection, bytes.size(), pace, write);
 }
 
 asio::awaitable<std::uint64_t> send_file(Connection& connection, int file, const StoredBytes& body,
-                                         std::chrono::seconds patience) {
+                                         Pace pace) {
   const int socket = connection.socket.native_handle();
   auto write = [socket, file, &body](std::uint64_t sent) {
     auto offset = static_cast<off_t>(body.offset + sent);
     return ::sendfile(socket, file, &offset, std::min(kBurst, body.length - sent));
   };
-  co_return co_await send_all(connection, body.length, patience, write);
+  co_return co_await send_all(connection, body.length, pace, write);
 }
 
-// An object without a descriptor: a piece at a time.
+// An object without a descriptor, or whose bytes are to be encrypted: a piece at a time.
 asio::awaitable<std::uint64_t> send_pieces(Connection& connection, const StoredBytes& body,
-                                           std::chrono::seconds patience) {
+                                           Pace pace) {
   constexpr std::uint64_t kPiece = 64 * 1024;
   std::uint64_t sent = 0;
   while (sent < body.length) {
     const auto piece = body.object->read(body.offset + sent, std::min(kPiece, body.length - sent));
     if (!piece) break;
-    const std::uint64_t taken = co_await send_memory(connection, *piece, 0, patience);
+    const std::uint64_t taken = co_await send_memory(connection, *piece, 0, pace);
     sent += taken;
     if (taken < piece->size()) break;
   }
@@ -84,35 +122,35 @@ asio::awaitable<std::uint64_t> send_pieces(Connection& connection, const StoredB
 }
 
 asio::awaitable<std::uint64_t> send_stored(Connection& connection, const StoredBytes& body,
-                                           std::chrono::seconds patience) {
-  if (const auto file = body.object->descriptor()) {
-    co_return co_await send_file(connection, *file, body, patience);
+                                           Pace pace) {
+  const auto file = body.object->descriptor();
+  if (file && !connection.socket.is_encrypted()) {
+    co_return co_await send_file(connection, *file, body, pace);
   }
-  co_return co_await send_pieces(connection, body, patience);
+  co_return co_await send_pieces(connection, body, pace);
 }
 
 }  // namespace
 
 asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string head, Body body,
-                                             std::chrono::seconds patience) {
-  connection.expires_after(patience);
+                                             Pace pace) {
+  connection.expires_after(pace.patience);
   const auto* text = std::get_if<std::string>(&body);
   if (text != nullptr) head += *text;
   const std::uint64_t text_size = text != nullptr ? text->size() : 0;
   const int flags = text == nullptr && body_size(body) > 0 ? MSG_MORE : 0;
-  const std::uint64_t sent = co_await send_memory(connection, bytes_of(head), flags, patience);
+  const std::uint64_t sent = co_await send_memory(connection, bytes_of(head), flags, pace);
   if (text != nullptr) co_return sent - std::min(sent, head.size() - text_size);
   if (sent < head.size()) co_return 0;
   if (const auto* shared = std::get_if<SharedBytes>(&body)) {
-    co_return co_await send_memory(connection, shared->bytes, 0, patience);
+    co_return co_await send_memory(connection, shared->bytes, 0, pace);
   }
-  co_return co_await send_stored(connection, std::get<StoredBytes>(body), patience);
+  co_return co_await send_stored(connection, std::get<StoredBytes>(body), pace);
 }
 
-asio::awaitable<std::uint64_t> send_text(Connection& connection, std::string_view text,
-                                         std::chrono::seconds patience) {
-  connection.expires_after(patience);
-  co_return co_await send_memory(connection, bytes_of(text), 0, patience);
+asio::awaitable<std::uint64_t> send_text(Connection& connection, std::string_view text, Pace pace) {
+  connection.expires_after(pace.patience);
+  co_return co_await send_memory(connection, bytes_of(text), 0, pace);
 }
 
 }  // namespace vitrine

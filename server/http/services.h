@@ -3,25 +3,38 @@
 #pragma once
 
 #include <atomic>
+#include <string>
+#include <vector>
 
 #include "server/auth/authenticator.h"
 #include "server/catalogue/catalogue.h"
+#include "server/config/live_settings.h"
 #include "server/http/export_cache.h"
 #include "server/http/web_pages.h"
+#include "server/jobs/collector.h"
 #include "server/jobs/scan_service.h"
+#include "server/jobs/webhooks.h"
 #include "server/log/log.h"
 #include "server/metrics/metrics.h"
 #include "server/store/published_model.h"
+#include "server/store/quota.h"
+#include "server/store/uploads.h"
 
 namespace vitrine {
 
 struct Services {
+  ObjectStore& store;
   Catalogue& catalogue;
   Authenticator& tokens;
   PublishedModels& models;
   ScanService& scans;
+  Uploads& uploads;
+  const Quota& quota;
+  Collector& collector;
+  const Webhooks& webhooks;
   ExportCache& exports;
   const WebPages& pages;
+  const LiveSettings& settings;
   Metrics& metrics;
   const Log& log;     // the access log
   const Log& errors;  // what the operator must know

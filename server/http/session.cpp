@@ -4,14 +4,17 @@
 #include <boost/beast/core/error.hpp>
 
 #include "server/http/authorise.h"
+#include "server/http/body_sink.h"
 #include "server/http/conditional.h"
 #include "server/http/event_stream.h"
 #include "server/http/framing.h"
+#include "server/http/handlers.h"
 #include "server/http/problem.h"
 #include "server/http/query.h"
 #include "server/http/request_body.h"
 #include "server/http/send.h"
 #include "server/http/services.h"
+#include "server/http/visitor.h"
 #include "server/log/request_id.h"
 
 namespace vitrine {
@@ -20,10 +23,12 @@ namespace {
 using beast::http::field;
 using beast::http::verb;
 using Parser = beast::http::request_parser<beast::http::string_body>;
+using PieceParser = beast::http::request_parser<beast::http::buffer_body>;
 
 constexpr std::uint32_t kMaxHeader = 16 * 1024;
 constexpr std::size_t kMaxTarget = 8 * 1024;
 constexpr std::size_t kMaxBuffer = 64 * 1024;  // the extensions of a chunked body have no limit
+constexpr std::size_t kPiece = 64 * 1024;      // of a body that goes to a sink
 constexpr std::size_t kIdleBuffer = 4 * 1024;  // what a connection that waits may keep
 constexpr std::chrono::seconds kLinger{2};
 
@@ -42,7 +47,9 @@ struct Exchange {
   nlohmann::json body = nlohmann::json::object();
   Response response;
   bool keep_alive = true;
+  bool has_poured = false;  // the whole body, into a sink
   bool public_read = true;
+  Visitor visitor;
 };
 
 enum class ReadResult { kRequest, kRejected, kClosed };
@@ -60,8 +67,12 @@ std::optional<Method> method_of(verb method) {
       return Method::kGet;
     case verb::post:
       return Method::kPost;
+    case verb::patch:
+      return Method::kPatch;
     case verb::delete_:
       return Method::kDelete;
+    case verb::options:
+      return Method::kOptions;
     default:
       return std::nullopt;
   }
@@ -94,6 +105,19 @@ Response busy(std::string_view id) {
   return response;
 }
 
+bool changes(Method method) {
+  return method != Method::kGet && method != Method::kOptions;
+}
+
+bool takes_json(const Route& route) {
+  return route.reads_body && (route.method == Method::kPost || route.method == Method::kPatch);
+}
+
+// Answers are made of the request's header, which the parser of the pieces has taken.
+void give_header_back(PieceParser& from, Parser& to) {
+  to.get().base() = std::move(from.get().base());
+}
+
 class Session {
  public:
   Session(std::shared_ptr<Connection> connection, HttpServer& server)
@@ -124,7 +148,7 @@ class Session {
       }
     }
     // A body that nobody has read: where the next request would start is unknown.
-    if (!parser.is_done()) exchange.keep_alive = false;
+    if (!parser.is_done() && !exchange.has_poured) exchange.keep_alive = false;
     if (exchange.response.status == 101 && parser.is_done()) {
       co_await stream(parser.release(), exchange);
       co_return false;
@@ -144,6 +168,8 @@ class Session {
     exchange.start = Connection::Clock::now();
     if (error) co_return rejected(error, exchange);
     exchange.keep_alive = parser.keep_alive();
+    exchange.visitor = visitor_of({connection_->remote, connection_->socket.is_encrypted()},
+                                  parser.get(), server_.options().proxies);
     if (const auto fault = framing_fault(parser.get()); !fault.empty()) {
       reject(exchange, 400, fault);
       co_return ReadResult::kRejected;
@@ -174,16 +200,8 @@ class Session {
       co_return ReadResult::kRejected;
     }
     parser.body_limit(kMaxRequestBody);  // of one that comes in chunks
-    if (parser.get().count(field::expect) > 0) {
-      if (!beast::iequals(parser.get()[field::expect], "100-continue")) {
-        reject(exchange, 417, "the only expectation met is 100-continue");
-        co_return ReadResult::kRejected;
-      }
-      constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-      const std::uint64_t sent =
-          co_await send_text(*connection_, kContinue, server_.options().patience);
-      if (sent < kContinue.size()) co_return ReadResult::kClosed;
-    }
+    const ReadResult expected = co_await meet_expectation(parser.get(), exchange);
+    if (expected != ReadResult::kRequest) co_return expected;
     connection_->reads_body = true;
     const auto [error, bytes] =
         co_await beast::http::async_read(connection_->socket, buffer_, parser, kNoThrow);
@@ -193,6 +211,60 @@ class Session {
       co_return ReadResult::kRejected;
     }
     co_return error ? rejected(error, exchange) : ReadResult::kRequest;
+  }
+
+  // Of a client that asks before it sends a body.
+  asio::awaitable<ReadResult> meet_expectation(const RequestHeader& header, Exchange& exchange) {
+    if (header.count(field::expect) == 0) co_return ReadResult::kRequest;
+    if (!beast::iequals(header[field::expect], "100-continue")) {
+      reject(exchange, 417, "the only expectation met is 100-continue");
+      co_return ReadResult::kRejected;
+    }
+    constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+    const std::uint64_t sent =
+        co_await send_text(*connection_, kContinue, {.patience = server_.options().patience});
+    co_return sent < kContinue.size() ? ReadResult::kClosed : ReadResult::kRequest;
+  }
+
+  // Has the answer's sink take the request's body, and make the answer. False where the peer has
+  // gone, or the daemon ends: what has come is kept.
+  asio::awaitable<bool> pour(Parser& parser, Exchange& exchange) {
+    const std::shared_ptr<BodySink> sink = std::move(exchange.response.sink);
+    const std::string target(parser.get().target());
+    bool goes_on = true;
+    if (!parser.is_done()) {
+      const ReadResult expected = co_await meet_expectation(parser.get(), exchange);
+      if (expected != ReadResult::kRequest) co_return expected == ReadResult::kRejected;
+      PieceParser pieces(std::move(parser));
+      std::optional<Response> refusal;
+      std::vector<std::uint8_t> piece(kPiece);
+      while (goes_on && !refusal && !pieces.is_done()) {
+        const std::size_t size = co_await read_piece(pieces, piece, goes_on);
+        if (size == 0) continue;
+        co_await on_worker(Place::kWorker, target,
+                           [&] { refusal = sink->take(std::span(piece).first(size)); });
+      }
+      exchange.has_poured = pieces.is_done();
+      give_header_back(pieces, parser);
+      if (refusal) exchange.response = std::move(*refusal);
+      if (refusal) co_return true;
+    }
+    co_await on_worker(Place::kWorker, target, [&] { exchange.response = sink->finish(); });
+    co_return goes_on;
+  }
+
+  // As much of the body as fits into `piece`, or as there is. `goes_on`: more may come.
+  asio::awaitable<std::size_t> read_piece(PieceParser& parser, std::span<std::uint8_t> piece,
+                                          bool& goes_on) {
+    auto& body = parser.get().body();
+    body.data = piece.data();
+    body.size = piece.size();
+    connection_->expires_after(server_.options().patience);
+    const auto [error, bytes] =
+        co_await beast::http::async_read(connection_->socket, buffer_, parser, kNoThrow);
+    const bool is_well = !error || error == beast::http::error::need_buffer;
+    goes_on = parser.is_done() || (is_well && !connection_->draining);
+    co_return piece.size() - body.size;
   }
 
   // Answers and closes: where the next request would start is unknown.
@@ -248,35 +320,49 @@ class Session {
     const Route& route = *exchange.route;
     exchange.public_read = is_public_read(route);
     const auto target = split_target(text(message.target()));
-    const Request request{message,     target->path,  target->query,  exchange.parameters,
-                          exchange.id, exchange.body, exchange.caller};
+    const Request request{message,     target->path,  target->query,   exchange.parameters,
+                          exchange.id, exchange.body, exchange.caller, exchange.visitor.encrypted};
     if (route.quick != nullptr) {
       if (auto quick = route.quick(request, server_.services())) {
         exchange.response = apply_conditions(message, std::move(*quick), exchange.id);
         co_return true;
       }
     }
+    if (route.place != Place::kInline && is_beyond_rate(exchange.visitor.address, exchange))
+      co_return true;
     if (needs_authorisation(route, message)) {
       const bool authorised = co_await authorise_caller(message, exchange);
       if (!authorised) co_return true;
     }
-    if (route.method == Method::kPost && route.reads_body) {
+    if (takes_json(route)) {
       const ReadResult read = co_await read_body(parser, exchange);
       if (read != ReadResult::kRequest) co_return read == ReadResult::kRejected;
     }
     co_await handle(request, exchange);
-    co_return true;
+    if (!exchange.response.sink) co_return true;
+    const bool poured = co_await pour(parser, exchange);
+    co_return poured;
+  }
+
+  // Sets the answer to one who asks too often.
+  bool is_beyond_rate(std::string_view who, Exchange& exchange) {
+    const auto wait = server_.rate_limit().take(who);
+    if (wait.count() == 0) return false;
+    exchange.response = problem(429, "too many requests; wait", exchange.id);
+    exchange.response.fields = {{"Retry-After", std::to_string(wait.count())}};
+    return true;
   }
 
   asio::awaitable<bool> authorise_caller(const Parser::value_type& message, Exchange& exchange) {
     Authorisation found;
-    const Credentials credentials{message, connection_->remote, exchange.id};
+    const Credentials credentials{message, exchange.visitor.address, exchange.id};
     co_await on_worker(Place::kWorker, text(message.target()), [&] {
       found = authorise(*exchange.route, credentials, server_.services());
     });
     exchange.caller = found.caller;
     if (found.refusal) exchange.response = std::move(*found.refusal);
-    co_return !found.refusal;
+    if (found.refusal || !found.caller) co_return !found.refusal;
+    co_return !is_beyond_rate(found.caller->token.to_string(), exchange);
   }
 
   asio::awaitable<void> handle(const Request& request, Exchange& exchange) {
@@ -323,7 +409,12 @@ class Session {
   asio::awaitable<void> stream(Parser::value_type request, Exchange& exchange) {
     const std::string target(request.target());
     connection_->never_expires();
-    StreamCall call{connection_, std::move(request), exchange.parameters.id, exchange.id};
+    StreamCall call{.connection = connection_,
+                    .request = std::move(request),
+                    .model = exchange.parameters.id,
+                    .request_id = exchange.id,
+                    .authorised = exchange.caller.has_value(),
+                    .head = asks_for_head(target)};
     buffer_ = beast::flat_buffer();
     co_await server_.options().stream(std::move(call));
     record(exchange, "GET", target, 101, 0);
@@ -335,14 +426,15 @@ class Session {
     Response& response = exchange.response;
     if (response.events) exchange.keep_alive = false;  // their end is the connection's
     const bool public_read = exchange.public_read && response.caching != Caching::kPrivate;
-    const HeadOptions options{exchange.id, exchange.keep_alive, public_read, request.version()};
+    const HeadOptions options{exchange.id, exchange.keep_alive, public_read, request.version(),
+                              connection_->socket.is_encrypted()};
     std::string head = response_head(response, options);
     const unsigned status = response.status;
     const bool with_body = request.method() != verb::head;
     Body body = with_body ? std::move(response.body) : Body();
     const std::uint64_t size = body_size(body);
-    std::uint64_t sent = co_await send_response(*connection_, std::move(head), std::move(body),
-                                                server_.options().patience);
+    std::uint64_t sent =
+        co_await send_response(*connection_, std::move(head), std::move(body), pace());
     if (response.events && with_body)
       sent = co_await send_events(*connection_, *response.events, server_.options().patience);
     record(exchange, text(request.method_string()), text(request.target()), status, sent);
@@ -356,19 +448,22 @@ class Session {
     const auto& templates = server_.router().templates();
     const std::string_view route =
         exchange.route_template < templates.size() ? templates[exchange.route_template] : "-";
-    if (exchange.route != nullptr && exchange.route->method != Method::kGet)
+    if (exchange.route != nullptr && changes(exchange.route->method))
       audit(exchange, route, method, target, status);
     if (!server_.options().recorded) return;
     const std::chrono::duration<double> seconds = Connection::Clock::now() - exchange.start;
     server_.services().metrics.request(exchange.route_template, status, bytes, seconds.count());
-    server_.services().log.access({.request_id = exchange.id,
-                                   .remote = connection_->remote,
+    const Log& log = server_.services().log;
+    const bool waits = log.access({.request_id = exchange.id,
+                                   .remote = exchange.visitor.address,
                                    .method = method,
                                    .route = route,
                                    .target = target,
                                    .status = status,
                                    .bytes = bytes,
                                    .seconds = seconds.count()});
+    // Once those are served whose turn it is now.
+    if (waits) asio::post(server_.io(), [&log] { log.flush(); });
   }
 
   // In the operator's log, which nothing switches off.
@@ -376,7 +471,7 @@ class Session {
              std::string_view target, unsigned status) {
     const std::string token = exchange.caller ? exchange.caller->token.to_string() : "-";
     server_.services().errors.audit({.request_id = exchange.id,
-                                     .remote = connection_->remote,
+                                     .remote = exchange.visitor.address,
                                      .token = token,
                                      .method = method,
                                      .route = route,
@@ -387,15 +482,17 @@ class Session {
   // Closing while the peer still sends would reset the connection, and the peer might lose our
   // answer: what it sends is read and dropped for a moment.
   asio::awaitable<void> linger() {
-    boost::system::error_code error;
-    connection_->socket.shutdown(Tcp::socket::shutdown_send, error);
     connection_->expires_after(kLinger);
+    co_await connection_->socket.finish();
+    boost::system::error_code error;
     std::array<char, 1024> dropped;
     while (!error) {
       std::tie(error, std::ignore) =
           co_await connection_->socket.async_read_some(asio::buffer(dropped), kNoThrow);
     }
   }
+
+  Pace pace() const { return {server_.options().patience, server_.options().min_rate}; }
 
   void close() {
     boost::system::error_code ignored;
@@ -413,8 +510,11 @@ class Session {
 asio::awaitable<void> run_session(std::shared_ptr<Connection> connection, HttpServer& server) {
   boost::system::error_code ignored;
   connection->socket.set_option(Tcp::no_delay(true), ignored);
-  connection->socket.non_blocking(true, ignored);
-  connection->remote = connection->socket.remote_endpoint(ignored).address().to_string();
+  if (const auto& tls = server.options().tls) {
+    connection->expires_after(server.options().patience);
+    const auto error = co_await connection->socket.encrypt(tls->current());
+    if (error) co_return;
+  }
   Session session(connection, server);
   co_await session.run();
 }

@@ -17,8 +17,10 @@
 #include <cstring>
 #include <string>
 
+#include "codec/progressive/signature.h"
 #include "server/jobs/build_model.h"
 #include "server/jobs/child_channel.h"
+#include "server/jobs/verify_model.h"
 
 // glibc 2.36 declares the calls for pidfds for C only.
 namespace vitrine {
@@ -26,10 +28,10 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// --build-child PARENT BITS PLACEMENT UP FOLDER; the mesh is standard input, the answer goes to
-// standard output.
+// --build-child PARENT BITS PLACEMENT UP UNIT FOLDER; the mesh is standard input, the answer goes
+// to standard output.
 constexpr std::string_view kChild = "--build-child";
-constexpr std::size_t kArguments = 6;
+constexpr std::size_t kArguments = 7;
 
 Unexpected refused(const char* what) {
   return fail(ErrorCode::kIo, fmt::format("cannot {}: {}; free some memory and try again", what,
@@ -73,6 +75,7 @@ Expected<pid_t> start(const BuildOrder& order, int mesh, int answer) {
       std::to_string(order.bits),
       std::to_string(static_cast<int>(order.placement)),
       std::to_string(order.z_is_up ? 1 : 0),
+      order.unit,
       order.folder.string()};
   std::string name = "vitrine-build";
   std::vector<char*> arguments = {name.data()};
@@ -116,6 +119,12 @@ void close_the_rest() {
   ::close_range(STDERR_FILENO + 1, ~0u, 0);
 }
 
+Expected<Bytes> verify(std::span<const std::uint8_t> pmesh, const ProgressReport& progress) {
+  const auto verified = verify_model(pmesh, std::nullopt, progress);
+  if (!verified) return Unexpected(verified.error());
+  return Bytes{};
+}
+
 }  // namespace
 
 void become_build_child(std::span<const std::string_view> arguments) {
@@ -125,11 +134,13 @@ void become_build_child(std::span<const std::string_view> arguments) {
   std::signal(SIGPIPE, SIG_DFL);
   close_the_rest();
   const auto mesh = map_input();
-  const BuildOptions options{.reading = {.up = arguments[4] == "1" ? UpAxis::kZ : UpAxis::kY},
-                             .bits = number(arguments[2]),
-                             .placement = static_cast<Placement>(number(arguments[3]))};
-  answer_and_exit(STDOUT_FILENO, limits_of(arguments[5]),
+  const BuildOptions options{
+      .reading = {.unit = arguments[5], .up = arguments[4] == "1" ? UpAxis::kZ : UpAxis::kY},
+      .bits = number(arguments[2]),
+      .placement = static_cast<Placement>(number(arguments[3]))};
+  answer_and_exit(STDOUT_FILENO, limits_of(arguments[6]),
                   [&](const ProgressReport& progress) -> Expected<Bytes> {
+                    if (is_pmesh(mesh)) return verify(mesh, progress);
                     auto built = build_model(mesh, options, progress);
                     if (!built) return Unexpected(built.error());
                     return std::move(built->file);
@@ -152,9 +163,14 @@ Expected<Bytes> BuildChild::build(std::span<const std::uint8_t> mesh, const Buil
                                   const ProgressReport& progress) {
   const auto input = hand_over(mesh);
   if (!input) return Unexpected(input.error());
+  return build(*input, order, progress);
+}
+
+Expected<Bytes> BuildChild::build(const FileDescriptor& mesh, const BuildOrder& order,
+                                  const ProgressReport& progress) {
   auto pipe = make_pipe();
   if (!pipe) return Unexpected(pipe.error());
-  const auto pid = start(order, input->get(), pipe->write.get());
+  const auto pid = start(order, mesh.get(), pipe->write.get());
   if (!pid) return Unexpected(pid.error());
   pipe->write.reset();
   watch(*pid);

@@ -13,7 +13,7 @@ namespace {
 
 // Jobs that need no device share a lane.
 std::string lane_name(const JobRecord& job) {
-  return job.kind == JobKind::kReprocess ? "" : job.scanner;
+  return needs_scanner(job.kind) ? job.scanner : "";
 }
 
 Unexpected stopping() {
@@ -174,7 +174,7 @@ Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<Scan
   if (!earlier) return Unexpected(earlier.error());
   if (*earlier) return **earlier;
   if (stopping_) return stopping();
-  if (job.kind != JobKind::kReprocess) {
+  if (needs_scanner(job.kind)) {
     if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
   }
   if (auto added = catalogue_.add(job, scan, once); !added) return Unexpected(added.error());
@@ -210,7 +210,7 @@ Expected<JobQueue::Run> JobQueue::unfinished(const JobId& id) const {
 JobQueue::Run JobQueue::run_of(const std::string& scanner) const {
   for (const auto& [id, run] : runs_) {
     const JobRecord job = run->job();
-    if (job.kind != JobKind::kReprocess && job.scanner == scanner) return run;
+    if (needs_scanner(job.kind) && job.scanner == scanner) return run;
   }
   return nullptr;
 }
@@ -251,6 +251,7 @@ void JobQueue::set_state(const Run& run, JobState state) {
   const JobRecord job = run->job();
   if (has_ended(state)) runs_.erase(job.id);
   store(job);
+  if (has_ended(state) && ended_) ended_(run->status());
 }
 
 Expected<JobStatus> JobQueue::pause(const JobId& id, std::string_view reason) {

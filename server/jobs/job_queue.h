@@ -87,6 +87,10 @@ class JobQueue {
   JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task);
   ~JobQueue() { stop(); }
 
+  // Has `told` called with every job that ends, by the thread that ends it, which waits: for who
+  // comes before start().
+  void when_ended(std::function<void(const JobStatus&)> told) { ended_ = std::move(told); }
+
   // Takes up what an earlier daemon left: what was paused stays paused, all else goes on.
   Expected<void> start();
 
@@ -110,6 +114,7 @@ class JobQueue {
   // Nothing where there is no such job.
   Expected<std::optional<JobStatus>> find(const JobId& id);
   Expected<std::vector<JobStatus>> list(const PageOf& page);
+  Expected<JobCounts> count() { return catalogue_.count_jobs(); }
 
   // An unfinished job, to be watched to its end; null where there is none.
   std::shared_ptr<const JobRun> run(const JobId& id) const;
@@ -147,6 +152,7 @@ class JobQueue {
   JobCatalogue& catalogue_;
   const Log& events_;
   const JobTask task_;
+  std::function<void(const JobStatus&)> ended_;
 
   mutable std::mutex mutex_;   // guards what follows
   std::map<JobId, Run> runs_;  // the unfinished ones

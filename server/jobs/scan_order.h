@@ -10,7 +10,7 @@
 
 #include "acquisition/session/scan_request.h"
 #include "codec/simplify/simplify.h"
-#include "server/store/publish.h"
+#include "server/jobs/order_fields.h"
 
 namespace vitrine {
 
@@ -24,6 +24,7 @@ struct ScanOrder {
 
   ModelMetadata metadata;
   bool publish = false;  // else a draft comes of it
+  std::string webhook;   // a URL that is told of the end; empty: none
 };
 
 inline constexpr int kLeastPoses = 3, kMostPoses = 200;
@@ -31,11 +32,6 @@ inline constexpr int kLeastPoses = 3, kMostPoses = 200;
 struct CalibrationOrder {
   int poses = 20;  // of the target, that somebody places by hand
 };
-
-struct FieldFault {
-  std::string field, detail;  // "metadata.title"; what is expected
-};
-using FieldFaults = std::vector<FieldFault>;
 
 // A new scan. All faults at once; a field that is not known is one.
 tl::expected<ScanOrder, FieldFaults> parse_scan_order(const nlohmann::json& body);

@@ -228,7 +228,9 @@ Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
   if (*begun) return ScanStarted{(*begun)->scan.value_or(ScanId()), (*begun)->id};
   auto calibrated = check_calibrated(scanner(order.scanner)->backend());
   if (!calibrated) return Unexpected(calibrated.error());
-  return add(new_job(JobKind::kScan, order.scanner), new_scan(order), once);
+  JobRecord job = new_job(JobKind::kScan, order.scanner);
+  job.webhook = order.webhook;
+  return add(std::move(job), new_scan(order), once);
 }
 
 Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOrder& order,
@@ -250,6 +252,7 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
   JobRecord job = new_job(JobKind::kReprocess, scan.scanner);
   job.scan = scan.id;
   job.parameters = to_json_text(whole);
+  job.webhook = whole.webhook;
   const auto added = queue_.add(job, std::nullopt, once);
   if (!added) return Unexpected(added.error());
   return ScanStarted{scan.id, added->id};
@@ -359,6 +362,7 @@ void ScanService::keep(const ScanEntry& entry) {
 
 Expected<JobEnd> ScanService::work(JobRun& run) {
   const JobRecord job = run.job();
+  if (job.kind == JobKind::kPublish) return means_.publishing(run);
   ScannerStation* station = scanner(job.scanner);
   if (station == nullptr) {
     return fail(ErrorCode::kState,

@@ -35,6 +35,7 @@ struct ScanMeans {
   std::filesystem::path data;                        // of the installation
   std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
   std::chrono::milliseconds patience{10'000};        // that devices stay open for the next command
+  JobTask publishing = {};                           // what becomes of jobs of that kind
 };
 
 // Thread-safe. Errors: kState where something is not possible now, kBadInput where an idempotency

@@ -21,12 +21,13 @@ bool is_plain(char c) {
   return c > ' ' && c < 0x7f && c != '"' && c != '=' && c != '\\';
 }
 
-template <class Out>
-void append_value(Out out, std::string_view value) {
-  if (!value.empty() && std::ranges::all_of(value, is_plain)) {
-    fmt::format_to(out, "{}", value);
-    return;
-  }
+void append_text(Line& line, std::string_view text) {
+  line.append(text.data(), text.data() + text.size());
+}
+
+void append_value(Line& line, std::string_view value) {
+  if (!value.empty() && std::ranges::all_of(value, is_plain)) return append_text(line, value);
+  const auto out = std::back_inserter(line);
   fmt::format_to(out, "\"");
   for (const char c : value) {
     if (c == '"' || c == '\\') {
@@ -41,17 +42,24 @@ void append_value(Out out, std::string_view value) {
 }
 
 void append(Line& line, std::string_view key, std::string_view value) {
-  fmt::format_to(std::back_inserter(line), " {}=", key);
-  append_value(std::back_inserter(line), value);
+  append_text(line, " ");
+  append_text(line, key);
+  append_text(line, "=");
+  append_value(line, value);
 }
 
 void append_time(Line& line) {
   const auto now =
       std::chrono::time_point_cast<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
-  fmt::format_to(std::back_inserter(line), "time={:%Y-%m-%dT%H:%M:%S}.{:03}Z",
-                 fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)),
-                 (now - seconds).count());
+  thread_local std::chrono::sys_seconds made{};
+  thread_local std::string text;  // made once a second
+  if (made != seconds) {
+    made = seconds;
+    text = fmt::format("time={:%Y-%m-%dT%H:%M:%S}",
+                       fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
+  }
+  fmt::format_to(std::back_inserter(line), "{}.{:03}Z", text, (now - seconds).count());
 }
 
 // Of an access or an audit: what both begin with, and what was asked.
@@ -88,49 +96,82 @@ void write_line(int descriptor, Line& line) {
   [[maybe_unused]] const auto written = ::write(descriptor, line.data(), line.size());
 }
 
+Unexpected refused(const std::filesystem::path& file, int error) {
+  return fail(ErrorCode::kIo,
+              fmt::format("cannot open the access log {}: {}; choose another with --access-log",
+                          file.string(), std::strerror(error)));
+}
+
+// A descriptor of its own, for standard error, too.
+Expected<int> open_file(const std::filesystem::path& file) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
+  const int descriptor = file == "-"    ? ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)
+                         : file.empty() ? ::open("/dev/null", O_WRONLY | O_CLOEXEC)
+                                        : ::open(file.c_str(), kFlags, 0640);
+  if (descriptor < 0) return refused(file, errno);
+  return descriptor;
+}
+
 }  // namespace
 
 Expected<Log> Log::open(const std::filesystem::path& file) {
-  if (file.empty()) return Log(-1, false);
-  if (file == "-") return to_stderr();
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0640);
-  if (descriptor < 0) {
-    return fail(ErrorCode::kIo,
-                fmt::format("cannot open the access log {}: {}; choose another with "
-                            "--access-log",
-                            file.string(), std::strerror(errno)));
-  }
-  return Log(descriptor, true);
+  const auto descriptor = open_file(file);
+  if (!descriptor) return Unexpected(descriptor.error());
+  Log log(*descriptor);
+  log.silent_ = file.empty();
+  return log;
 }
 
 Log Log::to_stderr() {
-  return Log(STDERR_FILENO, false);
+  return Log(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0));
+}
+
+Expected<void> Log::reopen(const std::filesystem::path& file) {
+  const auto fresh = open_file(file);
+  if (!fresh) return Unexpected(fresh.error());
+  flush();
+  const bool replaced = ::dup3(*fresh, descriptor_, O_CLOEXEC) >= 0;
+  const int error = errno;
+  ::close(*fresh);
+  if (!replaced) return refused(file, error);
+  silent_ = file.empty();
+  return {};
 }
 
 Log::Log(Log&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), owned_(other.owned_) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      silent_(other.silent_.load()),
+      batch_(std::exchange(other.batch_, std::make_unique<LineBatch>())) {}
 
 Log& Log::operator=(Log&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
-  std::swap(owned_, other.owned_);
+  silent_ = other.silent_.exchange(silent_);
+  std::swap(batch_, other.batch_);
   return *this;
 }
 
 Log::~Log() {
-  if (owned_ && descriptor_ >= 0) ::close(descriptor_);
+  flush();
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void Log::access(const AccessRecord& record) const {
-  if (descriptor_ < 0) return;
+bool Log::access(const AccessRecord& record) const {
+  if (silent_.load(std::memory_order_relaxed)) return false;
   Line line = line_of("access", record);
   append_request(line, record);
-  fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={:.6f}", record.status,
-                 record.bytes, record.seconds);
-  write_line(descriptor_, line);
+  const auto microseconds = static_cast<std::uint64_t>(record.seconds * 1e6 + 0.5);
+  fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={}.{:06}", record.status,
+                 record.bytes, microseconds / 1'000'000, microseconds % 1'000'000);
+  line.push_back('\n');
+  return batch_->add({line.data(), line.size()}, descriptor_);
+}
+
+void Log::flush() const {
+  if (descriptor_ >= 0) batch_->flush(descriptor_);
 }
 
 void Log::audit(const AuditRecord& record) const {
-  if (descriptor_ < 0) return;
+  if (silent_.load(std::memory_order_relaxed)) return;
   Line line = line_of("audit", record);
   append(line, "token", record.token);
   append_request(line, record);
@@ -139,7 +180,7 @@ void Log::audit(const AuditRecord& record) const {
 }
 
 void Log::event(Severity severity, std::string_view message) const {
-  if (descriptor_ < 0) return;
+  if (silent_.load(std::memory_order_relaxed)) return;
   Line line;
   append_time(line);
   append(line, "event", name(severity));
@@ -148,9 +189,9 @@ void Log::event(Severity severity, std::string_view message) const {
 }
 
 std::string logfmt_value(std::string_view value) {
-  std::string text;
-  append_value(std::back_inserter(text), value);
-  return text;
+  Line line;
+  append_value(line, value);
+  return fmt::to_string(line);
 }
 
 }  // namespace vitrine

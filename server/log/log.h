@@ -2,6 +2,7 @@
 // Structured log lines (logfmt: key=value, values quoted where needed), each written whole.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <string_view>
 
 #include "codec/core/expected.h"
+#include "server/log/line_batch.h"
 
 namespace vitrine {
 
@@ -37,7 +39,7 @@ struct AuditRecord {
 
 enum class Severity { kInfo, kWarning, kError };
 
-// Thread-safe: a line is one write(2) to a descriptor opened for appending, so that lines of
+// Thread-safe: lines are written whole to a descriptor opened for appending, so that those of
 // several threads and processes do not mix.
 class Log {
  public:
@@ -48,15 +50,25 @@ class Log {
   Log& operator=(Log&& other) noexcept;
   ~Log();
 
-  void access(const AccessRecord& record) const;
+  // Goes on in `file`, opened anew, as after a rotation or under another name; no line is lost or
+  // torn. Fails (kIo) where the file is refused: the log goes on as it was.
+  Expected<void> reopen(const std::filesystem::path& file);
+
+  // The line may wait for others: where this is true, the caller sees to a flush() soon. What waits
+  // when the log is destroyed is written then.
+  [[nodiscard]] bool access(const AccessRecord& record) const;
+  void flush() const;
   void audit(const AuditRecord& record) const;
   void event(Severity severity, std::string_view message) const;
 
  private:
-  explicit Log(int descriptor, bool owned) : descriptor_(descriptor), owned_(owned) {}
+  explicit Log(int descriptor) : descriptor_(descriptor) {}
 
-  int descriptor_;  // -1: none
-  bool owned_;
+  // Its number stays for life, so that nobody has to be told when it is opened anew. Where nothing
+  // is logged, it is one of /dev/null, and -1 after a move.
+  int descriptor_;
+  std::atomic<bool> silent_{false};
+  std::unique_ptr<LineBatch> batch_ = std::make_unique<LineBatch>();
 };
 
 // `value` as logfmt: bare where it holds only unambiguous printable ASCII, else quoted with \"

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/log/request_id.h"
 
-#include <fmt/format.h>
-
 #include <atomic>
+#include <cstdint>
 #include <random>
+#include <string_view>
 
 namespace vitrine {
 
 std::string next_request_id() {
   static const std::uint32_t process = std::random_device{}();
   static std::atomic<std::uint32_t> count{0};
-  return fmt::format("{:08x}{:08x}", process, count.fetch_add(1, std::memory_order_relaxed));
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::uint64_t number =
+      std::uint64_t{process} << 32 | count.fetch_add(1, std::memory_order_relaxed);
+  std::string text(16, '0');
+  for (auto digit = text.rbegin(); digit != text.rend(); ++digit, number >>= 4)
+    *digit = kDigits[number & 0xF];
+  return text;
 }
 
 }  // namespace vitrine

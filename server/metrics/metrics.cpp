@@ -18,6 +18,12 @@ void append_plain(std::string& text, std::string_view name, std::string_view typ
 
 }  // namespace
 
+void append_metric(std::string& text, std::string_view name, std::string_view labels,
+                   std::string_view type, std::string_view help, std::uint64_t value) {
+  if (!help.empty()) text += fmt::format("# HELP {0} {2}\n# TYPE {0} {1}\n", name, type, help);
+  text += fmt::format("{}{} {}\n", name, labels, value);
+}
+
 Metrics::Metrics(std::span<const std::string_view> routes) {
   for (const std::string_view name : routes) {
     routes_.push_back(std::make_unique<Route>());

@@ -15,6 +15,11 @@
 
 namespace vitrine {
 
+// One sample with its HELP and TYPE lines. `labels`: `{state="done"}`, or empty; those of one name
+// follow each other, and the first alone has `help`.
+void append_metric(std::string& text, std::string_view name, std::string_view labels,
+                   std::string_view type, std::string_view help, std::uint64_t value);
+
 // Every update is one relaxed atomic addition; thread-safe.
 class Metrics {
  public:

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 
 #include "codec/files/atomic_file.h"
 #include "codec/files/file_descriptor.h"
@@ -55,6 +56,20 @@ Expected<void> create_folder(const fs::path& folder) {
   return {};
 }
 
+bool is_temporary(const fs::path& path) {
+  return path.filename().string().starts_with('.');
+}
+
+// An object that is put again is a new one: its age counts from then.
+bool is_unnamed(const fs::path& path, const std::set<Sha256>& keep, std::chrono::seconds grace) {
+  if (is_temporary(path)) return true;
+  Sha256 name{};
+  struct stat status {};
+  if (!from_hex(path.filename().string(), name) || keep.contains(name)) return false;
+  if (::stat(path.c_str(), &status) != 0) return false;
+  return status.st_mtim.tv_sec + grace.count() <= std::time(nullptr);
+}
+
 bool wait_for_lock(int fd) {
   while (::flock(fd, LOCK_EX) != 0) {
     if (errno != EINTR) return false;
@@ -96,7 +111,10 @@ Expected<void> FileStore::put(const Sha256& name, std::span<const std::uint8_t> 
   const fs::path path = path_of(name);
   const fs::path folder = path.parent_path();
   std::error_code error;
-  if (fs::file_size(path, error) == bytes.size() && !error) return sync_folder(folder);
+  if (fs::file_size(path, error) == bytes.size() && !error) {
+    ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+    return sync_folder(folder);
+  }
   if (auto made = create_folder(folder.parent_path()); !made) return made;
   if (auto made = create_folder(folder); !made) return made;
   return write_file_atomically(path, bytes);
@@ -116,6 +134,24 @@ Expected<void> FileStore::remove(const Sha256& name) {
   if (::unlink(path.c_str()) == 0) return sync_folder(path.parent_path());
   if (errno != ENOENT) return refused("remove", path, std::strerror(errno));
   return {};
+}
+
+Expected<std::size_t> FileStore::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) {
+  std::error_code error;
+  std::vector<fs::path> unnamed;
+  for (fs::recursive_directory_iterator at(root_, error), end; !error && at != end;
+       at.increment(error)) {
+    if (at->is_regular_file(error) && is_unnamed(at->path(), keep, grace))
+      unnamed.push_back(at->path());
+  }
+  if (error) return refused("list", root_, error.message().c_str());
+  std::size_t swept = 0;
+  for (const fs::path& path : unnamed) {
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT)
+      return refused("remove", path, std::strerror(errno));
+    if (!is_temporary(path)) ++swept;
+  }
+  return swept;
 }
 
 Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {

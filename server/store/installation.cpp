@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCatalogue = "catalogue.sqlite";
 constexpr const char* kNextStep = "give the folder of an installation, or start vitrined with ";
 
 // What may lie in a data folder before its catalogue does: what an interrupted start leaves, the
@@ -29,7 +28,7 @@ bool may_come_first(std::string_view name) {
 
 Expected<void> check_installation(const fs::path& folder) {
   std::error_code unknown;  // is as good as not there: then the folder above is looked at
-  fs::path made = folder / kCatalogue;
+  fs::path made = folder / kCatalogueFile;
   while (!fs::exists(folder_of(made), unknown) && made != folder_of(made))
     made = folder_of(made);
   return check_writable(made);
@@ -37,7 +36,7 @@ Expected<void> check_installation(const fs::path& folder) {
 
 Expected<void> check_data_folder(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(folder / kCatalogue, error)) return {};
+  if (fs::exists(folder / kCatalogueFile, error)) return {};
   fs::directory_iterator at(folder, error);
   for (; !error && at != fs::directory_iterator(); at.increment(error)) {
     if (may_come_first(at->path().filename().string())) continue;
@@ -53,9 +52,9 @@ Expected<Installation> open_installation(const fs::path& folder) {
   if (auto usable = check_installation(folder); !usable) return tl::unexpected(usable.error());
   auto store = FileStore::open(folder / "objects");
   if (!store) return tl::unexpected(store.error());
-  auto catalogue = open_sqlite_catalogue(folder / kCatalogue);
+  auto catalogue = open_sqlite_catalogue(folder / kCatalogueFile);
   if (!catalogue) return tl::unexpected(catalogue.error());
-  auto jobs = open_sqlite_jobs(folder / kCatalogue);
+  auto jobs = open_sqlite_jobs(folder / kCatalogueFile);
   if (!jobs) return tl::unexpected(jobs.error());
   return Installation{std::make_unique<FileStore>(std::move(*store)), std::move(*catalogue),
                       std::move(*jobs)};

@@ -11,6 +11,8 @@
 
 namespace vitrine {
 
+inline constexpr const char* kCatalogueFile = "catalogue.sqlite";  // below the data folder
+
 struct Installation {
   std::unique_ptr<ObjectStore> store;
   std::unique_ptr<Catalogue> catalogue;

@@ -3,9 +3,11 @@
 // is the catalogue's row that names an object.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -47,6 +49,11 @@ class ObjectStore {
 
   // Takes the object away; that there is none is no fault. Fails (kIo) where the disk refuses.
   virtual Expected<void> remove(const Sha256& name) = 0;
+
+  // Takes away what `keep` does not name and nobody has put for `grace`, and what interrupted puts
+  // have left; the number of objects. Call it with the lock held. Fails (kIo) where the disk
+  // refuses; then some are gone and some are not.
+  virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) = 0;
 
   // Null where there is no such object.
   virtual Expected<std::unique_ptr<Object>> open(const Sha256& name) const = 0;

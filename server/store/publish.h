@@ -14,7 +14,11 @@ namespace vitrine {
 
 struct ModelMetadata {
   std::string title, creator, rights, licence;
+  std::map<std::string, std::string> more = {};  // as in ModelRecord
 };
+
+// kBadInput where one is not a short line of UTF-8.
+Expected<void> check_texts(const ModelMetadata& metadata);
 
 struct PublishAs {
   ModelState state = ModelState::kPublished;

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <mutex>
 
+#include "server/store/change.h"
+
 namespace vitrine {
 namespace {
 
@@ -61,8 +63,17 @@ std::size_t PublishedModels::HashOfId::operator()(const ModelId& id) const noexc
   return first_word(random);
 }
 
-bool PublishedModels::is_fresh(Clock::time_point now) const {
-  return checked_ != Clock::time_point{} && now - checked_ < staleness_;
+bool PublishedModels::is_fresh(Clock::time_point now, Clock::duration age) const {
+  return checked_ != Clock::time_point{} && now - checked_ < age;
+}
+
+// One caller in each half of the staleness is sent to the catalogue, so that the many others never
+// have to go there all at once.
+bool PublishedModels::may_show(Clock::time_point now) {
+  if (!is_fresh(now, staleness_)) return false;
+  auto due = due_.load(std::memory_order_relaxed);
+  const auto next = (now + staleness_ / 2).time_since_epoch().count();
+  return now.time_since_epoch().count() < due || !due_.compare_exchange_strong(due, next);
 }
 
 Expected<void> PublishedModels::forget_if_changed() {
@@ -70,13 +81,16 @@ Expected<void> PublishedModels::forget_if_changed() {
   std::uint64_t refreshed = 0;
   {
     const std::shared_lock lock(mutex_);
-    if (is_fresh(now)) return {};
+    if (is_fresh(now, staleness_ / 2)) return {};
     refreshed = refreshed_;
   }
   const auto revision = catalogue_.revision();
   if (!revision) return tl::unexpected(revision.error());
   const std::unique_lock lock(mutex_);
-  if (refreshed == refreshed_) checked_ = now;
+  if (refreshed == refreshed_) {
+    checked_ = now;
+    due_ = (now + staleness_ / 2).time_since_epoch().count();
+  }
   if (*revision == revision_) return {};
   revision_ = *revision;
   models_.clear();
@@ -90,7 +104,7 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::load(const Mode
   auto record = catalogue_.find(id);
   if (!record) return tl::unexpected(record.error());
   if (!*record || (*record)->state != ModelState::kPublished) return nullptr;
-  auto model = PublishedModel::open(store_, std::move(**record));
+  auto model = PublishedModel::open(store_, public_view(std::move(**record)));
   if (!model) return model;
   remember(*model, *before);
   return model;
@@ -121,10 +135,10 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const Mode
   return load(id);
 }
 
-Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_draft(const ModelId& id) {
+Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_whole(const ModelId& id) {
   auto record = catalogue_.find(id);
   if (!record) return tl::unexpected(record.error());
-  if (!*record || (*record)->state != ModelState::kDraft) return nullptr;
+  if (!*record) return nullptr;
   return PublishedModel::open(store_, std::move(**record));
 }
 
@@ -134,9 +148,16 @@ void PublishedModels::refresh() {
   checked_ = {};
 }
 
+std::shared_ptr<const PublishedModel> PublishedModels::held(const ModelId& id) {
+  const std::shared_lock lock(mutex_);
+  if (!may_show(Clock::now())) return nullptr;
+  const auto it = models_.find(id);
+  return it == models_.end() ? nullptr : it->second;
+}
+
 std::optional<PublishedChunk> PublishedModels::held_chunk(const Sha256& sha256) {
   const std::shared_lock lock(mutex_);
-  if (!is_fresh(Clock::now())) return std::nullopt;
+  if (!may_show(Clock::now())) return std::nullopt;
   const auto it = chunks_.find(sha256);
   return it == chunks_.end() ? std::nullopt : std::optional(it->second);
 }

@@ -4,6 +4,7 @@
 // is one sendfile(2) from a descriptor that is already open.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <shared_mutex>
@@ -17,6 +18,11 @@ namespace vitrine {
 
 struct ByteRange {
   std::uint64_t offset = 0, length = 0;
+};
+
+// What has been told of a model, kept to be told again.
+struct Document {
+  std::string text, etag;
 };
 
 // Immutable. Holds its file open; keep the shared pointer for as long as bytes are being sent.
@@ -39,12 +45,19 @@ class PublishedModel {
     return file_->read(range.offset, range.length);
   }
 
+  // Its manifest in the form that the API tells it in. Null before keep_manifest(). Thread-safe.
+  std::shared_ptr<const Document> kept_manifest() const { return std::atomic_load(&told_); }
+  void keep_manifest(Document document) const {
+    std::atomic_store(&told_, std::make_shared<const Document>(std::move(document)));
+  }
+
  private:
   PublishedModel() = default;
 
   ModelRecord record_;
   Manifest manifest_;
   std::unique_ptr<Object> file_;
+  mutable std::shared_ptr<const Document> told_;
 };
 
 struct PublishedChunk {
@@ -60,16 +73,20 @@ class PublishedModels {
                   std::chrono::milliseconds staleness = std::chrono::milliseconds(100))
       : store_(store), catalogue_(catalogue), staleness_(staleness) {}
 
-  // Null where there is no such model or it is a draft.
+  // What is public of it. Null where there is no such model or it is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
 
-  // A draft, for those who may see it: opened anew each time. Null where there is none.
-  Expected<std::shared_ptr<const PublishedModel>> open_draft(const ModelId& id);
+  // All of a model, drafts too, for those who may see it: opened anew each time. Null where there
+  // is none.
+  Expected<std::shared_ptr<const PublishedModel>> open_whole(const ModelId& id);
 
   // What this process has published or hidden is so from the next call on.
   void refresh();
 
-  // The chunk where it is in memory and known to be current. Waits for neither catalogue nor disk.
+  // The model or the chunk where it is in memory and known to be current. Waits for neither
+  // catalogue nor disk. Now and then nothing though it is there: whoever gets that asks the
+  // catalogue, for all.
+  std::shared_ptr<const PublishedModel> held(const ModelId& id);
   std::optional<PublishedChunk> held_chunk(const Sha256& sha256);
 
   // A chunk or a base mesh of any published model.
@@ -84,7 +101,8 @@ class PublishedModels {
   };
   using Clock = std::chrono::steady_clock;
 
-  bool is_fresh(Clock::time_point now) const;  // with the lock held
+  bool is_fresh(Clock::time_point now, Clock::duration age) const;  // with the lock held
+  bool may_show(Clock::time_point now);                             // likewise
   Expected<void> forget_if_changed();
   Expected<std::shared_ptr<const PublishedModel>> load(const ModelId& id);
   void remember(const std::shared_ptr<const PublishedModel>& model, std::uint64_t revision);
@@ -96,7 +114,8 @@ class PublishedModels {
   std::shared_mutex mutex_;  // guards what follows
   std::uint64_t revision_ = 0;
   Clock::time_point checked_{};
-  std::uint64_t refreshed_ = 0;  // how often: what was read before is no news
+  std::atomic<Clock::rep> due_{0};  // when somebody is to ask the catalogue again
+  std::uint64_t refreshed_ = 0;     // how often: what was read before is no news
   std::unordered_map<ModelId, std::shared_ptr<const PublishedModel>, HashOfId> models_;
   std::unordered_map<Sha256, PublishedChunk, HashOfHash> chunks_;
 };

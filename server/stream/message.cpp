@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/stream/message.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -11,7 +12,7 @@ using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kMaxDepth = 4;
-constexpr const char* kOneOf = "want: give one of triangles, bytes, level, error, view";
+constexpr const char* kOneOf = "want: give one of triangles, bytes, level, error, seconds, view";
 
 Unexpected malformed(const char* why) {
   return fail(ErrorCode::kBadInput, why);
@@ -29,67 +30,93 @@ bool read_number(const Json& json, const char* name, double& out) {
   return true;
 }
 
-std::optional<View> to_view(const Json& json) {
+// 0 where it is not given.
+std::optional<std::uint16_t> model_of(const Json& json) {
+  const auto member = json.find("model");
+  if (member == json.end()) return std::uint16_t{0};
+  const auto number = whole(*member);
+  if (!number || *number >= kMaxModels) return std::nullopt;
+  return static_cast<std::uint16_t>(*number);
+}
+
+Expected<Wish> read_view(const Json& json) {
+  const auto fault = malformed("want: view has camera (16 numbers), fov, width, height, pixels");
   View view;
-  if (!json.is_object()) return std::nullopt;
+  if (!json.is_object()) return fault;
   const auto camera = json.find("camera");
   if (camera == json.end() || !camera->is_array() || camera->size() != view.camera.size()) {
-    return std::nullopt;
+    return fault;
   }
   for (std::size_t i = 0; i < view.camera.size(); ++i) {
-    if (!(*camera)[i].is_number()) return std::nullopt;
+    if (!(*camera)[i].is_number()) return fault;
     view.camera[i] = (*camera)[i].get<double>();
   }
   const bool complete =
       read_number(json, "fov", view.field_of_view) && read_number(json, "width", view.width) &&
       read_number(json, "height", view.height) && read_number(json, "pixels", view.pixel_error);
   if (!complete || (json.contains("bytes") && !read_number(json, "bytes", view.bytes))) {
-    return std::nullopt;
+    return fault;
   }
-  return is_sane(view) ? std::optional(view) : std::nullopt;
+  return is_sane(view) ? Expected<Wish>(Want(view)) : fault;
 }
 
-Expected<ClientMessage> parse_want(const Json& json) {
-  if (const auto seen = json.find("view"); seen != json.end()) {
-    const auto view = to_view(*seen);
-    if (!view) return malformed("want: view has camera (16 numbers), fov, width, height, pixels");
-    for (const char* const name : {"triangles", "bytes", "level", "error"}) {
-      if (json.contains(name)) return malformed(kOneOf);
-    }
-    return Want(*view);
+Expected<Wish> read_error(const Json& value) {
+  if (!value.is_number() || !(value.get<double>() >= 0)) {
+    return malformed("want: error is a number, 0 or more");
   }
-  std::optional<Want> want;
-  for (const char* const name : {"triangles", "bytes", "level", "error"}) {
-    const auto member = json.find(name);
-    if (member == json.end()) continue;
-    if (want) return malformed(kOneOf);
-    const std::string_view key = name;
-    const auto count = whole(*member);
-    if (key == "error") {
-      if (!member->is_number() || !(member->get<double>() >= 0)) {
-        return malformed("want: error is a number, 0 or more");
-      }
-      want = WantError{member->get<double>()};
-    } else if (!count) {
-      return malformed("want: triangles, bytes and level are whole numbers, 0 or more");
-    } else if (key == "triangles") {
-      want = WantTriangles{*count};
-    } else if (key == "bytes") {
-      want = WantBytes{*count};
-    } else {
-      want = WantLevel{static_cast<std::uint32_t>(std::min<std::uint64_t>(*count, UINT32_MAX))};
-    }
-  }
-  if (!want) return malformed(kOneOf);
-  return *want;
+  return Wish(Want(WantError{value.get<double>()}));
 }
 
-Expected<ClientMessage> parse_have(const Json& json) {
+Expected<Wish> read_seconds(const Json& value) {
+  const double seconds = value.is_number() ? value.get<double>() : 0;
+  if (!(seconds > 0 && seconds <= kMaxSeconds)) {
+    return malformed("want: seconds is a number above 0, at most 3600");
+  }
+  return Wish(WantSeconds{seconds});
+}
+
+template <class Wanted, class Count = std::uint64_t>
+Expected<Wish> read_count(const Json& value) {
+  const auto count = whole(value);
+  if (!count) return malformed("want: triangles, bytes and level are whole numbers, 0 or more");
+  return Wish(Want(Wanted{
+      static_cast<Count>(std::min<std::uint64_t>(*count, std::numeric_limits<Count>::max()))}));
+}
+
+struct WishReader {
+  const char* name;
+  Expected<Wish> (*read)(const Json& value);
+};
+constexpr WishReader kWishes[] = {{"triangles", read_count<WantTriangles>},
+                                  {"bytes", read_count<WantBytes>},
+                                  {"level", read_count<WantLevel, std::uint32_t>},
+                                  {"error", read_error},
+                                  {"seconds", read_seconds},
+                                  {"view", read_view}};
+
+Expected<ClientMessage> parse_want(const Json& json, std::uint16_t model) {
+  const WishReader* found = nullptr;
+  for (const WishReader& reader : kWishes) {
+    if (!json.contains(reader.name)) continue;
+    if (found != nullptr) return malformed(kOneOf);
+    found = &reader;
+  }
+  if (found == nullptr) return malformed(kOneOf);
+  auto wish = found->read(json[found->name]);
+  if (!wish) return tl::unexpected(wish.error());
+  const auto turn = json.contains("turn") ? whole(json["turn"]) : 0;
+  if (!turn || *turn > std::numeric_limits<std::uint32_t>::max()) {
+    return malformed("want: turn is a whole number below 2^32");
+  }
+  return WantMessage{model, static_cast<std::uint32_t>(*turn), *wish};
+}
+
+Expected<ClientMessage> parse_have(const Json& json, std::uint16_t model) {
   const auto chunks = json.find("chunks");
   if (chunks == json.end() || !chunks->is_array() || chunks->size() > kMaxHaveRanges) {
     return malformed("have: chunks is a list of at most 4096 ranges");
   }
-  HaveMessage have;
+  HaveMessage have{.model = model, .chunks = {}};
   for (const Json& range : *chunks) {
     if (!range.is_array() || range.size() != 2) return malformed("have: a range is [first, last]");
     const auto first = whole(range[0]);
@@ -112,6 +139,78 @@ Expected<ClientMessage> parse_ack(const Json& json) {
   return AckMessage{*count};
 }
 
+Expected<ClientMessage> parse_open(const Json& json, std::uint16_t model) {
+  const auto id = json.find("id");
+  if (id == json.end() || !id->is_string() ||
+      id->get_ref<const std::string&>().size() > kMaxIdText) {
+    return malformed("open: id is a model's id");
+  }
+  const auto head = json.find("head");
+  if (head != json.end() && !head->is_boolean()) return malformed("open: head is true or false");
+  return OpenMessage{model, id->get<std::string>(), head != json.end() && head->get<bool>()};
+}
+
+OrderedJson wish_json(const WantTriangles& want) {
+  return {{"triangles", want.triangles}};
+}
+OrderedJson wish_json(const WantBytes& want) {
+  return {{"bytes", want.bytes}};
+}
+OrderedJson wish_json(const WantError& want) {
+  return {{"error", want.error}};
+}
+OrderedJson wish_json(const WantLevel& want) {
+  return {{"level", want.level}};
+}
+OrderedJson wish_json(const WantSeconds& want) {
+  return {{"seconds", want.seconds}};
+}
+OrderedJson wish_json(const View& view) {
+  OrderedJson json{{"camera", view.camera},
+                   {"fov", view.field_of_view},
+                   {"width", view.width},
+                   {"height", view.height},
+                   {"pixels", view.pixel_error}};
+  if (std::isfinite(view.bytes)) json["bytes"] = view.bytes;
+  return {{"view", std::move(json)}};
+}
+OrderedJson wish_json(const Want& want) {
+  return std::visit([](const auto& one) { return wish_json(one); }, want);
+}
+
+OrderedJson about(const char* type, std::uint16_t model) {
+  return {{"type", type}, {"model", model}};
+}
+
+OrderedJson json_of(const OpenMessage& message) {
+  OrderedJson json = about("open", message.model);
+  json["id"] = message.id;
+  json["head"] = message.head;
+  return json;
+}
+OrderedJson json_of(const CloseMessage& message) {
+  return about("close", message.model);
+}
+OrderedJson json_of(const WantMessage& message) {
+  OrderedJson json = about("want", message.model);
+  json["turn"] = message.turn;
+  json.update(std::visit([](const auto& wish) { return wish_json(wish); }, message.wish));
+  return json;
+}
+OrderedJson json_of(const HaveMessage& message) {
+  OrderedJson json = about("have", message.model);
+  OrderedJson& ranges = json["chunks"] = OrderedJson::array();
+  for (const ChunkRange& range : message.chunks)
+    ranges.push_back({range.first, range.last});
+  return json;
+}
+OrderedJson json_of(const PauseMessage& message) {
+  return about(message.pause ? "pause" : "resume", message.model);
+}
+OrderedJson json_of(const AckMessage& message) {
+  return {{"type", "ack"}, {"bytes", message.bytes}};
+}
+
 }  // namespace
 
 Expected<ClientMessage> parse_message(std::string_view text) {
@@ -121,24 +220,19 @@ Expected<ClientMessage> parse_message(std::string_view text) {
   if (!json.is_object()) return malformed("a message is a JSON object");
   const auto type = json.find("type");
   if (type == json.end() || !type->is_string()) return malformed("a message has a type");
-  if (*type == "want") return parse_want(json);
-  if (*type == "have") return parse_have(json);
   if (*type == "ack") return parse_ack(json);
-  return malformed("the type is want, have or ack");
+  const auto model = model_of(json);
+  if (!model) return malformed("model is a whole number from 0 to 15");
+  if (*type == "want") return parse_want(json, *model);
+  if (*type == "have") return parse_have(json, *model);
+  if (*type == "pause" || *type == "resume") return PauseMessage{*model, *type == "pause"};
+  if (*type == "open") return parse_open(json, *model);
+  if (*type == "close") return CloseMessage{*model};
+  return malformed("the type is want, have, ack, pause, resume, open or close");
 }
 
-std::string to_json(const ModelMessage& message) {
-  return OrderedJson{{"type", "model"},
-                     {"sha256", message.sha256},
-                     {"chunks", message.chunks},
-                     {"slice_bytes", message.slice_bytes},
-                     {"credit", message.credit}}
-      .dump();
-}
-
-std::string to_json(const DoneMessage& message) {
-  return OrderedJson{{"type", "done"}, {"bytes", message.bytes}, {"triangles", message.triangles}}
-      .dump();
+std::string to_json(const ClientMessage& message) {
+  return std::visit([](const auto& one) { return json_of(one); }, message).dump();
 }
 
 }  // namespace vitrine

@@ -4,56 +4,103 @@
 #include <algorithm>
 
 namespace vitrine {
+namespace {
 
-Expected<void> StreamState::receive(const ClientMessage& message) {
-  if (const auto* want = std::get_if<Want>(&message)) {
-    planner_.want(*want);
-    open_want_ = true;
-    return {};
-  }
-  if (const auto* ack = std::get_if<AckMessage>(&message)) {
-    credit_ = std::min(credit_ + ack->bytes, kMaxCredit);
-    return {};
-  }
-  return receive_have(std::get<HaveMessage>(message));
+constexpr Pacer::Duration kPoll{0.02};         // of the kernel's queue
+constexpr Pacer::Duration kNewsInterval{0.1};  // promises are looked at
+
+}  // namespace
+
+ModelStream* StreamState::find(std::uint16_t model) {
+  const auto found = std::ranges::find(models_, model, &ModelStream::number);
+  return found == models_.end() ? nullptr : &*found;
 }
 
-Expected<void> StreamState::receive_have(const HaveMessage& have) {
-  for (const ChunkRange& range : have.chunks) {
-    if (range.last >= manifest_->chunks.size()) {
-      return fail(ErrorCode::kBadInput, "have: the model has no such chunk; fetch its head anew");
+Expected<void> StreamState::open(std::uint16_t model, const Manifest& manifest, bool head) {
+  if (find(model) != nullptr) return fail(ErrorCode::kBadInput, "open: the number is taken");
+  models_.emplace_back(model, manifest, head);
+  return {};
+}
+
+Expected<void> StreamState::receive(const ClientMessage& message, Time now) {
+  return std::visit([&](const auto& one) { return receive_one(one, now); }, message);
+}
+
+template <class Do>
+Expected<void> StreamState::with_model(std::uint16_t number, const Do& act) {
+  ModelStream* const model = find(number);
+  if (model == nullptr) return fail(ErrorCode::kBadInput, "no model is open under this number");
+  return act(*model);
+}
+
+Expected<void> StreamState::receive_one(const OpenMessage&, Time) {
+  return fail(ErrorCode::kState, "open is the caller's to answer");
+}
+
+Expected<void> StreamState::receive_one(const CloseMessage& message, Time) {
+  std::erase_if(models_, [&](const ModelStream& m) { return m.number() == message.model; });
+  return {};
+}
+
+Expected<void> StreamState::receive_one(const WantMessage& message, Time now) {
+  return with_model(message.model, [&](ModelStream& model) -> Expected<void> {
+    model.want(message, now);
+    return {};
+  });
+}
+
+Expected<void> StreamState::receive_one(const HaveMessage& message, Time) {
+  return with_model(message.model, [&](ModelStream& model) { return model.have(message.chunks); });
+}
+
+Expected<void> StreamState::receive_one(const PauseMessage& message, Time) {
+  return with_model(message.model, [&](ModelStream& model) -> Expected<void> {
+    model.pause(message.pause);
+    return {};
+  });
+}
+
+Expected<void> StreamState::receive_one(const AckMessage& message, Time now) {
+  credit_ = std::min(credit_ + message.bytes, kMaxCredit);
+  if (!is_granted_ahead()) pacer_.arrived(message.bytes, now);
+  granted_ += message.bytes;
+  return {};
+}
+
+void StreamState::still_queued(std::uint64_t bytes, Time now) {
+  if (bytes < pacer_.in_flight()) pacer_.arrived(pacer_.in_flight() - bytes, now);
+}
+
+// How long the next slice may be; 0 where none may go.
+std::uint32_t StreamState::room(Time now) {
+  is_held_ = credit_ > 0 && !pacer_.may_send(now);
+  return is_held_ ? 0
+                  : static_cast<std::uint32_t>(
+                        std::min<std::uint64_t>(pacer_.slice_bytes(now), credit_));
+}
+
+StreamOutput StreamState::next(Time now) {
+  const std::uint32_t most = room(now);
+  for (std::size_t turn = 0; turn < models_.size(); ++turn) {
+    ModelStream& model = models_.front();
+    const StreamOutput output = model.next(most, pacer_, now);
+    if (const auto* slice = std::get_if<Slice>(&output)) {
+      credit_ -= slice->length;
+      sent_ += slice->length;
+      pacer_.sent(slice->length, now);
     }
-    for (std::uint64_t i = range.first; i <= range.last; ++i)
-      planner_.have(i);
+    if (!model.is_within_chunk()) std::rotate(models_.begin(), models_.begin() + 1, models_.end());
+    if (!std::holds_alternative<std::monostate>(output)) return output;
   }
   return {};
 }
 
-StreamState::Output StreamState::next() {
-  if (!open_want_) return {};
-  if (!under_way_) {
-    const auto chunk = planner_.next();
-    if (!chunk) {
-      open_want_ = false;
-      return DoneMessage{planner_.bytes_held(), planner_.faces_held()};
-    }
-    planner_.have(*chunk);
-    under_way_ = Slice{.chunk = *chunk};
-  }
-  return next_slice();
-}
-
-StreamState::Output StreamState::next_slice() {
-  const auto total = static_cast<std::uint32_t>(manifest_->chunks[under_way_->chunk].length);
-  const std::uint32_t most = std::min(kMaxSlice, total - under_way_->offset);
-  const auto length = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, credit_));
-  if (length == 0) return {};
-  credit_ -= length;
-  Slice slice = *under_way_;
-  slice.length = length;
-  under_way_->offset += length;
-  if (under_way_->offset == total) under_way_.reset();
-  return slice;
+std::optional<StreamState::Time> StreamState::wakes(Time now) const {
+  if (pacer_.in_flight() == 0) return std::nullopt;
+  if (is_granted_ahead()) return now + kPoll;
+  if (std::ranges::any_of(models_, &ModelStream::is_timed)) return now + kNewsInterval;
+  if (is_held_) return now + Pacer::kNudge;
+  return std::nullopt;
 }
 
 }  // namespace vitrine

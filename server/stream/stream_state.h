@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a server knows of one client of pmesh.v1: its wish, what it holds, its credit; and from
-// these, what to send next. Pure: no I/O, no clock.
+// What a server knows of one client of pmesh.v1: its models, its credit and its pace; and from
+// these, what to send next. Pure: no I/O; the caller tells the time.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <variant>
+#include <vector>
 
-#include "codec/core/expected.h"
-#include "codec/progressive/planner.h"
-#include "server/stream/message.h"
-#include "server/stream/slice.h"
+#include "server/stream/model_stream.h"
 
 namespace vitrine {
 
@@ -19,28 +16,46 @@ inline constexpr std::uint64_t kMaxCredit = 64u << 20;  // more grants are lost
 
 class StreamState {
  public:
-  // The manifest outlives this. Nothing is wanted yet.
-  explicit StreamState(const Manifest& manifest) : manifest_(&manifest), planner_(manifest) {}
+  using Time = Pacer::Time;
 
-  // Fails with kBadInput where the message does not fit the model.
-  Expected<void> receive(const ClientMessage& message);
+  // The manifest outlives its model. Fails (kBadInput) where the number is taken.
+  Expected<void> open(std::uint16_t model, const Manifest& manifest, bool head);
 
-  using Output = std::variant<std::monostate, Slice, DoneMessage>;
-  // What to send now; nothing until a further message arrives. A slice is chosen only now and takes
-  // its credit, so a new wish or a `have` counts from the next chunk on.
-  Output next();
+  // Anything but an OpenMessage, which is the caller's to answer with open(). Fails with kBadInput
+  // where the message does not fit what is open.
+  Expected<void> receive(const ClientMessage& message, Time now);
+
+  // What to send now; nothing before a further message or wakes(). A slice is chosen only now and
+  // takes its credit, so a new wish or a `have` counts at once. Models take turns, chunk by chunk.
+  StreamOutput next(Time now);
+
+  // When next() may have something although no message has come; nothing: never.
+  std::optional<Time> wakes(Time now) const;
+
+  // The client has granted more than it was sent, so its messages do not tell what has arrived:
+  // the caller tells what the kernel still holds.
+  bool is_granted_ahead() const { return granted_ > sent_; }
+  void still_queued(std::uint64_t bytes, Time now);
 
   std::uint64_t credit() const { return credit_; }
 
  private:
-  Expected<void> receive_have(const HaveMessage& have);
-  Output next_slice();
+  ModelStream* find(std::uint16_t model);
+  Expected<void> receive_one(const CloseMessage& message, Time now);
+  Expected<void> receive_one(const WantMessage& message, Time now);
+  Expected<void> receive_one(const HaveMessage& message, Time now);
+  Expected<void> receive_one(const PauseMessage& message, Time now);
+  Expected<void> receive_one(const AckMessage& message, Time now);
+  Expected<void> receive_one(const OpenMessage& message, Time now);
+  template <class Do>
+  Expected<void> with_model(std::uint16_t number, const Do& act);
+  std::uint32_t room(Time now);
 
-  const Manifest* manifest_;
-  Planner planner_;
+  std::vector<ModelStream> models_;  // the first has the next turn
   std::uint64_t credit_ = kFirstCredit;
-  std::optional<Slice> under_way_;  // of the chunk being sent: what comes next
-  bool open_want_ = false;          // a wish that has not been answered by `done`
+  std::uint64_t granted_ = 0, sent_ = 0;  // by acks; in slices
+  bool is_held_ = false;  // by the pace: something is to be sent, and there is credit for it
+  Pacer pacer_;
 };
 
 }  // namespace vitrine

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/stream/websocket.h"
 
+#include <linux/sockios.h>
+#include <netinet/tcp.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -8,6 +13,7 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
+#include <map>
 #include <optional>
 
 #include "server/stream/stream_state.h"
@@ -18,37 +24,44 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
-using Tcp = asio::ip::tcp;
 using Request = beast::http::request<beast::http::string_body>;
+using Model = std::shared_ptr<const PublishedModel>;
 
 constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
+constexpr int kMostUnsent = 16 * 1024;  // in the kernel's queue, so that new wishes overtake little
+constexpr std::size_t kMostAnswers = 16;  // that wait for the peer to take them
+
+StreamState::Time now() {
+  return std::chrono::steady_clock::now();
+}
 
 // A reader that feeds the state and a writer that pulls from it, both on the socket's strand.
 class StreamSession : public std::enable_shared_from_this<StreamSession> {
  public:
-  StreamSession(Tcp::socket& socket, std::shared_ptr<const PublishedModel> model,
-                StreamOptions options)
-      : websocket_(socket),
-        change_(socket.get_executor(), asio::steady_timer::time_point::max()),
-        model_(std::move(model)),
-        options_(std::move(options)),
-        state_(model_->manifest()) {}
+  StreamSession(ByteStream& socket, StreamOptions options)
+      : websocket_(socket), change_(socket.get_executor()), options_(std::move(options)) {}
 
-  asio::awaitable<void> run(Request request) {
+  asio::awaitable<bool> accept(Request request) {
     configure();
     const auto [error] = co_await websocket_.async_accept(request, kNoThrow);
-    if (error) co_return;
+    co_return !error;
+  }
+
+  asio::awaitable<void> run(Model model) {
     options_.on_drain([weak = weak_from_this()] {
       if (const auto self = weak.lock()) self->close_with(websocket::close_code::service_restart);
     });
+    open({.model = 0, .id = {}, .head = options_.head}, std::move(model));
     asio::co_spawn(websocket_.get_executor(), read(shared_from_this()), asio::detached);
-    const bool greeted = co_await greet();
-    if (greeted) co_await write();
-    if (goodbye_) co_await websocket_.async_close(*goodbye_, kNoThrow);
+    co_await write();
+    if (goodbye_) {
+      options_.waits_for_peer(true);
+      co_await websocket_.async_close(*goodbye_, kNoThrow);
+    }
     boost::system::error_code ignored;
     websocket_.next_layer().close(ignored);
     while (!reader_ended_)
-      co_await changed();
+      co_await changed({});
   }
 
  private:
@@ -64,7 +77,11 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     }));
     websocket_.read_message_max(kMaxMessage);
     websocket_.auto_fragment(false);
+    const int most = kMostUnsent;
+    ::setsockopt(socket(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most, sizeof most);
   }
+
+  int socket() { return websocket_.next_layer().native_handle(); }
 
   static asio::awaitable<void> read(std::shared_ptr<StreamSession> self) {
     beast::flat_buffer buffer;
@@ -85,8 +102,41 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     }
     const auto data = buffer.cdata();
     const auto message = parse_message({static_cast<const char*>(data.data()), data.size()});
-    const auto received = message ? state_.receive(*message) : Unexpected(message.error());
+    const auto received = message ? act_on(*message) : Unexpected(message.error());
     if (!received) close_with({websocket::close_code::policy_error, received.error().message});
+  }
+
+  Expected<void> act_on(const ClientMessage& message) {
+    if (const auto* wanted = std::get_if<OpenMessage>(&message)) {
+      auto model = options_.find(wanted->id);
+      if (model) return open(*wanted, std::move(model));
+      return answer(ClosedMessage{wanted->model, "there is no such model"});
+    }
+    if (const auto* unwanted = std::get_if<CloseMessage>(&message)) {
+      models_.erase(unwanted->model);
+      if (auto fits = answer(ClosedMessage{unwanted->model, "as asked"}); !fits) return fits;
+    }
+    return state_.receive(message, now());
+  }
+
+  Expected<void> open(const OpenMessage& wanted, Model model) {
+    const Manifest& manifest = model->manifest();
+    if (auto opened = state_.open(wanted.model, manifest, wanted.head); !opened) return opened;
+    const ModelMessage message{.model = wanted.model,
+                               .sha256 = to_hex(model->record().file),
+                               .chunks = manifest.chunks.size(),
+                               .head_bytes = manifest.head_bytes(),
+                               .slice_bytes = kMaxSlice,
+                               .credit = state_.credit()};
+    models_[wanted.model] = std::move(model);
+    return answer(message);
+  }
+
+  Expected<void> answer(const ServerMessage& message) {
+    if (answers_.size() >= kMostAnswers)
+      return fail(ErrorCode::kBadInput, "read the answers before opening more models");
+    answers_.push_back(to_json(message));
+    return {};
   }
 
   void close_with(websocket::close_reason reason) {
@@ -94,82 +144,85 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     change_.cancel();
   }
 
-  // Until the reader has received something or the end is near.
-  asio::awaitable<void> changed() {
-    change_.expires_at(asio::steady_timer::time_point::max());
+  // Until the reader has received something, the end is near, or it is time.
+  asio::awaitable<void> changed(std::optional<StreamState::Time> wakes) {
+    using Timer = asio::steady_timer;
+    change_.expires_at(wakes ? std::chrono::time_point_cast<Timer::duration>(*wakes)
+                             : Timer::time_point::max());
     co_await change_.async_wait(kNoThrow);
-  }
-
-  asio::awaitable<bool> greet() {
-    const ModelMessage message{.sha256 = to_hex(model_->record().file),
-                               .chunks = model_->manifest().chunks.size(),
-                               .slice_bytes = kMaxSlice,
-                               .credit = state_.credit()};
-    co_return co_await send_text(to_json(message));
   }
 
   asio::awaitable<void> write() {
     bool sent = true;
     while (sent && !goodbye_ && !reader_ended_) {
-      const StreamState::Output output = state_.next();
+      if (!answers_.empty()) {
+        sent = co_await send_text(std::exchange(answers_.front(), {}));
+        answers_.erase(answers_.begin());
+        continue;
+      }
+      if (state_.is_granted_ahead()) ask_kernel();
+      const StreamOutput output = state_.next(now());
       if (const auto* slice = std::get_if<Slice>(&output)) {
         sent = co_await send_slice(*slice);
+      } else if (const auto* promise = std::get_if<PromiseMessage>(&output)) {
+        sent = co_await send_text(to_json(*promise));
       } else if (const auto* done = std::get_if<DoneMessage>(&output)) {
         sent = co_await send_text(to_json(*done));
       } else {
-        co_await changed();
+        co_await changed(state_.wakes(now()));
       }
     }
   }
 
+  void ask_kernel() {
+    int queued = 0;
+    if (::ioctl(socket(), SIOCOUTQ, &queued) == 0 && queued >= 0)
+      state_.still_queued(static_cast<std::uint64_t>(queued), now());
+  }
+
   asio::awaitable<bool> send_text(std::string text) {
     websocket_.text(true);
+    options_.waits_for_peer(true);
     const auto [error, bytes] = co_await websocket_.async_write(asio::buffer(text), kNoThrow);
+    options_.waits_for_peer(false);
     co_return !error;
   }
 
   asio::awaitable<bool> send_slice(Slice slice) {
-    if (!load(slice)) co_return false;
-    const ChunkInfo& chunk = model_->manifest().chunks[slice.chunk];
-    const SliceHeader header = slice_header(chunk, slice);
-    const std::array<asio::const_buffer, 2> frame = {
-        asio::buffer(header), asio::buffer(bytes_.data() + slice.offset, slice.length)};
+    const Model model = models_[slice.header.model];
+    const auto payload = model->read({slice.at, slice.length});
+    if (!payload) {
+      close_with(websocket::close_code::internal_error);
+      co_return true;
+    }
+    const auto header = to_bytes(slice.header);
+    const std::array<asio::const_buffer, 2> frame = {asio::buffer(header), asio::buffer(*payload)};
     websocket_.binary(true);
+    options_.waits_for_peer(true);
     const auto [error, bytes] = co_await websocket_.async_write(frame, kNoThrow);
-    if (slice.offset + slice.length == chunk.length) bytes_ = {};
+    options_.waits_for_peer(false);
     if (!error) options_.sent(slice.length);
     co_return !error;
   }
 
-  // Reads the slice's chunk into bytes_ where it starts.
-  bool load(const Slice& slice) {
-    if (slice.offset > 0) return true;
-    auto bytes = model_->read(model_->chunk(slice.chunk));
-    if (bytes) {
-      bytes_ = std::move(*bytes);
-    } else {
-      close_with(websocket::close_code::internal_error);
-    }
-    return bytes.has_value();
-  }
-
-  websocket::stream<Tcp::socket&, /*deflate=*/false> websocket_;
+  websocket::stream<ByteStream&, /*deflate=*/false> websocket_;
   asio::steady_timer change_;
-  std::shared_ptr<const PublishedModel> model_;
   StreamOptions options_;
   StreamState state_;
-  std::vector<std::uint8_t> bytes_;  // of the chunk being sent
+  std::map<std::uint16_t, Model> models_;  // that state_ knows
+  std::vector<std::string> answers_;       // to be sent first
   std::optional<websocket::close_reason> goodbye_;
   bool reader_ended_ = false;
 };
 
 }  // namespace
 
-asio::awaitable<void> serve_stream(Tcp::socket& socket, Request request,
+asio::awaitable<void> serve_stream(ByteStream& socket, Request request,
                                    std::shared_ptr<const PublishedModel> model,
                                    StreamOptions options) {
-  auto session = std::make_shared<StreamSession>(socket, std::move(model), std::move(options));
-  co_await session->run(std::move(request));
+  auto session = std::make_shared<StreamSession>(socket, std::move(options));
+  const bool accepted = co_await session->accept(std::exchange(request, {}));
+  if (accepted) co_await session->run(std::move(model));
 }
 
 }  // namespace vitrine

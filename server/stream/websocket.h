@@ -3,29 +3,34 @@
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <string_view>
 
 #include "server/store/published_model.h"
+#include "server/transport/byte_stream.h"
 
 namespace vitrine {
 
 struct StreamOptions {
   std::chrono::seconds patience{30};  // for handshakes, and before a silent peer is pinged and cut
+  bool head = false;                  // the model's head comes first
+  // A model that this client may see, or null.
+  std::function<std::shared_ptr<const PublishedModel>(std::string_view id)> find;
   // Called once with what to call on the socket's strand when the daemon stops (close 1012).
   std::function<void(std::function<void()> stop)> on_drain;
   std::function<void(std::uint64_t bytes)> sent;  // called with the chunk bytes of each slice
+  // Called before (true) and after what the peer has to take within the patience.
+  std::function<void(bool waits)> waits_for_peer;
 };
 
 // Runs on the socket's strand. `request` is an upgrade that offers pmesh.v1. Memory per connection:
-// the session's state, and the one chunk that is being sent.
+// the session's state, and the one slice that is being sent.
 boost::asio::awaitable<void> serve_stream(
-    boost::asio::ip::tcp::socket& socket,
-    boost::beast::http::request<boost::beast::http::string_body> request,
+    ByteStream& socket, boost::beast::http::request<boost::beast::http::string_body> request,
     std::shared_ptr<const PublishedModel> model, StreamOptions options);
 
 }  // namespace vitrine

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <thread>
 
 namespace vitrine::test {
@@ -244,6 +245,97 @@ TEST_F(CatalogueSuite, a_token_is_found_by_the_start_of_its_hash_until_it_is_rev
   ASSERT_TRUE(catalogue_->revoke_token(id_of(1)));
   ASSERT_EQ(catalogue_->tokens_like(hash).value().size(), 1u);
   EXPECT_EQ(catalogue_->tokens_like(hash).value()[0].id, id_of(2));
+}
+
+TEST_F(CatalogueSuite, the_tokens_in_force_are_listed_oldest_first) {
+  ASSERT_TRUE(catalogue_->add_token({id_of(2), Role::kViewer, digest(2), "b", 2}));
+  ASSERT_TRUE(catalogue_->add_token({id_of(1), Role::kAdmin, digest(1), "a", 1}));
+  ASSERT_TRUE(catalogue_->add_token({id_of(3), Role::kViewer, digest(3), "c", 3}));
+  ASSERT_TRUE(catalogue_->revoke_token(id_of(3)));
+  const auto tokens = catalogue_->tokens().value();
+  ASSERT_EQ(tokens.size(), 2u);
+  EXPECT_EQ(tokens[0].id, id_of(1));
+  EXPECT_EQ(tokens[0].role, Role::kAdmin);
+  EXPECT_EQ(tokens[1].label, "b");
+}
+
+TEST_F(CatalogueSuite, a_model_is_changed_as_a_whole_and_by_one_at_a_time) {
+  add(model(1), {{digest(8), 100, 10}});
+  ModelRecord changed = catalogue_->find(id_of(1)).value().value();
+  changed.title = "Another";
+  changed.more = {{"description", "\"round\"; DROP TABLE model"}, {"subject", "rings"}};
+  changed.unit = "in";
+  changed.accuracy = 0.25;
+  changed.file = digest(5);
+  changed.file_bytes = 77;
+  changed.state = ModelState::kDraft;
+  changed.public_part = PublicPart{.max_level = 3,
+                                   .file = digest(6),
+                                   .file_bytes = 44,
+                                   .head_bytes = 11,
+                                   .faces = 9,
+                                   .vertices = 8};
+  const ChunkPlace chunks[] = {{digest(9), 200, 20}};
+  const auto before = catalogue_->revision().value();
+  ASSERT_TRUE(catalogue_->update(changed, chunks));
+  EXPECT_NE(catalogue_->revision().value(), before);
+  const ModelRecord found = backend_->connect()->find(id_of(1)).value().value();
+  EXPECT_EQ(found.title, changed.title);
+  EXPECT_EQ(found.more, changed.more);
+  EXPECT_EQ(found.unit, "in");
+  EXPECT_EQ(found.accuracy, 0.25);
+  EXPECT_EQ(found.file, digest(5));
+  EXPECT_EQ(found.file_bytes, 77u);
+  EXPECT_EQ(found.state, ModelState::kDraft);
+  EXPECT_EQ(found.created, changed.created);
+  ASSERT_TRUE(found.public_part);
+  EXPECT_EQ(found.public_part->max_level, 3u);
+  EXPECT_EQ(found.public_part->file, digest(6));
+  EXPECT_EQ(found.public_part->file_bytes, 44u);
+  EXPECT_EQ(found.public_part->head_bytes, 11u);
+  EXPECT_EQ(found.public_part->faces, 9u);
+  EXPECT_EQ(found.public_part->vertices, 8u);
+  EXPECT_EQ(catalogue_->update(changed, std::nullopt).error().code, ErrorCode::kState);
+  ASSERT_TRUE(catalogue_->set_state(id_of(1), ModelState::kPublished));
+  EXPECT_EQ(catalogue_->update(found, std::nullopt).error().code, ErrorCode::kState);
+  EXPECT_FALSE(catalogue_->find_chunk(digest(8)).value());
+  EXPECT_EQ(catalogue_->find_chunk(digest(9)).value().value().place.offset, 200u);
+  ModelRecord now = catalogue_->find(id_of(1)).value().value();
+  now.public_part.reset();
+  now.accuracy.reset();
+  ASSERT_TRUE(catalogue_->update(now, std::nullopt));
+  EXPECT_FALSE(catalogue_->find(id_of(1)).value().value().public_part);
+  EXPECT_FALSE(catalogue_->find(id_of(1)).value().value().accuracy);
+  EXPECT_TRUE(catalogue_->find_chunk(digest(9)).value());
+}
+
+TEST_F(CatalogueSuite, a_model_that_is_removed_is_gone_with_its_chunks) {
+  add(model(1), {{digest(8), 100, 10}});
+  add(model(2), {{digest(8), 50, 10}});
+  const auto before = catalogue_->revision().value();
+  ASSERT_TRUE(catalogue_->remove(id_of(2)));
+  EXPECT_NE(catalogue_->revision().value(), before);
+  EXPECT_FALSE(catalogue_->find(id_of(2)).value());
+  EXPECT_EQ(catalogue_->find_chunk(digest(8)).value().value().model, id_of(1));
+  EXPECT_EQ(catalogue_->remove(id_of(2)).error().code, ErrorCode::kState);
+  ASSERT_TRUE(catalogue_->remove(id_of(1)));
+  EXPECT_FALSE(catalogue_->find_chunk(digest(8)).value());
+}
+
+TEST_F(CatalogueSuite, the_files_are_those_that_models_and_drafts_name_each_once) {
+  EXPECT_TRUE(catalogue_->files().value().empty());
+  ModelRecord second = model(2, "A draft", ModelState::kDraft);
+  second.file = digest(1);
+  ModelRecord third = model(3);
+  third.public_part = PublicPart{.file = digest(4), .file_bytes = 44};
+  add(model(1)), add(second), add(third);
+  std::map<Sha256, std::uint64_t> files;
+  const auto listed = catalogue_->files().value();
+  for (const NamedFile& file : listed)
+    EXPECT_TRUE(files.emplace(file.file, file.bytes).second);
+  const std::map<Sha256, std::uint64_t> expected = {
+      {digest(1), 1'000}, {digest(3), 1'000}, {digest(4), 44}};
+  EXPECT_EQ(files, expected);
 }
 
 TEST_F(CatalogueSuite, a_token_is_added_once_and_revoked_once) {

@@ -26,7 +26,8 @@ JobRecord job(std::uint8_t value, JobState state = JobState::kRunning) {
           .error = "",
           .parameters = R"({"title":"L'Écorché"})",
           .created = 1'700'000'000'000 + value,
-          .ended = 0};
+          .ended = 0,
+          .webhook = "https://museum.example/told"};
 }
 
 ScanEntry scan(std::uint8_t value, std::uint8_t job) {

@@ -115,6 +115,21 @@ TEST_F(ObjectStoreSuite, one_connection_at_a_time_holds_the_lock) {
     holder.join();
 }
 
+TEST_F(ObjectStoreSuite, a_sweep_takes_what_is_not_named_once_its_grace_is_over) {
+  const Bytes named = some_bytes(1'000, 1), other = some_bytes(2'000, 2);
+  put(named);
+  put(other);
+  const auto lock = store_->lock();
+  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::hours(1)).value(), 0u);
+  EXPECT_TRUE(open(other));
+  const auto reading = open(other);
+  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0)).value(), 1u);
+  EXPECT_EQ(open(other), nullptr);
+  EXPECT_TRUE(open(named));
+  EXPECT_EQ(reading->read(0, 2'000).value(), other);  // who reads it reads on
+  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0)).value(), 0u);
+}
+
 TEST_F(ObjectStoreSuite, another_connection_sees_what_was_put) {
   const Bytes bytes = some_bytes(1'000, 8);
   put(bytes);

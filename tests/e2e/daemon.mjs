@@ -19,22 +19,39 @@ export class Daemon {
     const portFile = join(folder, "port");
     const appeared = watched(folder, portFile);
     const data = join(folder, "data");
-    const child = spawn(
-      join(bin, "vitrined"),
-      ["--listen", "127.0.0.1:0", "--admin-listen", "127.0.0.1:0", "--data", data, "--port-file", portFile],
-      { cwd: folder, env, stdio: ["ignore", "ignore", "pipe"] },
-    );
-    let log = "";
-    child.stderr.on("data", (text) => (log += text));
-    const exit = once(child, "exit").then(([code, signal]) => code ?? signal);
-    const ended = exit.then((code) => Promise.reject(new Error(`vitrined ended with ${code}: ${log}`)));
-    ended.catch(() => undefined);
-    const port = await Promise.race([appeared, ended]);
-    return new Daemon(bin, folder, data, child, exit, `http://127.0.0.1:${port}`);
+    const daemon = new Daemon(bin, folder, data);
+    const ended = daemon.spawn("127.0.0.1:0", portFile);
+    daemon.port = await Promise.race([appeared, ended]);
+    daemon.url = `http://127.0.0.1:${daemon.port}`;
+    return daemon;
   }
 
-  constructor(bin, folder, data, child, exit, url) {
-    Object.assign(this, { bin, folder, data, child, exit, url });
+  constructor(bin, folder, data) {
+    Object.assign(this, { bin, folder, data });
+  }
+
+  /** Starts the program; rejects when it ends. */
+  spawn(listen, portFile) {
+    this.child = spawn(
+      join(this.bin, "vitrined"),
+      ["--listen", listen, "--admin-listen", "127.0.0.1:0", "--data", this.data, "--port-file", portFile],
+      { cwd: this.folder, env, stdio: ["ignore", "ignore", "pipe"] },
+    );
+    let log = "";
+    this.child.stderr.on("data", (text) => (log += text));
+    this.exit = once(this.child, "exit").then(([code, signal]) => code ?? signal);
+    const ended = this.exit.then((code) => Promise.reject(new Error(`vitrined ended with ${code}: ${log}`)));
+    ended.catch(() => undefined);
+    return ended;
+  }
+
+  /** As after a power cut; at the same address. */
+  async killAndStartAgain() {
+    this.child.kill("SIGKILL");
+    await this.exit;
+    const portFile = join(this.folder, "port-again");
+    const appeared = watched(this.folder, portFile);
+    await Promise.race([appeared, this.spawn(`127.0.0.1:${this.port}`, portFile)]);
   }
 
   /** Publishes a mesh; returns the address of its page. */

@@ -273,7 +273,7 @@ async function canvas(viewer, name) {
 /** Raw pixels of the middle of a picture, without the panel at its foot. */
 function crop(viewer, png) {
   return viewer.page.evaluate(async (base64) => {
-    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
     const surface = new OffscreenCanvas(image.width, Math.floor(image.height * 0.7));
     const context = surface.getContext("2d");
     context.drawImage(image, 0, 0);
@@ -286,7 +286,7 @@ function crop(viewer, png) {
 /** Whether a picture has more than a smooth background: its middle differs from its corner. */
 function differs(viewer, png) {
   return viewer.page.evaluate(async (base64) => {
-    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
     const surface = new OffscreenCanvas(image.width, image.height);
     const context = surface.getContext("2d");
     context.drawImage(image, 0, 0);

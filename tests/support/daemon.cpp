@@ -51,6 +51,7 @@ bool read_some(int descriptor, std::string& text) {
 }
 
 std::uint16_t port_in(const std::string& line) {
+  if (line.find("unix:") != std::string::npos) return 0;
   return static_cast<std::uint16_t>(std::stoi(line.substr(line.rfind(':') + 1)));
 }
 
@@ -75,10 +76,10 @@ Daemon::Daemon(const std::filesystem::path& data, std::vector<std::string> more)
   const Child child = start(arguments);
   child_ = child.id;
   pipe_ = child.output;
-  while (admin_port_ == 0) {
+  for (int listeners = 0; listeners < 2;) {
     const std::string line = read_line();
     if (line.find("listening on") == std::string::npos) continue;
-    (port_ == 0 ? port_ : admin_port_) = port_in(line);
+    (listeners++ == 0 ? port_ : admin_port_) = port_in(line);
   }
 }
 
@@ -94,6 +95,14 @@ std::string Daemon::read_line() {
   return line;
 }
 
+std::string Daemon::wait_for_line(std::string_view text) {
+  std::string line;
+  do {
+    line = read_line();
+  } while (line.find(text) == std::string::npos);
+  return line;
+}
+
 void Daemon::signal(int number) const {
   ::kill(child_, number);
 }
@@ -103,7 +112,7 @@ ProgramResult Daemon::wait() {
   }
   const int exit_code = wait_for(child_);
   child_ = -1;
-  return {exit_code, printed_};
+  return {exit_code, printed_, {}};
 }
 
 std::string Daemon::access_log() const {

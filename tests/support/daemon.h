@@ -9,13 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "support/run_program.h"
+
 namespace vitrine::test {
 
-struct ProgramResult {
-  int exit_code = -1;
-  std::string output;  // standard output and standard error
-};
-// Runs vitrined to its end.
+// Runs vitrined to its end; `output` holds standard output and standard error.
 ProgramResult run_vitrined(const std::vector<std::string>& arguments);
 
 // A daemon on free ports of 127.0.0.1 that serves `data`. Killed at the end of its scope.
@@ -27,10 +25,12 @@ class Daemon {
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
 
-  std::uint16_t port() const { return port_; }
+  std::uint16_t port() const { return port_; }  // 0 where it listens on a Unix socket
   std::uint16_t admin_port() const { return admin_port_; }
+  pid_t pid() const { return child_; }
   void signal(int number) const;
-  ProgramResult wait();  // for its end; all that it printed
+  std::string wait_for_line(std::string_view text);  // the next that it prints with `text` in it
+  ProgramResult wait();                              // for its end; all that it printed
   std::string access_log() const;
 
  private:

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,16 +24,36 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-HttpClient::HttpClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-  const timeval patience{.tv_sec = 20, .tv_usec = 0};
-  ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+HttpClient::HttpClient(std::uint16_t port, const char* to) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+  ::inet_pton(AF_INET, to, &address.sin_addr);
+  connect(&address, sizeof address);
+}
+
+HttpClient::HttpClient(const std::filesystem::path& unix_socket) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  unix_socket.string().copy(address.sun_path, sizeof address.sun_path - 1);
+  connect(&address, sizeof address);
+}
+
+void HttpClient::connect(const void* address, std::size_t size) {
+  const auto* peer = static_cast<const sockaddr*>(address);
+  const timeval patience{.tv_sec = 20, .tv_usec = 0};
+  socket_ = ::socket(peer->sa_family, SOCK_STREAM, 0);
+  ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  if (::connect(socket_, peer, static_cast<socklen_t>(size)) != 0)
     throw std::runtime_error("cannot connect");
-  }
+}
+
+ssize_t HttpClient::read_some(char* bytes, std::size_t size) {
+  return ::recv(socket_, bytes, size, 0);
+}
+
+ssize_t HttpClient::write_some(const char* bytes, std::size_t size) {
+  return ::send(socket_, bytes, size, MSG_NOSIGNAL);
 }
 
 HttpClient::~HttpClient() {
@@ -41,7 +62,7 @@ HttpClient::~HttpClient() {
 
 void HttpClient::send(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t sent = write_some(bytes.data(), bytes.size());
     if (sent <= 0) throw std::runtime_error("cannot send");
     bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
@@ -49,7 +70,7 @@ void HttpClient::send(std::string_view bytes) {
 
 bool HttpClient::fill() {
   char bytes[16384];
-  const ssize_t count = ::recv(socket_, bytes, sizeof bytes, 0);
+  const ssize_t count = read_some(bytes, sizeof bytes);
   if (count < 0 && errno == EAGAIN) throw std::runtime_error("no answer");
   if (count > 0) buffer_.append(bytes, static_cast<std::size_t>(count));
   return count > 0;
@@ -104,14 +125,14 @@ HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::st
   return HttpClient(port).get(target, fields, method);
 }
 
-WebSocketClient::WebSocketClient(std::uint16_t port, const std::string& target,
-                                 const std::string& subprotocol)
-    : client_(port) {
+WebSocketClient::WebSocketClient(std::unique_ptr<HttpClient> client, const std::string& target,
+                                 const std::string& subprotocol, const std::string& fields)
+    : client_(std::move(client)) {
   const HttpAnswer answer =
-      client_.get(target,
-                  "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
-                  "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: " +
-                      subprotocol + "\r\n");
+      client_->get(target,
+                   "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                   "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: " +
+                       subprotocol + "\r\n" + fields);
   if (answer.status != 101 || answer.field("sec-websocket-protocol") != subprotocol) {
     throw std::runtime_error("no upgrade: " + std::to_string(answer.status) + " " + answer.body);
   }
@@ -133,20 +154,20 @@ void WebSocketClient::send(std::uint8_t first, std::string_view payload) {
   }
   frame.append(4, '\0');
   frame += payload;
-  client_.send(frame);
+  client_->send(frame);
 }
 
 WebSocketFrame WebSocketClient::receive() {
-  const std::string head = client_.read_exactly(2);
+  const std::string head = client_->read_exactly(2);
   std::size_t length = static_cast<unsigned char>(head[1]) & 0x7f;
   const std::size_t more = length == 126 ? 2 : length == 127 ? 8 : 0;
   if (more > 0) {
     length = 0;
-    for (const char byte : client_.read_exactly(more)) {
+    for (const char byte : client_->read_exactly(more)) {
       length = (length << 8) | static_cast<unsigned char>(byte);
     }
   }
-  return {static_cast<WebSocketFrame::Kind>(head[0] & 0x0f), client_.read_exactly(length)};
+  return {static_cast<WebSocketFrame::Kind>(head[0] & 0x0f), client_->read_exactly(length)};
 }
 
 }  // namespace vitrine::test

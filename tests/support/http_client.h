@@ -2,8 +2,12 @@
 // A client that sends exactly the bytes it is told to, and a WebSocket on top of it.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,11 +25,15 @@ struct HttpAnswer {
   }
 };
 
-// One connection to 127.0.0.1. Blocking; every call throws after 20 s without an answer.
+inline constexpr const char* kLoopback = "127.0.0.1";
+
+// One connection to a port or to a Unix socket. Blocking; every call throws after 20 s without
+// an answer.
 class HttpClient {
  public:
-  explicit HttpClient(std::uint16_t port);
-  ~HttpClient();
+  explicit HttpClient(std::uint16_t port, const char* address = kLoopback);
+  explicit HttpClient(const std::filesystem::path& unix_socket);
+  virtual ~HttpClient();
   HttpClient(const HttpClient&) = delete;
   HttpClient& operator=(const HttpClient&) = delete;
 
@@ -39,7 +47,13 @@ class HttpClient {
 
   std::string read_exactly(std::size_t count);
 
+ protected:
+  int socket() const { return socket_; }
+
  private:
+  virtual ssize_t read_some(char* bytes, std::size_t size);  // as recv(2) and send(2) do
+  virtual ssize_t write_some(const char* bytes, std::size_t size);
+  void connect(const void* address, std::size_t size);
   bool fill();  // false at the end
 
   int socket_;
@@ -51,7 +65,7 @@ HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::st
                     const std::string& method = "GET");
 
 struct WebSocketFrame {
-  enum Kind { kText = 1, kBinary = 2, kClose = 8, kPing = 9 } kind;
+  enum Kind { kText = 1, kBinary = 2, kClose = 8, kPing = 9, kPong = 10 } kind;
   std::string payload;
 
   int close_code() const {  // of kClose
@@ -63,17 +77,23 @@ struct WebSocketFrame {
 class WebSocketClient {
  public:
   // Throws unless the answer is 101 with the subprotocol.
-  WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocol);
+  WebSocketClient(std::uint16_t port, const std::string& target, const std::string& subprotocol,
+                  const std::string& fields = "", const char* address = kLoopback)
+      : WebSocketClient(std::make_unique<HttpClient>(port, address), target, subprotocol, fields) {}
+  WebSocketClient(std::unique_ptr<HttpClient> client, const std::string& target,
+                  const std::string& subprotocol, const std::string& fields = "");
 
   void send_text(std::string_view text) { send(0x81, text); }
   void send_binary(std::string_view bytes) { send(0x82, bytes); }
   WebSocketFrame receive();
   void send_close() { send(0x88, std::string_view("\x03\xe8", 2)); }
+  // A frame with that first byte (FIN, reserved bits, opcode), masked with zeros.
+  void send(std::uint8_t first, std::string_view payload);
+  void send_raw(std::string_view bytes) { client_->send(bytes); }
+  bool is_closed() { return client_->is_closed(); }
 
  private:
-  void send(std::uint8_t first, std::string_view payload);
-
-  HttpClient client_;
+  std::unique_ptr<HttpClient> client_;
 };
 
 }  // namespace vitrine::test

@@ -54,6 +54,16 @@ export const texts = {
   step: (step: number, steps: number) => `step ${count(step)} of ${count(steps)}`,
   points: (points: number) => `${count(points)} points`,
   cloudOf: (title: string) => `The points measured so far: ${title}`,
+  docs: {
+    title: "Interface",
+    parameters: "Parameters",
+    body: "Body (JSON)",
+    fields: "Members",
+    role: (role: string) => `Needs a token with the role ${role}.`,
+    answer: (status: string, what: string) => `Answers ${status}: ${what}`,
+    answerOnly: (status: string) => `Answers ${status}.`,
+    failed: "The description cannot be reached. Reload the page to try again.",
+  },
   scanLost: "The connection is lost. Trying again\u2026",
   scanMissing: "This scan is not on display.",
 };

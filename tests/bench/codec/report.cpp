@@ -16,19 +16,22 @@ std::string number(double value) {
 }  // namespace
 
 Report::Report(bool json) : json_(json) {
-  if (!json) std::printf("%-44s %12s %12s %8s %8s\n", "", "vitrine", "peer", "ratio", "at most");
+  if (!json) std::printf("%-44s %12s %12s %8s %8s\n", "", "vitrine", "peer", "ratio", "limit");
 }
 
 void Report::add(const Figure& f) {
   json_out_[f.what][f.key] = f.ratio;
-  within_ = within_ && f.ratio <= f.threshold;
+  within_ = within_ && f.is_within();
   ++figures_;
   judged_ += std::isfinite(f.threshold) ? 1 : 0;
   if (json_) return;
   std::printf("%-44s %12s %12s %8.3f", (f.what + "." + f.key).c_str(), number(f.ours).c_str(),
               number(f.peer).c_str(), f.ratio);
-  std::printf(std::isfinite(f.threshold) ? " %8g%s\n" : "\n", f.threshold,
-              f.ratio <= f.threshold ? "" : "  too much");
+  if (std::isfinite(f.threshold)) {
+    const char* verdict = f.is_within() ? "" : f.at_least ? "  too little" : "  too much";
+    std::printf(" %s %5g%s", f.at_least ? ">=" : "<=", f.threshold, verdict);
+  }
+  std::printf("\n");
   std::fflush(stdout);
 }
 

@@ -13,6 +13,9 @@ inline constexpr double kNoThreshold = std::numeric_limits<double>::infinity();
 struct Figure {
   std::string what, key;
   double ours, peer, ratio, threshold;  // ours and peer: 0 where there is none
+  bool at_least = false;                // the threshold is the least, not the most
+
+  bool is_within() const { return at_least ? ratio >= threshold : ratio <= threshold; }
 };
 
 class Report {

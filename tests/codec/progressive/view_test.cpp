@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
+#include <random>
 
 #include "codec/progressive/refine.h"
 #include "support/meshes.h"
@@ -124,6 +127,59 @@ TEST(View, NoErrorInSightIsAboveOnePixel) {
       EXPECT_TRUE(have[i] || pixels <= 1) << "chunk " << i << ": " << pixels;
     }
   }
+}
+
+// The depth of a point in sight, or infinity.
+double depth_in_sight(const Vec3& p, const View& view) {
+  const auto axis = [&](std::size_t k) {
+    return Vec3{view.camera[4 * k], view.camera[4 * k + 1], view.camera[4 * k + 2]};
+  };
+  const Vec3 d = p - axis(3);
+  const double depth = -dot(d, axis(2));
+  const double y = depth * std::tan(view.field_of_view / 2 * std::numbers::pi / 180);
+  const bool seen = depth > 0 && std::abs(dot(d, axis(1))) <= y &&
+                    std::abs(dot(d, axis(0))) <= y * view.width / view.height;
+  return seen ? depth : std::numeric_limits<double>::infinity();
+}
+
+// Of a grid of points in the box.
+double least_depth(const LatticeBox& box, const View& view) {
+  constexpr int kSteps = 40;
+  const Vec3 low = to_vec3(box.low), size = to_vec3(box.high) - low;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      for (int k = 0; k <= kSteps; ++k) {
+        const Vec3 p{size.x * i / kSteps, size.y * j / kSteps, size.z * k / kSteps};
+        least = std::min(least, depth_in_sight(low + p, view));
+      }
+    }
+  }
+  return least;
+}
+
+TEST(View, ABoxIsAsNearAsWhatIsInSightOfIt) {
+  constexpr double kSmall = 1e-6;
+  std::mt19937 random(5);
+  const auto number = [&](int most) { return static_cast<std::int32_t>(random() % most); };
+  int seen = 0, beside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3i low{number(60), number(60), number(60)};
+    const LatticeBox box{low, low + Vec3i{1 + number(60), 1 + number(60), 1 + number(60)}};
+    View view = along_x(torus_model().manifest, 1, 1);
+    view.camera[12] = -number(60), view.camera[13] = number(90), view.camera[14] = number(90);
+    view.field_of_view = 20 + number(100);
+    const double pixels = pixels_of(kSmall, box, {}, view), sampled = least_depth(box, view);
+    const double slope = std::tan(view.field_of_view / 2 * std::numbers::pi / 180);
+    const double depth = kSmall / pixels * view.height / (2 * slope);
+    EXPECT_LE(depth, sampled * (1 + kSmall)) << i;
+    if (depth < 2 || sampled > 1e9) continue;  // next to the eye, or too little of it for the grid
+    EXPECT_GT(depth, sampled - 6) << i;        // four steps of the grid
+    ++seen;
+    beside += sampled > low.x - view.camera[12] + 10 ? 1 : 0;  // deeper than the box begins
+  }
+  EXPECT_GT(seen, 100);
+  EXPECT_GT(beside, 20);
 }
 
 TEST(View, FromAfarTheBaseIsEnough) {

@@ -32,7 +32,7 @@ void expect_tight(const LevelError& error, const TriangleMesh& level,
   const double there = dense_maximum(level, TriangleBvh(original));
   const double back = dense_maximum(original, TriangleBvh(level));
   EXPECT_GE(bound, std::max(there, back) * (1 - 1e-9));
-  EXPECT_LE(bound, std::max(there, back) * 1.25);
+  EXPECT_LE(bound, std::max(there, back) * 1.06);
 }
 
 void expect_tight(const TriangleMesh& level, const TriangleMesh& original) {

@@ -88,12 +88,16 @@ TEST(Descriptors, ALowLimitIsRaisedForTheConnections) {
   }
 }
 
-TEST(Connections, BeyondTheLimitAreClosedAtOnceAndCounted) {
+TEST(Connections, BeyondTheLimitAreToldSoClosedAndCounted) {
   ServedFolder folder;
   const Daemon daemon(folder.path(), {"--max-connections", "1"});
   HttpClient first(daemon.port());
   EXPECT_EQ(first.get("/nothing").status, 404);
-  EXPECT_TRUE(HttpClient(daemon.port()).is_closed());
+  HttpClient second(daemon.port());
+  const HttpAnswer refused = second.receive();
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_EQ(refused.field("retry-after"), "5");
+  EXPECT_TRUE(second.is_closed());
   EXPECT_NE(
       http_get(daemon.admin_port(), "/metrics").body.find("vitrine_connections_refused_total 1\n"),
       std::string::npos);

@@ -112,7 +112,7 @@ TEST_F(DaemonTest, AnswersPreflightsAndRefusesOtherMethods) {
   const HttpAnswer preflight = get(chunk_url(), "Origin: https://museum.example\r\n", "OPTIONS");
   EXPECT_EQ(preflight.status, 204);
   EXPECT_THAT(preflight.field("access-control-allow-methods"), HasSubstr("GET"));
-  const HttpAnswer answer = get(model_url(), "Content-Length: 0\r\n", "DELETE");
+  const HttpAnswer answer = get(chunk_url(), "Content-Length: 0\r\n", "DELETE");
   EXPECT_EQ(answer.status, 405);
   EXPECT_EQ(answer.field("allow"), "GET, HEAD, OPTIONS");
 }
@@ -196,6 +196,47 @@ TEST_F(DaemonTest, TheAdminListenerTellsHealthAndMetricsAndVisitorsCannotReachTh
   for (const char* target : {"/livez", "/readyz", "/metrics"})
     EXPECT_EQ(get(target).status, 404);
   EXPECT_EQ(http_get(daemon.admin_port(), "/api/v1/models").status, 404);
+}
+
+TEST_F(DaemonTest, MetricsTellWhatTheOperatorAsksAndDoNotGrowWithWhatVisitorsAskFor) {
+  const auto lines = [&] {
+    const std::string text = http_get(daemon.admin_port(), "/metrics").body;
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const std::string text = http_get(daemon.admin_port(), "/metrics").body;
+  for (const char* sample :
+       {"\nvitrine_build_info{version=\"", "\nvitrine_streams 0\n",
+        "\nvitrine_exports_made_total 0\n", "\nvitrine_export_cache_bytes 0\n",
+        "\nvitrine_jobs{state=\"queued\"} 0\n", "\nvitrine_jobs{state=\"cancelled\"} 0\n",
+        "\nvitrine_data_free_bytes "}) {
+    EXPECT_THAT(text, HasSubstr(sample));
+  }
+  const auto before = lines();
+  for (int i = 0; i < 40; ++i)
+    get("/api/v1/models/x" + std::to_string(i) + "?y=" + std::to_string(i));
+  EXPECT_EQ(lines(), before);
+}
+
+TEST_F(DaemonTest, EveryReadIsAnEntity) {
+  const std::string model = "/api/v1/models/" + id;
+  for (const std::string& target :
+       {std::string("/api/v1/models"), model, model + "/manifest", model + "/head",
+        model + "/file.pmesh", chunk_url(), "/api/v1/iiif/" + id + "/manifest.json",
+        std::string("/api/v1/openapi.json")}) {
+    const HttpAnswer whole = get(target);
+    const std::string tag = whole.field("etag");
+    ASSERT_EQ(whole.status, 200) << target;
+    ASSERT_FALSE(tag.empty()) << target;
+    const HttpAnswer head = get(target, "", "HEAD");
+    EXPECT_EQ(head.field("content-length"), std::to_string(whole.body.size())) << target;
+    EXPECT_EQ(head.field("etag"), tag) << target;
+    EXPECT_EQ(get(target, "If-None-Match: " + tag + "\r\n").status, 304) << target;
+    EXPECT_EQ(get(target, "Range: bytes=1-4\r\nIf-Range: " + tag + "\r\n").body,
+              whole.body.substr(1, 4))
+        << target;
+    EXPECT_EQ(get(target, "Range: bytes=1-4\r\nIf-Range: \"other\"\r\n").status, 200) << target;
+    EXPECT_EQ(get(target, "Range: bytes=0-1,3-4\r\n").body, whole.body) << target;
+  }
 }
 
 }  // namespace

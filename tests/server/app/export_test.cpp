@@ -4,51 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <future>
+#include <nlohmann/json.hpp>
 
-#include "server/jobs/build_model.h"
-#include "server/store/installation.h"
-#include "server/store/publish.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
-#include "support/temporary_folder.h"
+#include "displayed_model.h"
 
 namespace vitrine::test {
 namespace {
 
 using ::testing::HasSubstr;
-
-// A wavy sheet of 2 * 59 * 59 = 6962 triangles as OBJ.
-std::string wavy_sheet() {
-  constexpr int kSide = 60;
-  std::string text;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      text += "v " + std::to_string(x) + " " + std::to_string(y) + " " +
-              std::to_string(std::sin(0.3 * x) * std::cos(0.2 * y)) + "\n";
-    }
-  }
-  for (int y = 0; y + 1 < kSide; ++y) {
-    for (int x = 0; x + 1 < kSide; ++x) {
-      const int a = y * kSide + x + 1, b = a + 1, c = a + kSide, d = c + 1;
-      for (const auto& [p, q, r] : {std::array{a, b, d}, std::array{a, d, c}}) {
-        text += "f " + std::to_string(p) + " " + std::to_string(q) + " " + std::to_string(r) + "\n";
-      }
-    }
-  }
-  return text;
-}
-
-const BuildResult& built() {
-  static const BuildResult result = [] {
-    const std::string text = wavy_sheet();
-    auto model = build_model({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {},
-                             [](std::string_view, double) {});
-    if (!model) throw std::runtime_error(model.error().message);
-    return std::move(*model);
-  }();
-  return result;
-}
 
 // The number after "element face " in a PLY header.
 std::uint64_t ply_faces(const std::string& file) {
@@ -57,24 +21,11 @@ std::uint64_t ply_faces(const std::string& file) {
   return at == std::string::npos ? 0 : std::stoul(file.substr(at + kElement.size(), 12));
 }
 
-class ExportTest : public ::testing::Test {
+class ExportTest : public ::testing::Test, public DisplayedModel {
  protected:
-  ExportTest() {
-    Installation installation = open_installation(folder.path()).value();
-    const auto published = publish(*installation.store, *installation.catalogue, built().file, {});
-    if (!published) throw std::runtime_error(published.error().message);
-    id = published->id.to_string();
-    daemon.emplace(folder.path());
-  }
-
   HttpAnswer get(const std::string& rest, const std::string& fields = "") const {
-    return http_get(daemon->port(), "/api/v1/models/" + id + "/export." + rest, fields);
+    return http_get(port(), api + "/export." + rest, fields);
   }
-
-  const std::vector<LevelInfo>& levels = built().report.manifest.levels;
-  TemporaryFolder folder;
-  std::string id;
-  std::optional<Daemon> daemon;
 };
 
 TEST_F(ExportTest, GivesTheLevelThatIsAskedFor) {
@@ -88,7 +39,7 @@ TEST_F(ExportTest, MeetsTrianglesBytesAndError) {
   const std::uint64_t faces = ply_faces(get("ply?triangles=3000").body);
   EXPECT_LE(faces, 3000u);
   EXPECT_GE(faces, 2700u);
-  const Manifest& manifest = built().report.manifest;
+  const Manifest& manifest = built_model().report.manifest;
   EXPECT_EQ(ply_faces(get("ply?bytes=" + std::to_string(manifest.cumulative_bytes(1))).body),
             levels[1].faces);
   EXPECT_EQ(ply_faces(get("ply?error=1e9").body), levels.front().faces);
@@ -120,6 +71,63 @@ TEST_F(ExportTest, RefusesParametersThatMakeNoSense) {
                             "kbps=0&seconds=1", "kbps=100&seconds=1&level=1", "faces=100"}) {
     EXPECT_EQ(get(std::string("ply?") + query).status, 400) << query;
   }
+}
+
+// The value of an unlabelled sample of /metrics.
+int metric(std::uint16_t admin_port, const std::string& name) {
+  const std::string text = http_get(admin_port, "/metrics").body;
+  return std::stoi(text.substr(text.find("\n" + name + " ") + name.size() + 2));
+}
+
+TEST_F(ExportTest, EqualOnesAreComputedOnceHoweverManyAskAtATime) {
+  std::vector<std::future<HttpAnswer>> answers;
+  for (int i = 0; i < 16; ++i)
+    answers.push_back(std::async(std::launch::async, [&] { return get("glb?triangles=5000"); }));
+  for (auto& answer : answers)
+    EXPECT_EQ(answer.get().status, 200);
+  EXPECT_EQ(metric(daemon.admin_port(), "vitrine_exports_made_total"), 1);
+  EXPECT_EQ(metric(daemon.admin_port(), "vitrine_export_cache_hits_total"), 15);
+  EXPECT_GT(metric(daemon.admin_port(), "vitrine_export_cache_bytes"), 0);
+}
+
+TEST_F(ExportTest, TheManifestForetellsWhatAnExportGives) {
+  for (const std::string wish : {"kbps=10&seconds=1.5", "triangles=3000", "error=0.2", "level=1"}) {
+    const HttpAnswer answer = http_get(port(), api + "/manifest?" + wish);
+    ASSERT_EQ(answer.status, 200) << wish;
+    const auto manifest = nlohmann::json::parse(answer.body);
+    const auto expect = manifest["expect"];
+    const auto level = manifest["levels"][expect["level"].get<std::size_t>()];
+    const auto triangles = expect["triangles"].get<double>();
+    const double off = wish.starts_with("triangles") ? 2 : 0;  // of one split
+    EXPECT_NEAR(static_cast<double>(ply_faces(get("ply?" + wish).body)), triangles, off) << wish;
+    EXPECT_LE(level["faces"], triangles) << wish;
+    EXPECT_EQ(level["max_error"], expect["error"]) << wish;
+  }
+}
+
+TEST_F(ExportTest, TheManifestTellsHowLongALineTakes) {
+  const auto tell = [&](const std::string& line) {
+    return nlohmann::json::parse(http_get(port(), api + "/manifest?" + line).body)["expect"];
+  };
+  const double bytes = static_cast<double>(built_model().report.manifest.cumulative_bytes(1));
+  const double kbps = bytes * 8 / 1000 / 1.5 + 0.001;
+  const auto slow = tell(fmt::format("seconds=1.5&kbps={}", kbps));
+  EXPECT_EQ(slow["level"], 1);
+  EXPECT_EQ(slow["bytes"], bytes);
+  EXPECT_NEAR(slow["seconds"].get<double>(), 1.5, 0.01);
+  EXPECT_EQ(tell(fmt::format("seconds=1.5&kbps={}", 100 * kbps))["level"], levels.size() - 1);
+  EXPECT_TRUE(tell("level=0")["seconds"].is_null());
+  EXPECT_TRUE(tell("").is_null());
+  EXPECT_EQ(http_get(port(), api + "/manifest?kbps=40").status, 400);
+  EXPECT_EQ(http_get(port(), api + "/manifest?faces=40").status, 400);
+}
+
+TEST_F(ExportTest, WhoSavesDataIsToldSoAndCachesKnow) {
+  const HttpAnswer saving = http_get(port(), api + "/manifest", "Save-Data: on\r\n");
+  EXPECT_LE(nlohmann::json::parse(saving.body)["expect"]["bytes"], 1'000'000);
+  EXPECT_EQ(saving.field("vary"), "Save-Data");
+  EXPECT_EQ(http_get(port(), api + "/manifest").field("vary"), "Save-Data");
+  EXPECT_EQ(get("ply?level=0").field("vary"), "Save-Data");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "server/auth/authenticator.h"
 #include "server/store/installation.h"
 #include "server/store/publish.h"
 #include "support/temporary_folder.h"
@@ -33,6 +34,10 @@ class ServedFolder {
                                      {.title = title});
     if (!id) throw std::runtime_error(id.error().message);
     return id->id.to_string();
+  }
+
+  std::string token(Role role) {
+    return create_token(*installation_.catalogue, role, "").value().text;
   }
 
  private:

@@ -236,6 +236,21 @@ TEST(Stop, ASecondSignalEndsTheDaemonAtOnce) {
   EXPECT_EQ(daemon.wait().exit_code, 0);
 }
 
+TEST(Stop, WhileItStopsItIsAliveAndNotReady) {
+  ServedFolder folder;
+  const std::string id = folder.publish("A small bust");
+  Daemon daemon(folder.path(), {"--stop-timeout", "3600"});
+  WebSocketClient stuck(daemon.port(), "/api/v1/models/" + id + "/stream", "pmesh.v1");
+  stuck.receive();
+  EXPECT_EQ(http_get(daemon.admin_port(), "/readyz").status, 200);
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(stuck.receive().close_code(), 1012);
+  EXPECT_EQ(http_get(daemon.admin_port(), "/readyz").status, 503);
+  EXPECT_EQ(http_get(daemon.admin_port(), "/livez").status, 200);
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait().exit_code, 0);
+}
+
 TEST(Stop, TheDeadlineCutsWhatDoesNotEnd) {
   ServedFolder folder;
   const std::string id = folder.publish("A small bust");

@@ -18,7 +18,29 @@ using Json = nlohmann::json;
 class StreamTest : public ::testing::Test {
  protected:
   std::string url() const { return "/api/v1/models/" + id + "/stream"; }
-  WebSocketClient connect() const { return {daemon.port(), url(), "pmesh.v1"}; }
+  WebSocketClient connect(const std::string& query = "", const std::string& fields = "") const {
+    return {daemon.port(), url() + query, "pmesh.v1", fields};
+  }
+  // The next text frame.
+  static Json told(WebSocketClient& client) {
+    WebSocketFrame frame = client.receive();
+    EXPECT_EQ(frame.kind, WebSocketFrame::kText);
+    return Json::parse(frame.payload);
+  }
+  // Slices of one chunk, acknowledged; their first header.
+  static std::string take(WebSocketClient& client, std::size_t length, std::string& bytes) {
+    std::string header;
+    while (bytes.size() < length) {
+      const WebSocketFrame frame = client.receive();
+      EXPECT_EQ(frame.kind, WebSocketFrame::kBinary) << frame.payload;
+      EXPECT_LE(frame.payload.size(), 16u + 16384u);
+      if (bytes.empty()) header = frame.payload.substr(0, 16);
+      bytes += frame.payload.substr(16);
+      client.send_text(R"({"type":"ack","bytes":)" + std::to_string(frame.payload.size() - 16) +
+                       "}");
+    }
+    return header;
+  }
 
   const ChunkInfo& chunk = served_pmesh().manifest.chunks[0];
   ServedFolder folder;
@@ -34,18 +56,91 @@ TEST_F(StreamTest, SendsTheWantedChunkInSlicesAndThenDone) {
   EXPECT_EQ(model["sha256"], to_hex(sha256(served_pmesh().bytes)));
   client.send_text(R"({"type":"want","level":1})");
   std::string bytes;
-  while (bytes.size() < chunk.length) {
-    const WebSocketFrame frame = client.receive();
-    ASSERT_EQ(frame.kind, WebSocketFrame::kBinary);
-    ASSERT_LE(frame.payload.size(), 12u + 16384u);
-    EXPECT_EQ(static_cast<unsigned char>(frame.payload[0]), 1u) << "the level";
-    bytes += frame.payload.substr(12);
-  }
+  EXPECT_EQ(take(client, chunk.length, bytes)[2], 1) << "the level";
   EXPECT_EQ(bytes, file_bytes(chunk.offset, chunk.length));
   const Json done = Json::parse(client.receive().payload);
   EXPECT_EQ(done["type"], "done");
   EXPECT_EQ(done["bytes"], served_pmesh().manifest.file_bytes);
   EXPECT_EQ(done["triangles"], 8);
+}
+
+TEST_F(StreamTest, TheHandshakeBringsTheHeadWhereItIsAskedFor) {
+  WebSocketClient client = connect("?head=true");
+  const std::size_t head = told(client)["head_bytes"];
+  std::string bytes;
+  take(client, head, bytes);
+  EXPECT_EQ(bytes, file_bytes(0, head));
+  EXPECT_THROW(connect("?head=maybe"), std::runtime_error);
+}
+
+TEST_F(StreamTest, OneSocketBringsSeveralModels) {
+  const TinyPmesh other = tiny_pmesh("another base", "another chunk");
+  const std::string second = folder.publish("Another bust", other);
+  WebSocketClient client = connect();
+  told(client);
+  client.send_text(R"({"type":"open","model":5,"id":")" + second + "\"}");
+  EXPECT_EQ(told(client)["sha256"], to_hex(sha256(other.bytes)));
+  client.send_text(R"({"type":"want","model":5,"level":1})");
+  std::string bytes;
+  EXPECT_EQ(take(client, other.manifest.chunks[0].length, bytes)[0], 5) << "the model";
+  EXPECT_EQ(bytes, "another chunk");
+  EXPECT_EQ(told(client)["model"], 5);
+  client.send_text(R"({"type":"close","model":5})");
+  EXPECT_EQ(told(client)["type"], "closed");
+  client.send_text(R"({"type":"open","model":5,"id":"00000000000000000000000001"})");
+  EXPECT_EQ(told(client)["reason"], "there is no such model");
+}
+
+TEST_F(StreamTest, AWishForTimeIsAnsweredByPromises) {
+  WebSocketClient client = connect();
+  told(client);
+  client.send_text(R"({"type":"want","turn":3,"seconds":5})");
+  const Json promise = told(client);
+  EXPECT_EQ(promise["type"], "promise");
+  EXPECT_EQ(promise["turn"], 3);
+  EXPECT_EQ(promise["measured"], false);
+  EXPECT_EQ(promise["bytes_per_second"], 32000.0);
+}
+
+TEST_F(StreamTest, AClientThatAcknowledgesNothingGetsItsCreditAllTheSame) {
+  WebSocketClient client = connect();
+  told(client);
+  client.send_text(R"({"type":"want","level":1})");
+  std::size_t bytes = 0;
+  while (bytes < chunk.length)
+    bytes += client.receive().payload.size() - 16;
+  EXPECT_EQ(told(client)["type"], "done");
+}
+
+TEST_F(StreamTest, AClientThatGrantsAheadIsSentEverything) {
+  WebSocketClient client = connect();
+  told(client);
+  client.send_text(R"({"type":"ack","bytes":16777216})");
+  client.send_text(R"({"type":"want","level":1})");
+  std::size_t bytes = 0;
+  while (bytes < chunk.length)
+    bytes += client.receive().payload.size() - 16;
+  EXPECT_EQ(told(client)["type"], "done");
+}
+
+TEST_F(StreamTest, PagesOfOtherSitesMayStreamUnlessSomeAreListed) {
+  EXPECT_NO_THROW(connect("", "Origin: https://museum.example\r\n"));
+  const Daemon strict(folder.path(), {"--allowed-origins", "https://museum.example"});
+  const auto status = [&](const std::string& origin) {
+    try {
+      WebSocketClient(strict.port(), url(), "pmesh.v1", origin);
+    } catch (const std::runtime_error& refused) {
+      return std::string(refused.what()).substr(0, 15);
+    }
+    return std::string("open");
+  };
+  EXPECT_EQ(status("Origin: https://museum.example\r\n"), "open");
+  EXPECT_EQ(status("Origin: http://localhost\r\n"), "open") << "its own pages: the Host";
+  EXPECT_EQ(status(""), "open") << "no browser";
+  for (const char* const wrong :
+       {"https://museum.example.evil.example", "http://museum.example", "null", ""}) {
+    EXPECT_EQ(status("Origin: " + std::string(wrong) + "\r\n"), "no upgrade: 403") << wrong;
+  }
 }
 
 TEST_F(StreamTest, SkipsWhatTheClientHolds) {

@@ -35,7 +35,13 @@ TEST_F(Migrations, a_scan_of_an_older_version_does_not_know_its_rows) {
   const ScanEntry scan{.id = ScanId::generate(), .job = JobId::generate(), .steps = 720};
   ASSERT_TRUE(open_sqlite_jobs(file_).value()->add({.id = scan.job}, scan, {}));
   run("ALTER TABLE scan DROP COLUMN empty_rows; ALTER TABLE scan DROP COLUMN saturated_rows;"
-      "ALTER TABLE scan DROP COLUMN doubled_rows; DELETE FROM migration WHERE version = 4");
+      "ALTER TABLE scan DROP COLUMN doubled_rows; DELETE FROM migration WHERE version >= 4;"
+      "ALTER TABLE job DROP COLUMN webhook; ALTER TABLE model DROP COLUMN more;"
+      "ALTER TABLE model DROP COLUMN accuracy; ALTER TABLE model DROP COLUMN version;"
+      "ALTER TABLE model DROP COLUMN public_max_level; ALTER TABLE model DROP COLUMN public_file;"
+      "ALTER TABLE model DROP COLUMN public_file_bytes;"
+      "ALTER TABLE model DROP COLUMN public_head_bytes;"
+      "ALTER TABLE model DROP COLUMN public_faces; ALTER TABLE model DROP COLUMN public_vertices");
   EXPECT_EQ(open_sqlite_jobs(file_).value()->find_scan(scan.id).value(), scan);
 }
 

@@ -3,6 +3,8 @@
 
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
+#include "support/daemon.h"
+#include "support/http_client.h"
 #include "vitrine_command.h"
 
 namespace vitrine::test {
@@ -88,12 +90,59 @@ TEST_F(VitrineCommand, a_damaged_pmesh_is_not_published) {
   EXPECT_TRUE(std::filesystem::is_empty(path("data")));
 }
 
-TEST_F(VitrineCommand, a_remote_server_is_refused_with_the_way_round) {
-  const std::string in = write("in.ply", bumpy_ply(100));
-  const ProgramResult result =
-      vitrine({"publish", in, "--server", "http://127.0.0.1:1", "--token", "t"});
-  expect_fault(result, 1);
-  EXPECT_NE(result.errors.find("--data"), std::string::npos);
+// A daemon, and a token of its installation.
+class AtServer : public VitrineCommand {
+ protected:
+  AtServer() : daemon_(empty_folder("data")) {}
+
+  std::string token(const std::string& role) const {
+    return vitrine_json({"token", "create", "--role", role, "--data", path("data")})["token"];
+  }
+  std::vector<std::string> at_server(std::vector<std::string> words, const std::string& by) const {
+    words.insert(words.end(), {"--server", url_, "--token", by});
+    return words;
+  }
+
+  const Daemon daemon_;
+  const std::string url_ = "http://127.0.0.1:" + std::to_string(daemon_.port());
+};
+
+TEST_F(AtServer, a_mesh_is_public_on_return) {
+  const std::string in = write("Bust of a girl.ply", bumpy_ply(2'000)), by = token("operator");
+  const nlohmann::json report = vitrine_json(at_server({"publish", in}, by));
+  EXPECT_EQ(report.size(), 2u);
+  const std::string id = report["id"];
+  EXPECT_EQ(report["url"], url_ + "/models/" + id);
+  const auto shown = nlohmann::json::parse(http_get(daemon_.port(), "/api/v1/models/" + id).body);
+  EXPECT_EQ(shown["title"], "Bust of a girl");
+  EXPECT_EQ(shown["faces"], 1'922);
+  const nlohmann::json other = vitrine_json(at_server({"publish", model(800), "--title", "T"}, by));
+  const std::string file =
+      http_get(daemon_.port(), "/api/v1/models/" + other.value("id", "") + "/file.pmesh").body;
+  EXPECT_EQ(file, read("model.pmesh"));
+}
+
+TEST_F(AtServer, what_the_server_refuses_is_told_with_its_words) {
+  const std::string in = write("in.ply", "no mesh"), by = token("operator");
+  const ProgramResult bad = vitrine(at_server({"publish", in}, by));
+  expect_fault(bad, 1);
+  EXPECT_THAT(bad.errors, HasSubstr("in.ply: "));
+  const ProgramResult forbidden = vitrine(at_server({"publish", in}, token("viewer")));
+  expect_fault(forbidden, 1);
+  EXPECT_THAT(forbidden.errors, HasSubstr("403"));
+  expect_fault(vitrine({"publish", in, "--server", "museum", "--token", by}), 2);
+  expect_fault(vitrine({"publish", in, "--server", url_}), 2);
+}
+
+TEST_F(AtServer, an_administrator_makes_and_revokes_tokens_from_afar) {
+  const std::string admin = token("admin");
+  const nlohmann::json made =
+      vitrine_json(at_server({"token", "create", "--role", "viewer", "--label", "Anna"}, admin));
+  EXPECT_EQ(made["role"], "viewer");
+  const std::string bearer = "Authorization: Bearer " + made.value("token", "") + "\r\n";
+  EXPECT_EQ(http_get(daemon_.port(), "/api/v1/jobs", bearer).status, 200);
+  vitrine_json(at_server({"token", "revoke", "--id", made["id"]}, admin));
+  EXPECT_EQ(http_get(daemon_.port(), "/api/v1/jobs", bearer).status, 401);
 }
 
 }  // namespace

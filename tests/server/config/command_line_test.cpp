@@ -41,6 +41,15 @@ TEST(CommandLine, TheFileWinsOverDefaultsTheEnvironmentOverTheFileAndFlagsOverAl
   EXPECT_EQ(line->settings.data, "in file");
 }
 
+TEST(CommandLine, AListenerMayBeAUnixSocket) {
+  const auto line = parse({"--listen", "unix:/run/vitrine.sock"});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->settings.listen, Endpoint{.path = "/run/vitrine.sock"});
+  EXPECT_FALSE(parse({"--listen", "unix:"}));
+  const std::string too_long = "unix:/" + std::string(107, 'x');
+  EXPECT_FALSE(parse({"--listen", too_long}));
+}
+
 TEST(CommandLine, AnUnknownFlagIsAnErrorWithASuggestion) {
   const auto line = parse({"--lisen", "127.0.0.1:1"});
   ASSERT_FALSE(line);

@@ -38,5 +38,37 @@ TEST(ExportCache, AnEqualKeyIsKeptOnce) {
   EXPECT_TRUE(cache.find("b"));
 }
 
+TEST(ExportCache, AFileAboveItsCapacityIsSharedAsLongAsSomebodyHoldsIt) {
+  ExportCache cache(10);
+  const auto make = [] {
+    return Expected<std::vector<std::uint8_t>>(std::vector<std::uint8_t>(11));
+  };
+  auto first = cache.find_or_make("large", make).value();
+  EXPECT_EQ(cache.find_or_make("large", make).value(), first);
+  EXPECT_EQ(cache.made, 1u);
+  first.reset();
+  EXPECT_FALSE(cache.find("large"));
+}
+
+TEST(ExportCache, WhatFailsIsMadeAgain) {
+  ExportCache cache(10);
+  const auto fails = []() -> Expected<std::vector<std::uint8_t>> {
+    return fail(ErrorCode::kIo, "the disk");
+  };
+  EXPECT_FALSE(cache.find_or_make("a", fails));
+  EXPECT_TRUE(cache.find_or_make(
+      "a", [] { return Expected<std::vector<std::uint8_t>>(std::vector<std::uint8_t>(1)); }));
+}
+
+TEST(ExportCache, ASmallerCapacityDropsWhatIsAboveIt) {
+  ExportCache cache(10);
+  cache.insert("a", file(4));
+  cache.insert("b", file(4));
+  cache.set_capacity(5);
+  EXPECT_FALSE(cache.find("a"));
+  EXPECT_TRUE(cache.find("b"));
+  EXPECT_EQ(cache.bytes(), 4u);
+}
+
 }  // namespace
 }  // namespace vitrine

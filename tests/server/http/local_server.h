@@ -9,6 +9,7 @@
 
 #include "server/http/http_server.h"
 #include "server/http/services.h"
+#include "server/jobs/publish_jobs.h"
 #include "server/store/installation.h"
 #include "support/temporary_folder.h"
 
@@ -20,7 +21,8 @@ class LocalServer {
                        std::chrono::seconds patience = std::chrono::seconds(30),
                        std::vector<std::unique_ptr<ScannerBackend>> scanners = {})
       : scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, log_,
-                folder_.path(), VITRINE_BIN_DIR "/vitrined"},
+                folder_.path(), VITRINE_BIN_DIR "/vitrined", std::chrono::seconds(10),
+                [this](JobRun& run) { return publishing_.work(run); }},
                std::move(scanners)),
         metrics_(Router(routes).templates()),
         server_(io_, services_, workers_,
@@ -40,7 +42,10 @@ class LocalServer {
   std::uint16_t port() const { return port_; }
   ScanService& scans() { return scans_; }
   const std::filesystem::path& data() const { return folder_.path(); }
+  JobCatalogue& jobs() { return *installation_.jobs; }
   Catalogue& catalogue() { return *installation_.catalogue; }
+  Collector& collector() { return collector_; }
+  Uploads& uploads() { return uploads_; }
   ObjectStore& store() { return *installation_.store; }
   const Metrics& metrics() const { return metrics_; }
 
@@ -66,19 +71,33 @@ class LocalServer {
   TemporaryFolder folder_;
   Installation installation_ = open_installation(folder_.path()).value();
   Log log_ = Log::open("").value();
+  Uploads uploads_{folder_.path() / "uploads", {.bytes = 1 << 20, .per_token = 3}};
+  Quota quota_{*installation_.catalogue, uploads_, 3 << 20};
+  PublishJobs publishing_{{*installation_.store, *installation_.catalogue, uploads_, quota_,
+                           folder_.path(), VITRINE_BIN_DIR "/vitrined"}};
   ScanService scans_;
   PublishedModels models_{*installation_.store, *installation_.catalogue};
   ExportCache exports_{0};
   WebPages pages_{kPages};
+  LiveSettings settings_{Settings{}};
   Metrics metrics_;
   Authenticator tokens_{*installation_.catalogue};
   Log events_ = Log::open(folder_.path() / "events.log").value();
-  Services services_{*installation_.catalogue,
+  Collector collector_{{*installation_.store, *installation_.catalogue, *installation_.jobs,
+                        uploads_, events_, std::chrono::seconds(0)}};
+  Webhooks webhooks_{{"127.0.0.1"}, events_};
+  Services services_{*installation_.store,
+                     *installation_.catalogue,
                      tokens_,
                      models_,
                      scans_,
+                     uploads_,
+                     quota_,
+                     collector_,
+                     webhooks_,
                      exports_,
                      pages_,
+                     settings_,
                      metrics_,
                      log_,
                      events_,

@@ -112,6 +112,7 @@ TEST(Router, WhatIsNotAPublicReadAsksForARole) {
   for (const Route& route : public_routes()) {
     if (route.method == Method::kGet && route.role == Role::kNone) continue;
     EXPECT_EQ(route.quick, nullptr) << route.path;
+    if (route.method == Method::kOptions) continue;  // tells what is spoken
     EXPECT_NE(route.role, Role::kNone) << route.path;
   }
 }

@@ -361,5 +361,38 @@ TEST_F(Jobs, the_list_has_the_newest_first_with_what_is_known_now) {
   EXPECT_EQ(listed[0].record.id, std::max(first.id, second.id));
 }
 
+TEST_F(Jobs, who_asked_to_is_told_of_every_end_once) {
+  std::vector<JobStatus> ends;
+  const auto queue = queue_of([](JobRun& run) -> Expected<JobEnd> {
+    if (run.job().scanner == "b") return fail(ErrorCode::kIo, "the camera is gone");
+    return JobEnd::kDone;
+  });
+  queue->when_ended([&](const JobStatus& job) { ends.push_back(job); });
+  JobRecord good = job_for("a"), bad = job_for("b");
+  good.webhook = "http://museum.example/";
+  ASSERT_TRUE(queue->add(good, {}, {}));
+  settle(*queue);
+  ASSERT_TRUE(queue->add(bad, {}, {}));
+  settle(*queue, "b");
+  ASSERT_EQ(ends.size(), 2u);
+  EXPECT_EQ(ends[0].record.state, JobState::kDone);
+  EXPECT_EQ(ends[0].record.webhook, good.webhook);
+  EXPECT_EQ(ends[1].record.error, "the camera is gone");
+}
+
+TEST_F(Jobs, what_is_published_waits_for_no_scanner) {
+  const auto queue = queue_of([this](JobRun& run) -> Expected<JobEnd> {
+    if (run.job().kind == JobKind::kScan) return gate_.pass(run);
+    return JobEnd::kDone;
+  });
+  ASSERT_TRUE(queue->add(job_for("a"), {}, {}));
+  gate_.await_beginning();
+  const JobRecord other = job_for("", JobKind::kPublish);
+  ASSERT_TRUE(queue->add(other, {}, {}));
+  settle(*queue, "");
+  EXPECT_EQ(stored(other), JobState::kDone);
+  gate_.open();
+}
+
 }  // namespace
 }  // namespace vitrine

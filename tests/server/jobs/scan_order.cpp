@@ -82,7 +82,7 @@ TEST(ScanOrder, each_fault_names_its_field) {
   }
   EXPECT_EQ(fault_in(Json::object()), "scanner");
   EXPECT_EQ(fault_in({{"scanner", "rig"}, {"metadata", {{"title", 1}}}}), "metadata.title");
-  EXPECT_EQ(fault_in({{"scanner", "rig"}, {"metadata", {{"date", "1"}}}}), "metadata.date");
+  EXPECT_EQ(fault_in({{"scanner", "rig"}, {"metadata", {{"colour", "1"}}}}), "metadata.colour");
 }
 
 TEST(CalibrationOrder, says_how_many_poses_there_will_be) {

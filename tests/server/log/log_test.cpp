@@ -26,14 +26,14 @@ TEST(Log, WritesOneLinePerRequest) {
   {
     const auto log = Log::open(file);
     ASSERT_TRUE(log) << log.error().message;
-    log->access({.request_id = "0123",
-                 .remote = "127.0.0.1",
-                 .method = "GET",
-                 .route = "/x/{id}",
-                 .target = "/x/1\nevent=forged \"",
-                 .status = 404,
-                 .bytes = 12,
-                 .seconds = 0.5});
+    EXPECT_TRUE(log->access({.request_id = "0123",
+                             .remote = "127.0.0.1",
+                             .method = "GET",
+                             .route = "/x/{id}",
+                             .target = "/x/1\nevent=forged \"",
+                             .status = 404,
+                             .bytes = 12,
+                             .seconds = 0.5}));
     log->event(Severity::kWarning, "all is well");
   }
   const std::string text = slurp(file);
@@ -43,6 +43,28 @@ TEST(Log, WritesOneLinePerRequest) {
       HasSubstr("id=0123 remote=127.0.0.1 method=GET route=/x/{id} "
                 "target=\"/x/1\\x0aevent=forged \\\"\" status=404 bytes=12 seconds=0.500000\n"));
   EXPECT_THAT(text, HasSubstr("event=warning message=\"all is well\"\n"));
+}
+
+TEST(Log, RequestsWaitForEachOtherUntilTheFirstOfThemIsSeenTo) {
+  const std::filesystem::path file = ::testing::TempDir() + "vitrine-batch.log";
+  std::filesystem::remove(file);
+  const auto log = Log::open(file);
+  EXPECT_TRUE(log->access({.request_id = "1"}));
+  EXPECT_FALSE(log->access({.request_id = "2"}));
+  EXPECT_EQ(slurp(file), "");
+  log->flush();
+  EXPECT_THAT(slurp(file), ::testing::ContainsRegex("id=1 .*\n.*id=2 .*\n$"));
+  EXPECT_TRUE(log->access({.request_id = "3"}));
+}
+
+TEST(Log, ManyRequestsAreWrittenBeforeAnybodySeesToThem) {
+  const std::filesystem::path file = ::testing::TempDir() + "vitrine-many.log";
+  std::filesystem::remove(file);
+  const auto log = Log::open(file);
+  const std::string target(10'000, 'x');
+  for (int i = 0; i < 7; ++i)
+    static_cast<void>(log->access({.request_id = "1", .target = target}));
+  EXPECT_GT(std::filesystem::file_size(file), 60'000u);
 }
 
 TEST(Log, WritesWhoChangedWhat) {

@@ -66,5 +66,22 @@ TEST_F(FileStoreTest, a_folder_that_cannot_be_made_is_named) {
   EXPECT_NE(store.error().message.find("file/objects"), std::string::npos);
 }
 
+TEST_F(FileStoreTest, a_sweep_takes_what_a_crash_left_half_written) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  const fs::path left = path().parent_path() / ".half.part";
+  std::ofstream(left) << "an o";
+  EXPECT_EQ(store_.sweep({name_}, std::chrono::hours(1)).value(), 0u);
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(path()));
+}
+
+TEST_F(FileStoreTest, an_object_that_is_put_again_has_its_grace_anew) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  fs::last_write_time(path(), fs::file_time_type::clock::now() - std::chrono::hours(2));
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1)).value(), 0u);
+  EXPECT_TRUE(fs::exists(path()));
+}
+
 }  // namespace
 }  // namespace vitrine

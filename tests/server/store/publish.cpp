@@ -81,6 +81,13 @@ class FullCatalogue final : public Catalogue {
   Expected<void> set_state(const ModelId& id, ModelState state) override {
     return before_.set_state(id, state);
   }
+  Expected<void> update(const ModelRecord& model,
+                        std::optional<std::span<const ChunkPlace>> chunks) override {
+    return before_.update(model, chunks);
+  }
+  Expected<void> remove(const ModelId& id) override { return before_.remove(id); }
+  Expected<std::vector<NamedFile>> files() override { return before_.files(); }
+  Expected<std::vector<TokenRecord>> tokens() override { return before_.tokens(); }
   Expected<std::optional<ModelRecord>> find(const ModelId& id) override { return before_.find(id); }
   Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) override {
     return before_.find_same(model);

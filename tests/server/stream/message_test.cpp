@@ -9,8 +9,10 @@ namespace {
 template <class Wanted>
 std::optional<Wanted> want_of(std::string_view text) {
   const auto message = parse_message(text);
-  if (!message || !std::holds_alternative<Want>(*message)) return std::nullopt;
-  const Want& want = std::get<Want>(*message);
+  if (!message || !std::holds_alternative<WantMessage>(*message)) return std::nullopt;
+  const Wish& wish = std::get<WantMessage>(*message).wish;
+  if (!std::holds_alternative<Want>(wish)) return std::nullopt;
+  const Want& want = std::get<Want>(wish);
   return std::holds_alternative<Wanted>(want) ? std::optional(std::get<Wanted>(want))
                                               : std::nullopt;
 }
@@ -22,6 +24,16 @@ TEST(Message, ReadsEachKindOfWant) {
   EXPECT_EQ(want_of<WantError>(R"({"type":"want","error":1})")->error, 1.0);
   EXPECT_EQ(want_of<WantLevel>(R"({"level":3,"type":"want","later":"member"})")->level, 3u);
   EXPECT_EQ(want_of<WantLevel>(R"({"level":99999999999,"type":"want"})")->level, UINT32_MAX);
+}
+
+TEST(Message, ReadsAWishForTimeWithItsModelAndTurn) {
+  const auto message =
+      parse_message(R"({"type":"want","model":15,"turn":4294967295,"seconds":0.5})");
+  ASSERT_TRUE(message) << message.error().message;
+  const auto& want = std::get<WantMessage>(*message);
+  EXPECT_EQ(want.model, 15);
+  EXPECT_EQ(want.turn, UINT32_MAX);
+  EXPECT_EQ(std::get<WantSeconds>(want.wish).seconds, 0.5);
 }
 
 TEST(Message, ReadsACamera) {
@@ -45,6 +57,45 @@ TEST(Message, ReadsHaveAndAck) {
   const auto ack = parse_message(R"({"type":"ack","bytes":16384})");
   ASSERT_TRUE(ack) << ack.error().message;
   EXPECT_EQ(std::get<AckMessage>(*ack).bytes, 16384u);
+}
+
+TEST(Message, ReadsWhatIsSaidOfModels) {
+  const auto open = parse_message(R"({"type":"open","model":3,"id":"abc","head":true})");
+  ASSERT_TRUE(open) << open.error().message;
+  EXPECT_EQ(std::get<OpenMessage>(*open).model, 3);
+  EXPECT_EQ(std::get<OpenMessage>(*open).id, "abc");
+  EXPECT_TRUE(std::get<OpenMessage>(*open).head);
+  EXPECT_EQ(std::get<CloseMessage>(*parse_message(R"({"type":"close","model":3})")).model, 3);
+  EXPECT_TRUE(std::get<PauseMessage>(*parse_message(R"({"type":"pause"})")).pause);
+  EXPECT_FALSE(std::get<PauseMessage>(*parse_message(R"({"type":"resume"})")).pause);
+}
+
+TEST(Message, WhatIsWrittenIsRead) {
+  const View view{.camera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7.5, 1},
+                  .field_of_view = 35,
+                  .width = 800,
+                  .height = 600,
+                  .bytes = 5000};
+  const ClientMessage messages[] = {
+      OpenMessage{.model = 2, .id = "abc", .head = true},
+      CloseMessage{2},
+      WantMessage{1, 7, Want(WantTriangles{500})},
+      WantMessage{1, 7, Want(WantBytes{500})},
+      WantMessage{1, 7, Want(WantError{0.125})},
+      WantMessage{1, 7, Want(WantLevel{5})},
+      WantMessage{1, 7, Want(view)},
+      WantMessage{1, 7, WantSeconds{2.5}},
+      HaveMessage{1, {{0, 4}, {7, 7}}},
+      PauseMessage{1, true},
+      PauseMessage{1, false},
+      AckMessage{77},
+  };
+  for (const ClientMessage& message : messages) {
+    const std::string text = to_json(message);
+    const auto read = parse_message(text);
+    ASSERT_TRUE(read) << text << ": " << read.error().message;
+    EXPECT_EQ(to_json(*read), text);
+  }
 }
 
 TEST(Message, RefusesEverythingElseWithAReasonThatFitsACloseFrame) {
@@ -81,6 +132,19 @@ TEST(Message, RefusesEverythingElseWithAReasonThatFitsACloseFrame) {
       R"({"type":"want","level":1,"view":{"camera":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],"fov":35,"width":8,"height":6,"pixels":1}})",
       R"({"type":"want","error":"0"})",
       R"({"type":"want","error":null})",
+      R"({"type":"want","seconds":0})",
+      R"({"type":"want","seconds":3601})",
+      R"({"type":"want","seconds":"1"})",
+      R"({"type":"want","seconds":1,"level":1})",
+      R"({"type":"want","level":1,"turn":-1})",
+      R"({"type":"want","level":1,"turn":4294967296})",
+      R"({"type":"want","level":1,"model":16})",
+      R"({"type":"want","level":1,"model":"0"})",
+      R"({"type":"pause","model":-1})",
+      R"({"type":"open","model":1})",
+      R"({"type":"open","model":1,"id":5})",
+      R"({"type":"open","model":1,"id":"a","head":1})",
+      R"({"type":"open","model":1,"id":"01234567890123456789012345678901234567890123456789012345678901234"})",
       R"({"type":"ack"})",
       R"({"type":"ack","bytes":0})",
       R"({"type":"ack","bytes":16777217})",
@@ -99,14 +163,6 @@ TEST(Message, RefusesEverythingElseWithAReasonThatFitsACloseFrame) {
     ASSERT_FALSE(message) << text.substr(0, 80);
     EXPECT_LE(message.error().message.size(), 123u);
   }
-}
-
-TEST(Message, WritesWhatTheProtocolSays) {
-  EXPECT_EQ(to_json(DoneMessage{.bytes = 5, .triangles = 7}),
-            R"({"type":"done","bytes":5,"triangles":7})");
-  EXPECT_EQ(
-      to_json(ModelMessage{.sha256 = "ab", .chunks = 3, .slice_bytes = 16384, .credit = 65536}),
-      R"({"type":"model","sha256":"ab","chunks":3,"slice_bytes":16384,"credit":65536})");
 }
 
 }  // namespace

@@ -9,12 +9,12 @@ namespace {
 constexpr std::uint32_t kChunk = 40'000;  // two whole slices and a part
 constexpr std::uint32_t kHead = 1'000;
 
-// Four levels of one region: 100, 200, 300 and 400 faces.
-Manifest small_manifest() {
+// Levels of one region: 100, 200, 300 … faces.
+Manifest small_manifest(std::uint32_t levels) {
   Manifest manifest;
   manifest.base_offset = 600;
   manifest.base_length = kHead - 600;
-  for (std::uint32_t level = 0; level < 4; ++level) {
+  for (std::uint32_t level = 0; level < levels; ++level) {
     manifest.levels.push_back(
         {.vertices = 50 * (level + 1), .faces = 100 * (level + 1), .max_error = 1.0 / (level + 1)});
     if (level > 0) {
@@ -25,45 +25,71 @@ Manifest small_manifest() {
                                  .max_error = 1.0 / (level + 1)});
     }
   }
-  manifest.file_bytes = kHead + 3 * kChunk;
+  manifest.file_bytes = kHead + (levels - 1) * kChunk;
   return manifest;
 }
 
 class StreamStateTest : public ::testing::Test {
  protected:
+  StreamStateTest() { EXPECT_TRUE(state.open(0, manifest, false)); }
+
   void receive(const ClientMessage& message) {
-    const auto received = state.receive(message);
+    const auto received = state.receive(message, now);
     ASSERT_TRUE(received) << received.error().message;
   }
+  void want(const Wish& wish, std::uint16_t model = 0) {
+    receive(WantMessage{model, ++turn, wish});
+  }
 
-  // Everything that is sent without further messages; the indices of the chunks that were started.
-  std::vector<std::size_t> pull() {
-    std::vector<std::size_t> started;
+  // What comes next over a link of that many bytes per second, each slice acknowledged at once.
+  StreamOutput take(double rate) {
+    const StreamOutput output = state.next(now);
+    if (const auto* slice = std::get_if<Slice>(&output)) {
+      EXPECT_GT(slice->length, 0u);
+      EXPECT_LE(slice->length, kMaxSlice);
+      EXPECT_EQ(slice->at, slice->header.level == 0
+                               ? slice->header.offset
+                               : kHead + (slice->header.level - 1) * kChunk + slice->header.offset);
+      now += Pacer::Duration(slice->length / rate);
+      receive(AckMessage{slice->length});
+      bytes += slice->length;
+    }
+    return output;
+  }
+
+  // Everything that is sent without further messages; the chunks, as (model, level), whose first
+  // slices are among it.
+  using Chunks = std::vector<std::pair<int, int>>;
+  Chunks pull(double rate = 1e6) {
+    Chunks started;
     bytes = 0;
     done.reset();
+    promises.clear();
     for (;;) {
-      const auto output = state.next();
+      const auto output = take(rate);
       if (const auto* slice = std::get_if<Slice>(&output)) {
-        EXPECT_GT(slice->length, 0u);
-        EXPECT_LE(slice->length, kMaxSlice);
-        if (slice->offset == 0) started.push_back(slice->chunk);
-        bytes += slice->length;
+        if (slice->header.offset == 0)
+          started.emplace_back(slice->header.model, slice->header.level);
       } else if (const auto* message = std::get_if<DoneMessage>(&output)) {
         EXPECT_FALSE(done) << "done is said once";
         done = *message;
+      } else if (const auto* promise = std::get_if<PromiseMessage>(&output)) {
+        promises.push_back(*promise);
       } else {
         return started;
       }
     }
   }
 
-  const Manifest manifest = small_manifest();
-  StreamState state{manifest};
+  const Manifest manifest = small_manifest(4);
+  const Manifest tall = small_manifest(101);
+  StreamState state;
+  Pacer::Time now{Pacer::Duration(1000)};
+  std::uint32_t turn = 0;
   std::uint64_t bytes = 0;
   std::optional<DoneMessage> done;
+  std::vector<PromiseMessage> promises;
 };
-
-using Chunks = std::vector<std::size_t>;
 
 TEST_F(StreamStateTest, SendsNothingBeforeAWish) {
   EXPECT_EQ(pull(), Chunks{});
@@ -71,51 +97,89 @@ TEST_F(StreamStateTest, SendsNothingBeforeAWish) {
 }
 
 TEST_F(StreamStateTest, SendsTheChunksOfAWishInOrderAndThenSaysDone) {
-  receive(AckMessage{1'000'000});
-  receive(Want(WantLevel{2}));
-  EXPECT_EQ(pull(), (Chunks{0, 1}));
+  want(Want(WantLevel{2}));
+  EXPECT_EQ(pull(), (Chunks{{0, 1}, {0, 2}}));
   EXPECT_EQ(bytes, 2 * kChunk);
-  EXPECT_EQ(done, (DoneMessage{.bytes = kHead + 2 * kChunk, .triangles = 300}));
+  EXPECT_EQ(done, (DoneMessage{.turn = 1, .bytes = kHead + 2 * kChunk, .triangles = 300}));
+}
+
+TEST_F(StreamStateTest, SendsTheHeadFirstWhereItIsAskedFor) {
+  ASSERT_TRUE(state.open(1, manifest, true));
+  EXPECT_EQ(pull(), (Chunks{{1, 0}}));
+  EXPECT_EQ(bytes, kHead);
+  EXPECT_FALSE(done) << "a head is no wish";
 }
 
 TEST_F(StreamStateTest, SlicesOfAChunkFollowEachOtherWithoutGaps) {
-  receive(Want(WantLevel{1}));
-  const Slice expected[] = {
-      {0, 0, kMaxSlice}, {0, kMaxSlice, kMaxSlice}, {0, 2 * kMaxSlice, kChunk - 2 * kMaxSlice}};
-  for (const Slice& slice : expected)
-    EXPECT_EQ(std::get<Slice>(state.next()), slice);
+  want(Want(WantLevel{1}));
+  std::uint32_t offset = 0;
+  while (offset < kChunk) {
+    const auto slice = std::get<Slice>(take(1e6));
+    EXPECT_EQ(slice.header.offset, offset);
+    EXPECT_EQ(slice.header.total, kChunk);
+    offset += slice.length;
+  }
+  EXPECT_TRUE(std::holds_alternative<DoneMessage>(state.next(now)));
 }
 
 TEST_F(StreamStateTest, SendsNoByteBeyondTheCredit) {
-  receive(Want(WantLevel{3}));
-  pull();
-  EXPECT_EQ(bytes, kFirstCredit);
+  want(Want(WantLevel{3}));
+  std::uint64_t sent = 0;
+  for (int i = 0; i < 1000; ++i, now += Pacer::kNudge) {
+    const auto output = state.next(now);
+    if (const auto* slice = std::get_if<Slice>(&output)) sent += slice->length;
+  }
+  EXPECT_EQ(sent, kFirstCredit);
   EXPECT_EQ(state.credit(), 0u);
-  EXPECT_FALSE(done);
   receive(AckMessage{100});
-  pull();
-  EXPECT_EQ(bytes, 100u);
+  now += Pacer::kNudge;
+  EXPECT_EQ(std::get<Slice>(state.next(now)).length, 100u);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(state.next(now)));
+}
+
+TEST_F(StreamStateTest, KeepsLittleOnItsWayThatIsNotAcknowledged) {
+  want(Want(WantLevel{3}));
+  std::uint64_t sent = 0;
+  for (;;) {
+    const auto output = state.next(now);
+    if (!std::holds_alternative<Slice>(output)) break;
+    sent += std::get<Slice>(output).length;
+  }
+  EXPECT_LE(sent, 18'000u);
+  EXPECT_EQ(state.wakes(now), now + Pacer::kNudge) << "a client may acknowledge many at a time";
+}
+
+TEST_F(StreamStateTest, AClientThatGrantsAheadIsPacedByTheKernel) {
   receive(AckMessage{1'000'000});
-  pull();
-  EXPECT_EQ(bytes, 3 * kChunk - kFirstCredit - 100);
-  EXPECT_TRUE(done);
+  EXPECT_TRUE(state.is_granted_ahead());
+  want(Want(WantLevel{3}));
+  std::uint64_t sent = 0;
+  while (std::holds_alternative<Slice>(state.next(now)))
+    ++sent;
+  EXPECT_GT(sent, 0u);
+  EXPECT_FALSE(done);
+  ASSERT_TRUE(state.wakes(now));
+  state.still_queued(0, now);
+  EXPECT_TRUE(std::holds_alternative<Slice>(state.next(now)));
 }
 
 TEST_F(StreamStateTest, DoesNotSendWhatTheClientHolds) {
-  receive(HaveMessage{{{0, 1}}});
-  receive(Want(WantLevel{3}));
-  EXPECT_EQ(pull(), Chunks{2});
+  receive(HaveMessage{0, {{0, 1}}});
+  want(Want(WantLevel{3}));
+  EXPECT_EQ(pull(), (Chunks{{0, 3}}));
   EXPECT_EQ(done->triangles, 400u);
 }
 
-TEST_F(StreamStateTest, ANewWishTakesEffectAtTheNextChunk) {
-  receive(Want(WantLevel{3}));
-  EXPECT_TRUE(std::holds_alternative<Slice>(state.next()));
-  receive(Want(WantLevel{0}));
-  receive(AckMessage{1'000'000});
-  EXPECT_EQ(pull(), Chunks{}) << "only the chunk under way is finished";
-  EXPECT_EQ(bytes, kChunk - kMaxSlice);
-  EXPECT_EQ(done, (DoneMessage{.bytes = kHead + kChunk, .triangles = 200}));
+TEST_F(StreamStateTest, ANewWishInterruptsTheChunkUnderWay) {
+  want(Want(WantLevel{3}));
+  const auto first = std::get<Slice>(take(1e6));
+  want(Want(WantLevel{0}));
+  EXPECT_EQ(pull(), Chunks{});
+  EXPECT_EQ(done, (DoneMessage{.turn = 2, .bytes = kHead, .triangles = 100}));
+  want(Want(WantLevel{1}));
+  const auto rest = std::get<Slice>(take(1e6));
+  EXPECT_EQ(rest.header.level, 1);
+  EXPECT_EQ(rest.header.offset, first.length) << "it goes on where it stopped";
 }
 
 // The box of the test's model is the origin.
@@ -124,44 +188,152 @@ TEST_F(StreamStateTest, ACameraIsSentWhatItSees) {
             .field_of_view = 30,
             .width = 800,
             .height = 600};
-  receive(AckMessage{1'000'000});
   view.camera[10] = -1;  // looks away
-  receive(Want(view));
+  want(Want(view));
   EXPECT_EQ(pull(), Chunks{});
   EXPECT_TRUE(done);
   view.camera[10] = 1;
-  receive(Want(view));
-  EXPECT_EQ(pull(), (Chunks{0, 1, 2}));
+  want(Want(view));
+  EXPECT_EQ(pull(), (Chunks{{0, 1}, {0, 2}, {0, 3}}));
   EXPECT_TRUE(done);
 }
 
 TEST_F(StreamStateTest, EachWishIsAnsweredByDone) {
-  receive(Want(WantError{0.5}));
-  EXPECT_EQ(pull(), Chunks{0});
-  EXPECT_TRUE(done);
+  want(Want(WantError{0.5}));
+  EXPECT_EQ(pull(), (Chunks{{0, 1}}));
+  EXPECT_EQ(done->turn, 1u);
   EXPECT_EQ(pull(), Chunks{});
   EXPECT_FALSE(done) << "once";
-  receive(Want(WantError{0.5}));
+  want(Want(WantError{0.5}));
   pull();
-  EXPECT_TRUE(done) << "again, as it was asked again";
+  EXPECT_EQ(done->turn, 2u) << "again, as it was asked again";
 }
 
 TEST_F(StreamStateTest, AWishForBytesCountsTheHead) {
-  receive(Want(WantBytes{kHead + kChunk}));
-  EXPECT_EQ(pull(), Chunks{0});
-  receive(Want(WantBytes{kHead + 2 * kChunk - 1}));
+  want(Want(WantBytes{kHead + kChunk}));
+  EXPECT_EQ(pull(), (Chunks{{0, 1}}));
+  want(Want(WantBytes{kHead + 2 * kChunk - 1}));
   EXPECT_EQ(pull(), Chunks{});
 }
 
+TEST_F(StreamStateTest, APausedModelSendsNothingUntilItGoesOn) {
+  want(Want(WantLevel{1}));
+  take(1e6);
+  receive(PauseMessage{0, true});
+  EXPECT_EQ(pull(), Chunks{});
+  EXPECT_EQ(bytes, 0u);
+  receive(PauseMessage{0, false});
+  pull();
+  EXPECT_GT(bytes, 0u);
+  EXPECT_TRUE(done);
+}
+
+TEST_F(StreamStateTest, ModelsTakeTurnsChunkByChunk) {
+  ASSERT_TRUE(state.open(7, manifest, false));
+  want(Want(WantLevel{2}), 0);
+  want(Want(WantLevel{2}), 7);
+  Chunks started;
+  for (int dones = 0; dones < 2;) {
+    const auto output = take(1e6);
+    if (const auto* slice = std::get_if<Slice>(&output)) {
+      if (slice->header.offset == 0) started.emplace_back(slice->header.model, slice->header.level);
+    }
+    if (std::holds_alternative<DoneMessage>(output)) ++dones;
+  }
+  EXPECT_EQ(started, (Chunks{{0, 1}, {7, 1}, {0, 2}, {7, 2}}));
+}
+
+TEST_F(StreamStateTest, ANumberStandsForOneModelUntilItIsClosed) {
+  EXPECT_FALSE(state.open(0, manifest, false));
+  receive(CloseMessage{0});
+  EXPECT_FALSE(state.receive(WantMessage{0, 0, Want(WantLevel{1})}, now));
+  EXPECT_TRUE(state.open(0, manifest, false));
+}
+
 TEST_F(StreamStateTest, RefusesChunksThatTheModelDoesNotHave) {
-  EXPECT_FALSE(state.receive(HaveMessage{{{0, 3}}}));
-  EXPECT_FALSE(state.receive(HaveMessage{{{UINT64_MAX, UINT64_MAX}}}));
+  EXPECT_FALSE(state.receive(HaveMessage{0, {{0, 3}}}, now));
+  EXPECT_FALSE(state.receive(HaveMessage{0, {{UINT64_MAX, UINT64_MAX}}}, now));
 }
 
 TEST_F(StreamStateTest, CreditIsBounded) {
   for (int i = 0; i < 100; ++i)
     receive(AckMessage{kMaxAck});
   EXPECT_EQ(state.credit(), kMaxCredit);
+}
+
+class SecondsTest : public StreamStateTest {
+ protected:
+  SecondsTest() { EXPECT_TRUE(state.open(1, tall, false)); }
+};
+
+TEST_F(SecondsTest, TheFirstPromiseIsAGuessThatSaysSo) {
+  want(WantSeconds{2}, 1);
+  const auto promise = std::get<PromiseMessage>(state.next(now));
+  EXPECT_FALSE(promise.measured);
+  EXPECT_EQ(promise.bytes_per_second, Pacer::kFirstGuess);
+  EXPECT_EQ(promise.turn, 1u);
+  EXPECT_EQ(promise.bytes, kHead + 1 * kChunk) << "64 kB: one chunk of 40 kB is in time";
+  EXPECT_EQ(promise.level, 1u);
+  EXPECT_EQ(promise.triangles, 200u);
+  EXPECT_EQ(promise.error, 0.5);
+  EXPECT_NEAR(promise.seconds, kChunk / Pacer::kFirstGuess, 1e-9);
+}
+
+TEST_F(SecondsTest, WhatIsNotKnownToBeSlowIsTried) {
+  want(WantSeconds{0.5}, 1);
+  pull(1e7);
+  ASSERT_TRUE(done);
+  EXPECT_EQ(promises.front().bytes, kHead) << "16 kB at the first guess: no chunk is promised";
+  EXPECT_EQ(done->bytes, tall.file_bytes);
+}
+
+TEST_F(SecondsTest, AsMuchComesAsTheConnectionBrings) {
+  const auto start = now;
+  want(WantSeconds{2}, 1);
+  pull(400'000);
+  ASSERT_TRUE(done);
+  EXPECT_NEAR((now - start).count(), 2, 0.1);
+  EXPECT_GE(static_cast<double>(bytes), 0.9 * 800'000);
+  ASSERT_GE(promises.size(), 2u);
+  EXPECT_TRUE(promises.back().measured);
+  EXPECT_NEAR(static_cast<double>(promises.back().bytes) / static_cast<double>(done->bytes), 1,
+              0.1);
+}
+
+TEST_F(SecondsTest, APromiseFollowsADropOfTheRateAndHolds) {
+  const auto start = now;
+  want(WantSeconds{4}, 1);
+  while ((now - start).count() < 1.5)
+    take(800'000);
+  const auto drop = now;
+  std::optional<PromiseMessage> promise;
+  Pacer::Time promised{};
+  for (;;) {
+    const auto output = take(100'000);
+    if (std::holds_alternative<DoneMessage>(output)) break;
+    const auto* said = std::get_if<PromiseMessage>(&output);
+    if (said != nullptr && !promise && said->bytes_per_second < 120'000) {
+      promise = *said;
+      promised = now;
+    }
+  }
+  ASSERT_TRUE(promise);
+  EXPECT_LE((promised - drop).count(), 1);
+  EXPECT_LE((now - promised).count(), 1.5 * promise->seconds);
+}
+
+TEST_F(SecondsTest, AModelThatIsWholeEarlierIsDoneThen) {
+  want(WantSeconds{60});
+  pull(400'000);
+  EXPECT_EQ(done, (DoneMessage{.turn = 1, .bytes = manifest.file_bytes, .triangles = 400}));
+}
+
+TEST_F(SecondsTest, TimePassesWhileNothingArrives) {
+  want(WantSeconds{2}, 1);
+  while (std::holds_alternative<Slice>(state.next(now)) ||
+         std::holds_alternative<PromiseMessage>(state.next(now))) {
+  }
+  EXPECT_TRUE(state.wakes(now));
 }
 
 }  // namespace

@@ -20,18 +20,18 @@ class FakeSocket {
   close = () => void (this.closed = true);
 
   slice(level: number, region: number, offset: number, length: number, bytes: number[]): void {
-    const data = new ArrayBuffer(12 + bytes.length);
+    const data = new ArrayBuffer(16 + bytes.length);
     const view = new DataView(data);
-    view.setUint16(0, level, true);
-    view.setUint16(2, region, true);
-    view.setUint32(4, offset, true);
-    view.setUint32(8, length, true);
-    new Uint8Array(data, 12).set(bytes);
+    view.setUint16(2, level, true);
+    view.setUint32(4, region, true);
+    view.setUint32(8, offset, true);
+    view.setUint32(12, length, true);
+    new Uint8Array(data, 16).set(bytes);
     this.onmessage?.({ data });
   }
 
-  done(): void {
-    this.onmessage?.({ data: '{"type":"done","bytes":1,"triangles":1}' });
+  done(turn = 1): void {
+    this.onmessage?.({ data: JSON.stringify({ type: "done", model: 0, turn, bytes: 1, triangles: 1 }) });
   }
 }
 
@@ -55,12 +55,51 @@ describe("StreamSource", () => {
     source.want({ level: 2 }, [0, 1, 4]);
     const socket = FakeSocket.last;
     expect([socket.url.href, socket.protocol]).toEqual(["ws://host/api/v1/models/m1/stream", "pmesh.v1"]);
-    expect(socket.sent).toEqual([{ type: "have", chunks: [[0, 1], [4, 4]] }, { type: "want", level: 2 }]);
+    expect(socket.sent).toEqual([{ type: "have", chunks: [[0, 1], [4, 4]] }, { type: "want", turn: 1, level: 2 }]);
     const bytes = source.getBytes(chunk(1, 3), never);
     socket.slice(1, 0, 0, 3, [1, 2]);
     socket.slice(1, 0, 2, 3, [3]);
     expect(await bytes).toEqual(new Uint8Array([1, 2, 3]));
     expect(socket.sent.slice(2)).toEqual([{ type: "ack", bytes: 2 }, { type: "ack", bytes: 1 }]);
+    expect(asked).toEqual([]);
+  });
+
+  test("takes the head from the handshake on", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    const head = source.head(never);
+    expect(FakeSocket.last.url.href).toBe("ws://host/api/v1/models/m1/stream?head=true");
+    FakeSocket.last.slice(0, 0, 0, 3, [1, 2]);
+    FakeSocket.last.slice(0, 0, 2, 3, [3]);
+    expect(await head).toEqual(new Uint8Array([1, 2, 3]));
+    expect(asked).toEqual([]);
+  });
+
+  test("fetches the head over HTTP where the stream ends before it", async () => {
+    const head = new StreamSource("http://host/api/v1", "m1").head(never);
+    FakeSocket.last.onclose?.();
+    expect(await head).toEqual(new Uint8Array([9, 9, 9]));
+  });
+
+  test("joins chunks whose slices alternate", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 2 }, []);
+    const socket = FakeSocket.last;
+    const both = [source.getBytes(chunk(1, 2), never), source.getBytes(chunk(2, 2), never)];
+    socket.slice(1, 0, 0, 2, [1]);
+    socket.slice(2, 0, 0, 2, [3]);
+    socket.slice(1, 0, 1, 2, [2]);
+    socket.slice(2, 0, 1, 2, [4]);
+    expect(await Promise.all(both)).toEqual([new Uint8Array([1, 2]), new Uint8Array([3, 4])]);
+  });
+
+  test("an answer to an earlier want ends nothing", async () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 1 }, []);
+    source.want({ level: 2 }, []);
+    const bytes = source.getBytes(chunk(2, 1), never);
+    FakeSocket.last.done(1);
+    FakeSocket.last.slice(2, 0, 0, 1, [7]);
+    expect(await bytes).toEqual(new Uint8Array([7]));
     expect(asked).toEqual([]);
   });
 
@@ -106,7 +145,7 @@ describe("StreamSource", () => {
     expect(FakeSocket.last.closed).toBe(true);
   });
 
-  test.each(["no JSON", new ArrayBuffer(11)])("hangs up on what is no message of the protocol", (data) => {
+  test.each(["no JSON", new ArrayBuffer(15)])("hangs up on what is no message of the protocol", (data) => {
     const source = new StreamSource("http://host/api/v1", "m1");
     source.want({ level: 1 }, []);
     FakeSocket.last.onmessage?.({ data });

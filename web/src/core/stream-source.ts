@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The daemon's WebSocket stream (server/stream/PROTOCOL.md): the server sends what the want needs,
-// without a request per chunk. What does not come that way is fetched over HTTP.
+// without a request per chunk; the head comes first. What does not come that way is fetched over HTTP.
 import { ApiSource } from "./api-source.ts";
 import type { ByteRange, Source } from "./source.ts";
 import type { Want } from "./types.ts";
 
-const kSliceHeader = 12;
+const kSliceHeader = 16;
 const kMaxChunk = 64 * 1024 * 1024;
+const kHead = "0/0";
+
+/** A chunk of which slices have come: in order, but others may come in between. */
+interface Part {
+  bytes: Uint8Array;
+  filled: number;
+}
 
 interface Waiter {
   take(bytes: Uint8Array): void;
@@ -22,7 +29,8 @@ export class StreamSource implements Source {
   #socket: WebSocket | undefined;
   #queue: object[] = [];
   #busy = false; // a want is being served
-  #part = new Uint8Array(0);
+  #turn = 0; // of that want
+  readonly #parts = new Map<string, Part>();
 
   constructor(
     private readonly api: string,
@@ -31,15 +39,18 @@ export class StreamSource implements Source {
     this.#http = new ApiSource(api, id);
   }
 
-  head(signal: AbortSignal): Promise<Uint8Array> {
-    return this.#http.head(signal);
+  async head(signal: AbortSignal): Promise<Uint8Array> {
+    this.#connect("?head=true");
+    const head = await this.#wait(kHead, signal);
+    this.#arrived.delete(kHead);
+    return head ?? this.#http.head(signal);
   }
 
   want(want: Want, have: number[]): void {
     if (!this.#socket || this.#socket.readyState > WebSocket.OPEN) this.#connect();
     this.#busy = true;
     if (have.length > 0) this.#send({ type: "have", chunks: pairs(have) });
-    this.#send({ type: "want", ...want });
+    this.#send({ type: "want", turn: ++this.#turn, ...want });
   }
 
   async getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
@@ -56,12 +67,12 @@ export class StreamSource implements Source {
     this.#socket?.close(1000);
   }
 
-  #connect(): void {
-    const url = new URL(`${this.api}/models/${this.id}/stream`);
+  #connect(query = ""): void {
+    const url = new URL(`${this.api}/models/${this.id}/stream${query}`);
     url.protocol = url.protocol.replace("http", "ws");
     const socket = (this.#socket = new WebSocket(url, "pmesh.v1"));
     this.#queue = [];
-    this.#part = new Uint8Array(0);
+    this.#parts.clear();
     socket.binaryType = "arraybuffer";
     socket.onopen = () => this.#queue.splice(0).forEach((message) => this.#send(message));
     socket.onmessage = ({ data }) => {
@@ -81,20 +92,25 @@ export class StreamSource implements Source {
   }
 
   #told(text: string): void {
-    if (JSON.parse(text).type === "done") this.#miss();
+    const message = JSON.parse(text) as { type?: unknown; turn?: unknown };
+    if (message.type === "done" && message.turn === this.#turn) this.#miss();
   }
 
-  /** Slices come in order and those of one chunk together. */
   #receive(data: ArrayBuffer): void {
     const view = new DataView(data);
-    const [offset, length] = [view.getUint32(4, true), view.getUint32(8, true)];
+    const key = `${view.getUint16(2, true)}/${view.getUint32(4, true)}`;
+    const [offset, length] = [view.getUint32(8, true), view.getUint32(12, true)];
     const slice = new Uint8Array(data, kSliceHeader);
     if (length > kMaxChunk) return this.#socket?.close(1000);
-    if (offset === 0) this.#part = new Uint8Array(length);
-    if (offset + slice.length > this.#part.length) return this.#socket?.close(1000);
-    this.#part.set(slice, offset);
+    if (offset === 0) this.#parts.set(key, { bytes: new Uint8Array(length), filled: 0 });
+    const part = this.#parts.get(key);
+    if (part?.filled !== offset || offset + slice.length > part.bytes.length) return this.#socket?.close(1000);
+    part.bytes.set(slice, offset);
+    part.filled += slice.length;
     this.#send({ type: "ack", bytes: slice.length });
-    if (offset + slice.length === length) this.#deliver(`${view.getUint16(0, true)}/${view.getUint16(2, true)}`, this.#part);
+    if (part.filled < part.bytes.length) return;
+    this.#parts.delete(key);
+    this.#deliver(key, part.bytes);
   }
 
   #deliver(key: string, bytes: Uint8Array): void {

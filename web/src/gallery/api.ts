@@ -7,7 +7,7 @@ export interface ModelRecord {
   licence: string;
   faces: number;
   bytes: number;
-  links: { self: string; page: string };
+  links: { self: string; page: string; poster: string };
 }
 
 export type ScanState = "waiting" | "scanning" | "paused" | "meshing" | "building" | "done" | "failed" | "cancelled";

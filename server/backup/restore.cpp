@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "codec/files/atomic_file.h"
+#include "server/backup/backup.h"
+#include "server/backup/checksums.h"
+#include "server/backup/tar.h"
+#include "server/catalogue/sqlite_catalogue.h"
+#include "server/store/file_store.h"
+#include "server/store/installation.h"
+
+namespace vitrine {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kObjects = "objects/", kScans = "scans/";
+
+// Not there, or empty but for what is at the root of a disk.
+Expected<void> check_empty(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
+       at.increment(error)) {
+    if (at->path().filename() == "lost+found") continue;
+    return fail(ErrorCode::kIo,
+                fmt::format("{} is not empty; restore into a new folder", folder.string()));
+  }
+  if (!error || error == std::errc::no_such_file_or_directory) return {};
+  return fail(ErrorCode::kIo, fmt::format("cannot open {}: {}; choose another folder",
+                                          folder.string(), error.message()));
+}
+
+// The parts of a relative path that stays below where it begins.
+bool is_plain_path(std::string_view path) {
+  constexpr std::size_t kLongest = 1024;
+  if (path.empty() || path.size() > kLongest || path.ends_with('/')) return false;
+  while (!path.empty()) {
+    const std::string_view part = path.substr(0, path.find('/'));
+    if (part.empty() || part.starts_with('.') || part.find('\0') != part.npos) return false;
+    path.remove_prefix(std::min(path.size(), part.size() + 1));
+  }
+  return true;
+}
+
+class Restoration {
+ public:
+  Restoration(fs::path file, fs::path data) : file_(std::move(file)), data_(std::move(data)) {}
+
+  Expected<BackupReport> run() {
+    std::error_code error;  // is told by what follows
+    const bool made = fs::create_directories(data_, error);
+    auto done = unpack();
+    if (!done) take_back(made);
+    return done;
+  }
+
+ private:
+  Unexpected damaged(std::string_view name, std::string_view why) const {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("{}: {} {}; take another backup", file_.string(), name, why));
+  }
+
+  Expected<BackupReport> unpack() {
+    auto store = FileStore::open(data_ / "objects");
+    if (!store) return Unexpected(store.error());
+    auto tar = TarReader::open(file_);
+    if (!tar) return Unexpected(tar.error());
+    for (;;) {
+      auto entry = tar->next();
+      if (!entry) return Unexpected(entry.error());
+      if (!*entry) break;
+      if (auto taken = take(**entry, *store); !taken) return Unexpected(taken.error());
+    }
+    if (auto same = compare(); !same) return Unexpected(same.error());
+    if (auto whole = check_models(*store); !whole) return Unexpected(whole.error());
+    std::error_code error;
+    fs::rename(unnamed(), data_ / kCatalogueFile, error);
+    if (error) return damaged(kCatalogueFile, "cannot be put in place: " + error.message());
+    if (auto synced = sync_folder(data_); !synced) return Unexpected(synced.error());
+    return report_;
+  }
+
+  Expected<void> take(TarEntry& entry, ObjectStore& store) {
+    if (entry.name == kChecksums) {
+      stated_ = parse_checksums(entry.bytes);
+      if (!stated_) return damaged(kChecksums, "is malformed");
+      return {};
+    }
+    found_[entry.name] = sha256(entry.bytes);
+    report_.files += 1;
+    report_.bytes += entry.bytes.size();
+    if (entry.name == kCatalogueFile) return write_file_atomically(unnamed(), entry.bytes);
+    if (entry.name.starts_with(kObjects)) return take_object(entry, store);
+    if (entry.name.starts_with(kScans) && is_plain_path(entry.name)) return take_scan(entry);
+    return damaged(entry.name, "does not belong into a backup");
+  }
+
+  Expected<void> take_object(const TarEntry& entry, ObjectStore& store) {
+    Sha256 name{};
+    const std::size_t last = entry.name.rfind('/') + 1;
+    if (!from_hex(std::string_view(entry.name).substr(last), name))
+      return damaged(entry.name, "does not belong into a backup");
+    if (found_[entry.name] != name) return damaged(entry.name, "is damaged");
+    return store.put(name, entry.bytes);
+  }
+
+  Expected<void> take_scan(const TarEntry& entry) {
+    const fs::path path = data_ / entry.name;
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);  // a fault is told by what follows
+    return write_file_atomically(path, entry.bytes);
+  }
+
+  Expected<void> compare() const {
+    if (!stated_) return damaged(kChecksums, "is missing: the file is cut short");
+    for (const auto& [name, hash] : *stated_) {
+      const auto found = found_.find(name);
+      if (found == found_.end()) return damaged(name, "is missing");
+      if (found->second != hash) return damaged(name, "is damaged");
+    }
+    if (found_.size() != stated_->size()) return damaged(kChecksums, "does not name every file");
+    if (!found_.contains(kCatalogueFile)) return damaged(kCatalogueFile, "is missing");
+    return {};
+  }
+
+  // What the catalogue names is there.
+  Expected<void> check_models(const ObjectStore& store) {
+    const auto catalogue = open_sqlite_catalogue(unnamed());
+    if (!catalogue) return Unexpected(catalogue.error());
+    ModelQuery query{.limit = kMaxPage, .drafts = true};
+    do {
+      const auto page = (*catalogue)->search(query);
+      if (!page) return Unexpected(page.error());
+      for (const ModelRecord& model : page->models) {
+        const auto object = store.open(model.file);
+        if (!object) return Unexpected(object.error());
+        if (!*object) return damaged("the file of model " + model.id.to_string(), "is missing");
+      }
+      report_.models += page->models.size();
+      query.after = page->next;
+    } while (query.after);
+    return {};
+  }
+
+  // Where the catalogue waits until all else is there.
+  fs::path unnamed() const { return data_ / ".catalogue.restored"; }
+
+  void take_back(bool folder_too) const {
+    std::error_code ignored;
+    for (const char* name : {"objects", "scans"})
+      fs::remove_all(data_ / name, ignored);
+    for (const char* suffix : {"", "-wal", "-shm"})
+      fs::remove(unnamed().string() + suffix, ignored);
+    if (folder_too) fs::remove(data_, ignored);
+  }
+
+  const fs::path file_, data_;
+  BackupReport report_;
+  Checksums found_;
+  std::optional<Checksums> stated_;
+};
+
+}  // namespace
+
+Expected<BackupReport> restore(const fs::path& file, const fs::path& data) {
+  if (auto empty = check_empty(data); !empty) return Unexpected(empty.error());
+  return Restoration(file, data).run();
+}
+
+}  // namespace vitrine

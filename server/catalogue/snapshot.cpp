@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/catalogue/snapshot.h"
+
+#include "server/catalogue/migrations.h"
+#include "server/catalogue/sqlite.h"
+
+namespace vitrine {
+
+// In one step, which holds a read lock: writers are not held up, as the write-ahead log takes them.
+Expected<void> snapshot_sqlite(const std::filesystem::path& from, const std::filesystem::path& to) {
+  try {
+    const sqlite::Database source(from.string());
+    const sqlite::Database copy(to.string());
+    sqlite3_backup* backup = sqlite3_backup_init(copy.handle(), "main", source.handle(), "main");
+    if (backup == nullptr) copy.raise();
+    sqlite3_backup_step(backup, -1);
+    if (sqlite3_backup_finish(backup) != SQLITE_OK) copy.raise();
+    return {};
+  } catch (const sqlite::Failure& failure) {
+    return sqlite::refused("cannot copy the catalogue " + from.string(), failure);
+  }
+}
+
+}  // namespace vitrine

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/config/networks.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+
+namespace vitrine {
+namespace {
+
+std::string_view bare(std::string_view text) {
+  while (text.starts_with(' '))
+    text.remove_prefix(1);
+  while (text.ends_with(' '))
+    text.remove_suffix(1);
+  return text;
+}
+
+bool begin_alike(const std::array<std::uint8_t, 16>& a, const std::array<std::uint8_t, 16>& b,
+                 unsigned bits) {
+  const unsigned whole = bits / 8;
+  const unsigned rest = bits % 8 == 0 ? 0 : 0xFFu << (8 - bits % 8);
+  return std::equal(a.begin(), a.begin() + whole, b.begin()) &&
+         (rest == 0 || ((a[whole] ^ b[whole]) & rest & 0xFF) == 0);
+}
+
+}  // namespace
+
+bool Networks::parse_address(std::string_view text, Address& out, unsigned& most_bits) {
+  const std::string zeroed(text);
+  out = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
+  most_bits = 32;
+  if (::inet_pton(AF_INET, zeroed.c_str(), out.data() + 12) == 1) return true;
+  most_bits = 128;
+  return ::inet_pton(AF_INET6, zeroed.c_str(), out.data()) == 1;
+}
+
+Expected<void> Networks::add(std::string_view network) {
+  if (network == "unix") {
+    unix_ = true;
+    return {};
+  }
+  const std::string_view address = network.substr(0, network.find('/'));
+  const std::string_view bits = network.substr(std::min(network.size(), address.size() + 1));
+  Prefix prefix{};
+  unsigned most = 0, length = 0;
+  const bool known = parse_address(address, prefix.address, most);
+  const auto [end, fault] = std::from_chars(bits.data(), bits.data() + bits.size(), length);
+  const bool whole = address.size() == network.size();
+  if (!known ||
+      (!whole && (fault != std::errc{} || end != bits.data() + bits.size() || length > most))) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("'{}' is no network; give, for example, 10.0.0.0/8", network));
+  }
+  prefix.bits = 128 - most + (whole ? most : length);
+  prefixes_.push_back(prefix);
+  return {};
+}
+
+Expected<Networks> Networks::parse(std::string_view list) {
+  Networks networks;
+  while (!list.empty()) {
+    const std::string_view one = list.substr(0, list.find(','));
+    if (auto added = networks.add(bare(one)); !added) return Unexpected(added.error());
+    list.remove_prefix(std::min(list.size(), one.size() + 1));
+  }
+  return networks;
+}
+
+bool Networks::contain(std::string_view address) const {
+  if (address == "unix") return unix_;
+  Address bytes;
+  unsigned most = 0;
+  return !prefixes_.empty() && parse_address(address, bytes, most) &&
+         std::ranges::any_of(prefixes_, [&](const Prefix& prefix) {
+           return begin_alike(prefix.address, bytes, prefix.bits);
+         });
+}
+
+bool is_address(std::string_view text) {
+  const std::string zeroed(text);
+  in6_addr parsed;
+  return ::inet_pton(AF_INET, zeroed.c_str(), &parsed) == 1 ||
+         ::inet_pton(AF_INET6, zeroed.c_str(), &parsed) == 1;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// oEmbed 1.0: a model's page as a frame that other sites put into theirs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "server/http/handlers.h"
+#include "server/http/posters.h"
+#include "server/http/preview.h"
+#include "server/http/public_url.h"
+#include "server/http/published.h"
+#include "server/http/query.h"
+
+namespace vitrine {
+namespace {
+
+struct Room {
+  std::uint32_t width = 640, height = 480;
+};
+
+// The largest room of those that the site has room for.
+std::optional<ParameterFault> read_room(const Query& query, Room& room) {
+  for (const auto& [name, side] :
+       {std::pair("maxwidth", &room.width), std::pair("maxheight", &room.height)}) {
+    const auto text = query.get(name);
+    if (!text) continue;
+    std::uint32_t most = 0;
+    const auto [end, fault] = std::from_chars(text->data(), text->data() + text->size(), most);
+    if (fault != std::errc{} || end != text->data() + text->size() || most == 0)
+      return ParameterFault{name, "a whole number of pixels, 1 or more"};
+    *side = std::min(*side, most);
+  }
+  return std::nullopt;
+}
+
+// Nothing where the address is not that of a model's page here.
+std::optional<ModelId> model_of(std::string_view url, const std::string& origin) {
+  const std::string pages = origin + "/models/";
+  if (!url.starts_with(pages)) return std::nullopt;
+  url.remove_prefix(pages.size());
+  return ModelId::parse(url.substr(0, url.find_first_of("?#")));
+}
+
+nlohmann::ordered_json description(const ModelRecord& model, const std::string& origin,
+                                   const Room& room) {
+  const std::string id = model.id.to_string();
+  const std::string page = origin + "/models/" + id;
+  nlohmann::ordered_json json = {{"version", "1.0"},
+                                 {"type", "rich"},
+                                 {"title", model.title},
+                                 {"provider_name", "Vitrine"},
+                                 {"provider_url", origin + "/"},
+                                 {"width", room.width},
+                                 {"height", room.height}};
+  json["html"] = fmt::format(
+      "<iframe src=\"{}\" width=\"{}\" height=\"{}\" title=\"{}\" style=\"border:0\" "
+      "allow=\"fullscreen\" loading=\"lazy\"></iframe>",
+      page, room.width, room.height, escape_html(model.title));
+  if (!model.creator.empty()) json["author_name"] = model.creator;
+  if (std::min(room.width, room.height) >= kThumbnailWidth) {
+    json["thumbnail_url"] =
+        fmt::format("{}/api/v1/models/{}/poster.png?width={}", origin, id, kThumbnailWidth);
+    json["thumbnail_width"] = json["thumbnail_height"] = kThumbnailWidth;
+  }
+  return json;
+}
+
+}  // namespace
+
+Response show_oembed(const Request& request, Services& services) {
+  const auto query = Query::parse(request.query);
+  if (!query) return problem(400, "the query is malformed", request.id);
+  if (query->get("format").value_or("json") != "json")
+    return problem(501, "", request.id);  // as oEmbed has it for a format that is not there
+  Room room;
+  if (const auto fault = read_room(*query, room))
+    return problem(400, "a parameter is out of range", request.id, {*fault});
+  const std::string origin = origin_of(request, services);
+  const auto url = query->get("url");
+  if (!url) return problem(400, "a parameter is missing", request.id, {{"url", "a model's page"}});
+  const auto id = model_of(*url, origin);
+  if (!id) return problem(404, "the url is no model's page of this server", request.id);
+  const auto answer = [&](const auto& model) {
+    return revalidated("application/json",
+                       description(model->record(), origin, room)
+                           .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  };
+  return with_found(services.models.find(*id), request, services, answer);
+}
+
+}  // namespace vitrine

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/wish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace vitrine {
+namespace {
+
+constexpr std::string_view kParameters[] = {"triangles", "error", "bytes",
+                                            "level",     "kbps",  "seconds"};
+
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number value{};
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+tl::expected<Want, std::string> parse_level(std::string_view text, std::uint32_t levels) {
+  if (text == "lowest") return WantLevel{0};
+  if (text == "highest") return WantLevel{levels - 1};
+  const auto level = parse_number<std::uint32_t>(text);
+  if (level && *level < levels) return WantLevel{*level};
+  return tl::unexpected(fmt::format("lowest, highest or a number from 0 to {}", levels - 1));
+}
+
+tl::expected<Want, std::string> parse_want(std::string_view name, std::string_view text,
+                                           std::uint32_t levels) {
+  if (name == "level") return parse_level(text, levels);
+  if (name == "error") {
+    const auto error = parse_number<double>(text);
+    if (error && *error >= 0 && *error < 1e300) return WantError{*error};
+    return tl::unexpected(std::string("a distance in the model's unit, 0 or more"));
+  }
+  const auto count = parse_number<std::uint64_t>(text);
+  if (!count) return tl::unexpected(std::string("a whole number, 0 or more"));
+  if (name == "bytes") return WantBytes{*count};
+  return WantTriangles{*count};
+}
+
+// What a line of `kbps` kilobits per second carries in `seconds`.
+tl::expected<Wish, ParameterFault> parse_line(const Query& query) {
+  double kbps = 0, seconds = 0;
+  for (const auto& [name, value] : {std::pair("kbps", &kbps), std::pair("seconds", &seconds)}) {
+    const auto text = query.get(name);
+    if (!text) return tl::unexpected(ParameterFault{name, "kbps and seconds go together"});
+    const auto number = parse_number<double>(*text);
+    if (!number || !(*number > 0 && *number <= 1e9))
+      return tl::unexpected(ParameterFault{name, "a number above 0, at most 1e9"});
+    *value = *number;
+  }
+  const auto bytes = static_cast<std::uint64_t>(kbps * seconds * 1000 / 8);
+  return Wish{.want = WantBytes{bytes}, .kbps = kbps};
+}
+
+Wish unstated(const RequestHeader& header, std::uint32_t levels) {
+  if (saves_data(header)) return {.want = WantBytes{kSavedDataBytes}, .stated = false};
+  return {.want = WantLevel{levels - 1}, .stated = false};
+}
+
+}  // namespace
+
+bool saves_data(const RequestHeader& header) {
+  return beast::iequals(header["Save-Data"], "on");
+}
+
+tl::expected<Wish, ParameterFault> read_wish(const Query& query, const RequestHeader& header,
+                                             const Manifest& manifest) {
+  const auto levels = static_cast<std::uint32_t>(manifest.levels.size());
+  if (const auto name = query.unknown(kParameters))
+    return tl::unexpected(ParameterFault{std::string(*name), "unknown here"});
+  std::optional<Wish> wish;
+  if (query.get("kbps") || query.get("seconds")) {
+    const auto line = parse_line(query);
+    if (!line) return line;
+    wish = *line;
+  }
+  for (const std::string name : {"triangles", "error", "bytes", "level"}) {
+    const auto text = query.get(name);
+    if (!text) continue;
+    if (wish)
+      return tl::unexpected(
+          ParameterFault{name, "only one of triangles, error, bytes, level, kbps with seconds"});
+    const auto want = parse_want(name, *text, levels);
+    if (!want) return tl::unexpected(ParameterFault{name, want.error()});
+    wish = Wish{.want = *want};
+  }
+  return wish.value_or(unstated(header, levels));
+}
+
+std::string key_of(const Want& want, const Manifest& manifest) {
+  if (const auto* w = std::get_if<WantTriangles>(&want)) {
+    return fmt::format("triangles={}",
+                       std::min<std::uint64_t>(w->triangles, manifest.levels.back().faces));
+  }
+  if (const auto* w = std::get_if<WantBytes>(&want)) {
+    return fmt::format("bytes={}", std::min(w->bytes, manifest.file_bytes));
+  }
+  if (const auto* w = std::get_if<WantError>(&want)) return fmt::format("error={}", w->error);
+  return fmt::format("level={}", std::get<WantLevel>(want).level);
+}
+
+Outlook outlook_of(const Want& want, const Manifest& manifest) {
+  Planner planner(manifest);
+  planner.want(want);
+  std::vector<bool> planned(manifest.chunks.size());
+  while (const auto chunk = planner.next()) {
+    planner.have(*chunk);
+    planned[*chunk] = true;
+  }
+  const auto missing =
+      static_cast<std::size_t>(std::ranges::find(planned, false) - planned.begin());
+  const bool whole = missing == planned.size();
+  const auto finest = static_cast<std::uint32_t>(manifest.levels.size() - 1);
+  Outlook outlook{.level = whole ? finest : manifest.chunks[missing].level - 1,
+                  .triangles = whole ? manifest.levels[finest].faces : planner.faces_held(),
+                  .bytes = planner.bytes_held()};
+  if (const auto* w = std::get_if<WantTriangles>(&want)) {  // the last chunk is shown in part
+    while (outlook.level > 0 && manifest.levels[outlook.level].faces > w->triangles)
+      --outlook.level;
+    outlook.triangles = std::max<std::uint64_t>(std::min(outlook.triangles, w->triangles),
+                                                manifest.levels.front().faces);
+  }
+  outlook.error = manifest.levels[outlook.level].max_error;
+  return outlook;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/collector.h"
+
+#include <fmt/core.h>
+
+#include "server/jobs/publish_jobs.h"
+
+namespace vitrine {
+
+Expected<std::set<UploadId>> Collector::uploads_in_use() {
+  const auto jobs = means_.jobs.unfinished_jobs();
+  if (!jobs) return Unexpected(jobs.error());
+  std::set<UploadId> uploads;
+  for (const JobRecord& job : *jobs) {
+    if (const auto upload = PublishJobs::upload_of(job)) uploads.insert(*upload);
+  }
+  return uploads;
+}
+
+// With the store's lock held nobody is between putting an object and naming it.
+Expected<Collector::Collected> Collector::collect(std::int64_t now) {
+  const auto in_use = uploads_in_use();
+  if (!in_use) return Unexpected(in_use.error());
+  const auto uploads = means_.uploads.sweep(*in_use, now);
+  if (!uploads) return fail(ErrorCode::kIo, uploads.error().message);
+  const auto lock = means_.store.lock();
+  if (!lock) return Unexpected(lock.error());
+  const auto files = means_.catalogue.files();
+  if (!files) return Unexpected(files.error());
+  std::set<Sha256> named;
+  for (const NamedFile& file : *files)
+    named.insert(file.file);
+  const auto objects = means_.store.sweep(named, means_.grace);
+  if (!objects) return Unexpected(objects.error());
+  return Collected{*objects, *uploads};
+}
+
+void Collector::collect_and_tell() {
+  const auto collected = collect();
+  if (!collected) return means_.events.event(Severity::kError, collected.error().message);
+  if (collected->objects + collected->uploads == 0) return;
+  means_.events.event(Severity::kInfo,
+                      fmt::format("collected {} objects that nothing names and {} old uploads",
+                                  collected->objects, collected->uploads));
+}
+
+void Collector::start(std::chrono::seconds pause) {
+  thread_ = std::jthread([this, pause](const std::stop_token& stop) { run(stop, pause); });
+}
+
+void Collector::run(const std::stop_token& stop, std::chrono::seconds pause) {
+  while (!stop.stop_requested()) {
+    collect_and_tell();
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, stop, pause, [this] { return hurries_; });
+    hurries_ = false;
+  }
+}
+
+void Collector::hurry() {
+  const std::scoped_lock lock(mutex_);
+  hurries_ = true;
+  changed_.notify_all();
+}
+
+void Collector::stop() {
+  thread_ = {};
+}
+
+}  // namespace vitrine

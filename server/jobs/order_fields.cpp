@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/order_fields.h"
+
+#include "codec/progressive/manifest.h"
+#include "server/store/text.h"
+
+namespace vitrine {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMaxTextBytes = 4096;
+
+}  // namespace
+
+void Fields::only(std::span<const std::string_view> known) {
+  for (const auto& [name, value] : object_.items()) {
+    if (std::ranges::find(known, name) == known.end()) fault(name, "unknown here");
+  }
+}
+
+void Fields::text(const char* name, std::string& value) {
+  const auto found = object_.find(name);
+  if (found == object_.end()) return;
+  const auto* given = found->get_ptr<const std::string*>();
+  if (given == nullptr || given->size() > kMaxTextBytes || !is_plain_text(*given)) {
+    return fault(name, fmt::format("one line of text of at most {} bytes", kMaxTextBytes));
+  }
+  value = *given;
+}
+
+void Fields::whole(const char* name, int low, int high, int& value) {
+  const auto found = object_.find(name);
+  if (found == object_.end()) return;
+  const bool is_whole = found->is_number_integer();
+  if (!is_whole || *found < low || *found > high) {
+    return fault(name, fmt::format("a whole number from {} to {}", low, high));
+  }
+  value = found->get<int>();
+}
+
+void Fields::flag(const char* name, bool& value) {
+  const auto found = object_.find(name);
+  if (found == object_.end()) return;
+  if (!found->is_boolean()) return fault(name, "true or false");
+  value = found->get<bool>();
+}
+
+void read_bits(Fields& fields, const Json& body, int& bits) {
+  const auto found = body.find("bits");
+  if (found == body.end() || *found == "auto") return;
+  if (found->is_number_integer() && *found == 0) {
+    bits = 0;
+    return;
+  }
+  const bool fits = found->is_number_integer() && *found >= kMinBits && *found <= kMaxBits;
+  if (!fits) {
+    return fields.fault("bits",
+                        fmt::format("auto or a whole number from {} to {}", kMinBits, kMaxBits));
+  }
+  bits = found->get<int>();
+}
+
+std::vector<std::string_view> metadata_names() {
+  std::vector<std::string_view> names = {"title", "creator", "rights", "licence"};
+  names.insert(names.end(), std::begin(kDublinCore), std::end(kDublinCore));
+  return names;
+}
+
+void read_texts(Fields& fields, ModelMetadata& metadata) {
+  fields.text("title", metadata.title);
+  fields.text("creator", metadata.creator);
+  fields.text("rights", metadata.rights);
+  fields.text("licence", metadata.licence);
+  for (const std::string_view element : kDublinCore) {
+    const std::string name(element);
+    std::string text = metadata.more[name];
+    fields.text(name.c_str(), text);
+    metadata.more[name] = text;
+  }
+  std::erase_if(metadata.more, [](const auto& element) { return element.second.empty(); });
+}
+
+void read_metadata(Fields& fields, const Json& body, ModelMetadata& metadata, FieldFaults& faults) {
+  const auto found = body.find("metadata");
+  if (found == body.end()) return;
+  if (!found->is_object()) return fields.fault("metadata", "an object");
+  Fields texts(*found, "metadata.", faults);
+  texts.only(metadata_names());
+  read_texts(texts, metadata);
+}
+
+Json to_json(const ModelMetadata& metadata) {
+  Json json = metadata.more;
+  json["title"] = metadata.title;
+  json["creator"] = metadata.creator;
+  json["rights"] = metadata.rights;
+  json["licence"] = metadata.licence;
+  return json;
+}
+
+}  // namespace vitrine

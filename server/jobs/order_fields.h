@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads what an operator asks for out of JSON: all faults at once, each with its field.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "server/store/publish.h"
+
+namespace vitrine {
+
+struct FieldFault {
+  std::string field, detail;  // "metadata.title"; what is expected
+};
+using FieldFaults = std::vector<FieldFault>;
+
+inline constexpr std::string_view kPlacementNames[] = {"midpoint", "pyramid"};
+
+// Reads the members of one object; what is absent or wrong stays as it was.
+class Fields {
+ public:
+  Fields(const nlohmann::json& object, std::string prefix, FieldFaults& faults)
+      : object_(object), prefix_(std::move(prefix)), faults_(faults) {}
+
+  void only(std::span<const std::string_view> known);  // all others are faults
+  void text(const char* name, std::string& value);
+  void whole(const char* name, int low, int high, int& value);
+  void flag(const char* name, bool& value);
+
+  // double or std::optional<double>
+  void real(const char* name, double low, double high, auto& value) {
+    const auto found = object_.find(name);
+    if (found == object_.end() || found->is_null()) return;
+    if (!found->is_number() || !(*found >= low && *found <= high)) {
+      return fault(name, fmt::format("a number from {} to {}", low, high));
+    }
+    value = found->template get<double>();
+  }
+
+  template <class Enum>
+  void choice(const char* name, std::span<const std::string_view> names, Enum& value) {
+    const auto found = object_.find(name);
+    if (found == object_.end()) return;
+    const auto* given = found->get_ptr<const std::string*>();
+    const auto at = given == nullptr ? names.end() : std::ranges::find(names, *given);
+    if (at == names.end()) return fault(name, fmt::format("one of {}", fmt::join(names, ", ")));
+    value = static_cast<Enum>(at - names.begin());
+  }
+
+  void fault(const std::string& name, std::string expected) {
+    faults_.push_back({prefix_ + name, std::move(expected)});
+  }
+
+ private:
+  const nlohmann::json& object_;
+  const std::string prefix_;
+  FieldFaults& faults_;
+};
+
+template <class Order>
+tl::expected<Order, FieldFaults> order_or_faults(Order order, FieldFaults faults) {
+  if (!faults.empty()) return tl::unexpected(std::move(faults));
+  return order;
+}
+
+// What several orders have: "bits" (0 and "auto": by the mesh) and "metadata".
+void read_bits(Fields& fields, const nlohmann::json& body, int& bits);
+void read_metadata(Fields& fields, const nlohmann::json& body, ModelMetadata& metadata,
+                   FieldFaults& faults);
+
+// The texts themselves: title, creator, rights, licence and the elements of Dublin Core.
+std::vector<std::string_view> metadata_names();
+void read_texts(Fields& fields, ModelMetadata& metadata);
+nlohmann::json to_json(const ModelMetadata& metadata);
+
+}  // namespace vitrine

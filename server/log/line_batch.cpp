@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/log/line_batch.h"
+
+#include <unistd.h>
+
+namespace vitrine {
+
+bool LineBatch::add(std::string_view line, int descriptor) {
+  constexpr std::size_t kLarge = 64 * 1024;
+  const std::scoped_lock lock(mutex_);
+  const bool is_first = lines_.empty();
+  lines_ += line;
+  if (lines_.size() >= kLarge) write(descriptor);
+  return is_first;
+}
+
+void LineBatch::flush(int descriptor) {
+  const std::scoped_lock lock(mutex_);
+  if (!lines_.empty()) write(descriptor);
+}
+
+void LineBatch::write(int descriptor) {
+  // A log that cannot be written must not stop the service: the lines are lost.
+  [[maybe_unused]] const auto written = ::write(descriptor, lines_.data(), lines_.size());
+  lines_.clear();
+}
+
+}  // namespace vitrine

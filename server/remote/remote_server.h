@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Requests to another server over HTTP or HTTPS, one after the other on one connection.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/core/expected.h"
+
+namespace vitrine {
+
+struct RemoteRequest {
+  std::string method = "GET";
+  std::string url;
+  std::vector<std::string> fields = {};             // "Name: value"
+  std::span<const std::uint8_t> body = {};          // must live until the answer
+  std::function<void(std::uint64_t)> on_sent = {};  // bytes of the body so far
+  std::chrono::seconds patience{30};                // for a connection, and for each byte to follow
+  std::chrono::seconds deadline{0};                 // for all of it; 0: none
+};
+
+struct RemoteAnswer {
+  long status = 0;
+  std::map<std::string, std::string> fields;  // names in lower case
+  std::string body;                           // its first kMost bytes
+
+  static constexpr std::size_t kMost = 4 << 20;
+  std::string field(const std::string& name) const {
+    const auto found = fields.find(name);
+    return found == fields.end() ? "" : found->second;
+  }
+};
+
+class RemoteServer {
+ public:
+  RemoteServer();
+  ~RemoteServer();
+  RemoteServer(const RemoteServer&) = delete;
+  RemoteServer& operator=(const RemoteServer&) = delete;
+
+  // Any answer is one; redirections are not followed. kIo where there is none.
+  Expected<RemoteAnswer> ask(const RemoteRequest& request);
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+};
+
+// "http://host:port" or "https://…" of a URL, without a path; empty where it is none.
+std::string origin_of(std::string_view url);
+
+}  // namespace vitrine

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/stored_file.h"
+
+namespace vitrine {
+namespace {
+
+Expected<void> check_size(const Manifest& manifest, std::uint64_t size) {
+  if (manifest.file_bytes == size) return {};
+  return fail(ErrorCode::kBadInput,
+              "the file has " + std::to_string(size) + " bytes and its header says " +
+                  std::to_string(manifest.file_bytes) + "; build or fetch it again");
+}
+
+Expected<void> check_stored(const ObjectStore& store, const StoredFile& file) {
+  const auto object = store.open(file.name);
+  if (!object) return tl::unexpected(object.error());
+  if (*object == nullptr)
+    return fail(ErrorCode::kIo, "what was stored is gone; check the data folder");
+  for (const ChunkPlace& place : file.chunks()) {
+    const auto bytes = (*object)->read(place.offset, place.length);
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (sha256(*bytes) != place.chunk) {
+      return fail(ErrorCode::kBadInput, "the chunk at byte " + std::to_string(place.offset) +
+                                            " does not have its SHA-256; build the file again");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<ChunkPlace> StoredFile::chunks() const {
+  std::vector<ChunkPlace> result;
+  result.reserve(manifest.chunks.size() + 1);
+  result.push_back({manifest.base_sha256, manifest.base_offset, manifest.base_length});
+  for (const ChunkInfo& c : manifest.chunks)
+    result.push_back({c.sha256, c.offset, c.length});
+  return result;
+}
+
+Expected<StoredFile> store_file(ObjectStore& store, std::span<const std::uint8_t> pmesh) {
+  auto manifest = parse_header(pmesh);
+  if (!manifest) return tl::unexpected(manifest.error());
+  if (auto fits = check_size(*manifest, pmesh.size()); !fits) return tl::unexpected(fits.error());
+  StoredFile file{.name = sha256(pmesh), .manifest = std::move(*manifest)};
+  const auto before = store.open(file.name);
+  if (!before) return tl::unexpected(before.error());
+  file.is_new = *before == nullptr;
+  if (auto stored = store.put(file.name, pmesh); !stored) return tl::unexpected(stored.error());
+  const auto checked = check_stored(store, file);
+  if (checked) return file;
+  // The first fault is the one to tell: a full disk takes a removal.
+  if (file.is_new) static_cast<void>(store.remove(file.name));
+  return tl::unexpected(checked.error());
+}
+
+}  // namespace vitrine

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/uploads.h"
+
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "codec/files/atomic_file.h"
+
+namespace vitrine {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAbout = ".json";
+constexpr const char* kBytes = ".part";
+
+tl::unexpected<UploadFault> fault(UploadFault::Kind kind, std::string message) {
+  return tl::unexpected(UploadFault{kind, std::move(message)});
+}
+
+tl::unexpected<UploadFault> refused(const char* what, int error) {
+  const bool full = error == ENOSPC || error == EDQUOT;
+  return fault(full ? UploadFault::kNoRoom : UploadFault::kIo,
+               fmt::format("cannot {} an upload: {}; {}", what, std::strerror(error),
+                           full ? "free some space" : "check the data folder"));
+}
+
+tl::unexpected<UploadFault> gone() {
+  return fault(UploadFault::kGone, "there is no such upload");
+}
+
+// The descriptor's lock goes with it.
+bool take_lock(int fd) {
+  while (::flock(fd, LOCK_EX) != 0) {
+    if (errno != EINTR) return false;
+  }
+  return true;
+}
+
+class ScopedLock {
+ public:
+  explicit ScopedLock(int fd) : fd_(fd), held_(take_lock(fd)) {}
+  ~ScopedLock() { ::flock(fd_, LOCK_UN); }
+  ScopedLock(const ScopedLock&) = delete;
+  ScopedLock& operator=(const ScopedLock&) = delete;
+  bool is_held() const { return held_; }
+
+ private:
+  const int fd_;
+  const bool held_;
+};
+
+std::optional<std::uint64_t> size_of(int fd) {
+  struct stat status {};
+  if (::fstat(fd, &status) != 0) return std::nullopt;
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+// Where a disk fills up, what fits stays.
+Uploading<void> write_all(int fd, std::span<const std::uint8_t> bytes, std::uint64_t& offset) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return refused("write", n < 0 ? errno : ENOSPC);
+    offset += static_cast<std::uint64_t>(n);
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return {};
+}
+
+std::optional<UploadId> id_of(const fs::path& file) {
+  return UploadId::parse(file.stem().string());
+}
+
+}  // namespace
+
+Uploading<void> UploadWriter::append(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > length_ - offset_) {
+    return fault(UploadFault::kTooLarge, "the upload is longer than its Upload-Length said");
+  }
+  const ScopedLock lock(file_.get());
+  const auto size = size_of(file_.get());
+  if (!lock.is_held() || !size) return refused("write", errno);
+  if (*size != offset_) {
+    return fault(UploadFault::kMoved, "another request writes this upload; ask for its offset");
+  }
+  return write_all(file_.get(), bytes, offset_);
+}
+
+Uploading<std::uint64_t> UploadWriter::sync() {
+  if (::fsync(file_.get()) != 0) return refused("keep", errno);
+  return offset_;
+}
+
+fs::path Uploads::path_of(const UploadId& id, const char* suffix) const {
+  return folder_ / (id.to_string() + suffix);
+}
+
+Uploading<FileDescriptor> Uploads::lock() const {
+  FileDescriptor folder(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder || !take_lock(folder.get())) return refused("make", errno);
+  return folder;
+}
+
+Uploading<Upload> Uploads::create(const ModelId& token, std::uint64_t length,
+                                  const std::string& metadata) {
+  if (length > limits_.bytes) {
+    return fault(UploadFault::kTooLarge,
+                 fmt::format("an upload may have {} bytes at most", limits_.bytes));
+  }
+  if (::mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST) return refused("make", errno);
+  const auto locked = lock();
+  if (!locked) return tl::unexpected(locked.error());
+  const auto all = list();
+  if (!all) return tl::unexpected(all.error());
+  const auto own = std::ranges::count(*all, token, &Upload::token);
+  if (static_cast<std::uint64_t>(own) >= limits_.per_token) {
+    return fault(UploadFault::kTooMany,
+                 fmt::format("this token has {} uploads open; finish or delete one", own));
+  }
+  const UploadId id = UploadId::generate();
+  const FileDescriptor bytes(
+      ::open(path_of(id, kBytes).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!bytes) return refused("make", errno);
+  const std::string about = nlohmann::json{
+      {"token", token.to_string()},
+      {"length", length},
+      {"metadata", metadata}}.dump();
+  const auto kept = write_file_atomically(
+      path_of(id, kAbout), {reinterpret_cast<const std::uint8_t*>(about.data()), about.size()});
+  if (kept) return find(id);
+  const int error = errno;
+  ::unlink(path_of(id, kBytes).c_str());
+  return fault(error == ENOSPC ? UploadFault::kNoRoom : UploadFault::kIo, kept.error().message);
+}
+
+Uploading<Upload> Uploads::read(const UploadId& id) const {
+  const auto json = nlohmann::json::parse(std::ifstream(path_of(id, kAbout)), nullptr,
+                                          /*allow_exceptions=*/false);
+  struct stat status {};
+  if (!json.is_object() || ::stat(path_of(id, kBytes).c_str(), &status) != 0) return gone();
+  Upload upload;
+  upload.id = id;
+  upload.token = UploadId::parse(json.value("token", "")).value_or(ModelId());
+  upload.length = json.value("length", std::uint64_t{0});
+  upload.offset = static_cast<std::uint64_t>(status.st_size);
+  upload.metadata = json.value("metadata", "");
+  upload.expires = std::int64_t{status.st_mtim.tv_sec} * 1000 +
+                   std::chrono::duration_cast<std::chrono::milliseconds>(limits_.lifetime).count();
+  return upload;
+}
+
+// What a dead daemon has written may not be on the disk yet, and who is told of it sends no more.
+Uploading<Upload> Uploads::find(const UploadId& id) const {
+  auto upload = read(id);
+  if (!upload) return upload;
+  const FileDescriptor bytes(::open(path_of(id, kBytes).c_str(), O_RDONLY | O_CLOEXEC));
+  if (!bytes && errno == ENOENT) return gone();
+  if (!bytes || ::fsync(bytes.get()) != 0) return refused("read", errno);
+  return upload;
+}
+
+Uploading<UploadWriter> Uploads::writer(const UploadId& id, std::uint64_t offset) const {
+  const auto upload = read(id);
+  if (!upload) return tl::unexpected(upload.error());
+  if (upload->offset != offset) {
+    return fault(UploadFault::kMoved,
+                 fmt::format("the upload's offset is {}; go on from there", upload->offset));
+  }
+  FileDescriptor bytes(::open(path_of(id, kBytes).c_str(), O_WRONLY | O_CLOEXEC));
+  if (!bytes && errno == ENOENT) return gone();
+  if (!bytes) return refused("open", errno);
+  return UploadWriter(std::move(bytes), offset, upload->length);
+}
+
+Uploading<FileDescriptor> Uploads::open(const UploadId& id) const {
+  const auto upload = read(id);
+  if (!upload || !upload->is_whole()) return gone();
+  FileDescriptor bytes(::open(path_of(id, kBytes).c_str(), O_RDONLY | O_CLOEXEC));
+  if (!bytes) return gone();
+  return bytes;
+}
+
+// What says that there is an upload goes first.
+Uploading<void> Uploads::remove(const UploadId& id) {
+  if (::unlink(path_of(id, kAbout).c_str()) != 0) {
+    if (errno == ENOENT) return gone();
+    return refused("remove", errno);
+  }
+  ::unlink(path_of(id, kBytes).c_str());
+  if (const auto synced = sync_folder(folder_); !synced)
+    return fault(UploadFault::kIo, synced.error().message);
+  return {};
+}
+
+Uploading<std::vector<Upload>> Uploads::list() const {
+  std::vector<Upload> all;
+  std::error_code error;
+  fs::directory_iterator at(folder_, error);
+  if (error == std::errc::no_such_file_or_directory) return all;
+  for (; !error && at != fs::directory_iterator(); at.increment(error)) {
+    if (at->path().extension() != kAbout) continue;
+    const auto id = id_of(at->path());
+    const auto upload = id ? read(*id) : gone();
+    if (upload) all.push_back(*upload);
+  }
+  if (error) return refused("list", error.value());
+  return all;
+}
+
+Uploading<std::size_t> Uploads::sweep(const std::set<UploadId>& in_use, std::int64_t now) {
+  std::error_code error;
+  if (!fs::exists(folder_, error)) return 0;
+  const auto locked = lock();
+  if (!locked) return tl::unexpected(locked.error());
+  std::size_t swept = 0;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder_, error))
+    files.push_back(entry.path());
+  for (const fs::path& file : files) {
+    const auto id = id_of(file);
+    const auto upload = id ? read(*id) : gone();
+    if (upload && (upload->expires > now || in_use.contains(*id))) continue;
+    if (file.extension() == kAbout) ++swept;
+    ::unlink(file.c_str());
+  }
+  if (error) return refused("list", error.value());
+  return swept;
+}
+
+}  // namespace vitrine

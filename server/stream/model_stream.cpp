@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/stream/model_stream.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrine {
+namespace {
+
+constexpr double kMostLate = 0.05;  // of the seconds asked for
+constexpr double kNews = 0.2;       // a rate that differs by this share makes a promise obsolete
+constexpr Pacer::Duration kBetweenPromises{0.2};
+
+Want all_of(const Manifest& manifest) {
+  return WantLevel{static_cast<std::uint32_t>(manifest.levels.size() - 1)};
+}
+
+}  // namespace
+
+Planner& ModelStream::planner() {
+  if (!planner_) planner_.emplace(*manifest_);
+  return *planner_;
+}
+
+void ModelStream::want(const WantMessage& message, Pacer::Time now) {
+  interrupt();
+  is_open_ = true;
+  turn_ = message.turn;
+  timed_.reset();
+  if (const auto* want = std::get_if<Want>(&message.wish)) {
+    planner().want(*want);
+  } else {
+    const double seconds = std::get<WantSeconds>(message.wish).seconds;
+    timed_ = Timed{seconds, now + Pacer::Duration(seconds), {}, {}};
+    planner().want(all_of(*manifest_));
+  }
+}
+
+void ModelStream::pause(bool pause) {
+  interrupt();
+  is_paused_ = pause;
+}
+
+// What has been sent of the chunk need not be sent again.
+void ModelStream::interrupt() {
+  if (is_within_chunk()) interrupted_.push_back(*under_way_);
+  under_way_.reset();
+}
+
+Expected<void> ModelStream::have(const std::vector<ChunkRange>& chunks) {
+  if (!chunks.empty() && chunks.back().last >= manifest_->chunks.size()) {
+    return fail(ErrorCode::kBadInput, "have: the model has no such chunk; fetch its head anew");
+  }
+  for (const ChunkRange& range : chunks) {
+    for (std::uint64_t i = range.first; i <= range.last; ++i)
+      planner().have(i);
+  }
+  if (!is_within_chunk()) under_way_.reset();
+  return {};
+}
+
+std::uint64_t ModelStream::left_of(std::size_t chunk) const {
+  const std::uint64_t length = manifest_->chunks[chunk].length;
+  if (under_way_ && under_way_->chunk == chunk) return length - under_way_->offset;
+  const auto part = std::ranges::find(interrupted_, chunk, &Part::chunk);
+  return part == interrupted_.end() ? length : length - part->offset;
+}
+
+// With the chunk or without it, whichever ends nearer to the deadline.
+bool ModelStream::is_in_time(Ends ends, Pacer::Time now) const {
+  const double left = (timed_->deadline - now).count();
+  const double late = ends.with - left, early = left - ends.without;
+  return late <= 0 || (late < early && late <= kMostLate * timed_->seconds);
+}
+
+// Sets under_way_. False where nothing is left to send.
+bool ModelStream::choose(const Pacer& pacer, Pacer::Time now) {
+  const auto chunk = planner().next();
+  if (!chunk) return false;
+  if (timed_) {
+    const double rate = pacer.hope(now);
+    const double queue = static_cast<double>(pacer.in_flight()) / rate;
+    const Ends ends{queue, queue + static_cast<double>(left_of(*chunk)) / rate};
+    if (!is_in_time(ends, now)) return false;
+  }
+  under_way_ = Part{*chunk, manifest_->chunks[*chunk].length - left_of(*chunk)};
+  std::erase_if(interrupted_, [&](const Part& part) { return part.chunk == *chunk; });
+  return true;
+}
+
+StreamOutput ModelStream::next(std::uint32_t most, const Pacer& pacer, Pacer::Time now) {
+  if (head_) return head_slice(most);
+  if (!is_open_ || is_paused_) return {};
+  if (timed_) {
+    if (auto promise = news(pacer, now)) return *promise;
+  }
+  if (!under_way_ && !choose(pacer, now)) {
+    is_open_ = false;
+    return DoneMessage{number_, turn_, planner().bytes_held(), planner().faces_held()};
+  }
+  return chunk_slice(most);
+}
+
+StreamOutput ModelStream::head_slice(std::uint32_t most) {
+  const std::uint64_t total = manifest_->head_bytes();
+  const auto length = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, total - head_sent_));
+  if (length == 0) return {};
+  const SliceHeader header{.model = number_,
+                           .offset = static_cast<std::uint32_t>(head_sent_),
+                           .total = static_cast<std::uint32_t>(total)};
+  const Slice slice{header, head_sent_, length};
+  head_sent_ += length;
+  head_ = head_sent_ < total;
+  return slice;
+}
+
+StreamOutput ModelStream::chunk_slice(std::uint32_t most) {
+  const ChunkInfo& chunk = manifest_->chunks[under_way_->chunk];
+  const std::uint64_t offset = under_way_->offset;
+  const auto length =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.length - offset));
+  if (length == 0) {
+    if (timed_ && !is_within_chunk()) under_way_.reset();  // it may be too late when it can go
+    return {};
+  }
+  under_way_->offset += length;
+  if (under_way_->offset == chunk.length) {
+    planner().have(under_way_->chunk);
+    under_way_.reset();
+  }
+  const SliceHeader header{.model = number_,
+                           .level = static_cast<std::uint16_t>(chunk.level),
+                           .region = chunk.region,
+                           .offset = static_cast<std::uint32_t>(offset),
+                           .total = static_cast<std::uint32_t>(chunk.length)};
+  return Slice{header, chunk.offset + offset, length};
+}
+
+// A promise where there is none yet, or the last one no longer fits what is measured.
+std::optional<PromiseMessage> ModelStream::news(const Pacer& pacer, Pacer::Time now) {
+  const auto& last = timed_->promise;
+  if (last) {
+    const double change = std::abs(pacer.rate(now) / last->bytes_per_second - 1);
+    const bool first_measured = !last->measured && pacer.is_measured();
+    if (!first_measured && (change < kNews || now - timed_->promised < kBetweenPromises)) return {};
+  }
+  PromiseMessage promise = forecast(pacer, now);
+  timed_->promised = now;
+  timed_->promise = promise;
+  return promise;
+}
+
+// Goes on as next() would at the present rate.
+PromiseMessage ModelStream::forecast(const Pacer& pacer, Pacer::Time now) const {
+  const double rate = pacer.rate(now);
+  double end = static_cast<double>(pacer.in_flight()) / rate;
+  Planner then = *planner_;
+  auto chunk = under_way_ ? std::optional(under_way_->chunk) : then.next();
+  for (; chunk; chunk = then.next()) {
+    const double with = end + static_cast<double>(left_of(*chunk)) / rate;
+    const bool goes_on = under_way_ && under_way_->chunk == *chunk;
+    if (!goes_on && !is_in_time({end, with}, now)) break;
+    then.have(*chunk);
+    end = with;
+  }
+  const auto missing = chunk ? manifest_->chunks[*chunk].level
+                             : static_cast<std::uint32_t>(manifest_->levels.size());
+  return {.model = number_,
+          .turn = turn_,
+          .level = missing - 1,
+          .bytes = then.bytes_held(),
+          .triangles = then.faces_held(),
+          .error = manifest_->levels[missing - 1].max_error,
+          .seconds = end,
+          .bytes_per_second = rate,
+          .measured = pacer.is_measured()};
+}
+
+}  // namespace vitrine

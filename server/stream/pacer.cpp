@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/stream/pacer.h"
+
+#include <algorithm>
+
+#include "server/stream/slice.h"
+
+namespace vitrine {
+
+Pacer::Duration Pacer::busy(Time now) const {
+  return in_flight() > 0 ? busy_ + (now - then_) : busy_;
+}
+
+void Pacer::advance(Time now) {
+  busy_ = busy(now);
+  then_ = now;
+}
+
+void Pacer::sent(std::uint64_t bytes, Time now) {
+  advance(now);
+  if (samples_.empty()) samples_.push_back({busy_, arrived_});
+  progress_ = now;
+  sent_ += bytes;
+  if (marks_.size() < kMostMarks) marks_.push_back({sent_, now});
+}
+
+// Of the newest slice that is now known to have arrived.
+Pacer::Duration Pacer::measure_delay(Time now) {
+  const auto open = std::ranges::find_if(marks_, [&](const Mark& m) { return m.end > arrived_; });
+  if (open == marks_.begin()) return Duration{-1};
+  const Duration delay = now - std::prev(open)->at;
+  marks_.erase(marks_.begin(), open);
+  if (drains_) return Duration{-1};
+  if (base_ == Duration::max()) base_since_ = now;
+  base_ = std::min(base_, delay);
+  if (now - base_since_ > kBaseAge) {
+    base_ = Duration::max();
+    drains_ = true;
+  }
+  return delay;
+}
+
+void Pacer::add_sample() {
+  if (samples_.size() > 1 && samples_.back().busy - samples_[samples_.size() - 2].busy < kSample) {
+    samples_.back() = {busy_, arrived_};
+  } else {
+    samples_.push_back({busy_, arrived_});
+  }
+  while (samples_.size() > 2 && busy_ - samples_[1].busy >= kWindow)
+    samples_.erase(samples_.begin());
+}
+
+void Pacer::arrived(std::uint64_t bytes, Time now) {
+  advance(now);
+  bytes = std::min(bytes, in_flight());
+  if (bytes == 0) return;
+  arrived_ += bytes;
+  progress_ = now;
+  add_sample();
+  is_measured_ = is_measured_ || samples_.back().busy - samples_.front().busy >= kLeastTime ||
+                 arrived_ >= kEnough;
+  const Duration delay = measure_delay(now);
+  if (delay.count() < 0 || base_ == Duration::max()) return;
+  const double fitting = rate(now) * (base_ + kQueue).count();
+  const double more = delay - base_ < kShortQueue ? window_ + static_cast<double>(bytes) : 0;
+  window_ = std::clamp(std::max(fitting, more), kLeastWindow, kMostWindow);
+}
+
+bool Pacer::may_send(Time now) {
+  if (in_flight() == 0) drains_ = false;
+  if (in_flight() > 0 && now - progress_ >= kNudge) return true;
+  return !drains_ && static_cast<double>(in_flight()) < window_;
+}
+
+double Pacer::rate(Time now) const {
+  if (!is_measured_) return kFirstGuess;
+  const Duration until = busy(now);
+  const Sample *first = &samples_.front(), *last = &samples_.back();
+  for (const Sample& sample : samples_) {
+    if (until - sample.busy >= kWindow) first = &sample;
+  }
+  const auto arrived = static_cast<double>(last->arrived - first->arrived);
+  const auto next = static_cast<double>(std::min<std::uint64_t>(in_flight(), kMaxSlice));
+  const double seen = arrived / std::max(last->busy - first->busy, kLeastTime).count();
+  // As if a slice arrived just now.
+  const double possible = (arrived + next) / std::max(until - first->busy, kLeastTime).count();
+  if (first == last) return std::max(1.0, possible);
+  return std::max(1.0, next > 0 ? std::min(seen, possible) : seen);
+}
+
+double Pacer::hope(Time now) const {
+  constexpr Duration kSomething{0.05};
+  if (is_measured_) return rate(now);
+  const double seen = static_cast<double>(arrived_) / std::max(busy(now), kSomething).count();
+  return busy(now) < kSomething ? std::max(4 * kFirstGuess, seen) : std::max(kFirstGuess, seen);
+}
+
+std::uint32_t Pacer::slice_bytes(Time now) const {
+  constexpr double kLeast = 1024;
+  return static_cast<std::uint32_t>(
+      std::clamp(rate(now) * kSliceTime.count(), kLeast, static_cast<double>(kMaxSlice)));
+}
+
+}  // namespace vitrine

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaped_link.h"
+
+#include <fcntl.h>
+#include <sched.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+namespace vitrine::bench {
+namespace {
+
+void run(const std::string& command) {
+  if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
+}
+
+void enter(const FileDescriptor& space) {
+  if (::setns(space.get(), CLONE_NEWNET) != 0) throw std::runtime_error("cannot change namespace");
+}
+
+FileDescriptor here() {
+  return FileDescriptor(::open("/proc/thread-self/ns/net", O_RDONLY));  // the tools inherit it
+}
+
+FileDescriptor fresh() {
+  if (::unshare(CLONE_NEWNET) != 0)
+    throw std::runtime_error("cannot make a network namespace; run as root");
+  return here();
+}
+
+}  // namespace
+
+ShapedLink::ShapedLink() : before_(here()), server_(fresh()), client_(fresh()) {
+  run("ip link add v0 type veth peer name v1");
+  run("ip link set v1 netns /proc/self/fd/" + std::to_string(server_.get()));
+  run("ip addr add 10.99.0.2/24 dev v0 && ip link set v0 up && ip link set lo up");
+  at_server();
+  run("ip addr add " + std::string(kServer) +
+      "/24 dev v1 && ip link set v1 up && ip link set lo up");
+}
+
+ShapedLink::~ShapedLink() {
+  ::setns(before_.get(), CLONE_NEWNET);
+}
+
+void ShapedLink::at_server() const {
+  enter(server_);
+}
+void ShapedLink::at_client() const {
+  enter(client_);
+}
+
+void ShapedLink::shape(double bytes_per_second) {
+  at_server();
+  const std::string bits = std::to_string(static_cast<long>(8 * bytes_per_second));
+  run(std::string("tc qdisc ") + (is_shaped_ ? "change" : "add") + " dev v1 root tbf rate " + bits +
+      "bit burst 8kb latency 300ms");
+  is_shaped_ = true;
+  at_client();
+}
+
+}  // namespace vitrine::bench

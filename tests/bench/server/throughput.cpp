@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+
+#include "../../server/app/served_folder.h"
+#include "cores.h"
+#include "load.h"
+#include "sections.h"
+#include "support/daemon.h"
+#include "support/http_client.h"
+#include "support/nginx.h"
+
+namespace vitrine::bench {
+namespace {
+
+constexpr std::size_t kModels = 64, kChunkBytes = 16 * 1024;
+
+// Models of one chunk, and the same bytes as files for nginx.
+class Gallery {
+ public:
+  Gallery() {
+    for (std::size_t i = 0; i < kModels; ++i) {
+      std::string chunk(kChunkBytes, '\0');
+      for (std::size_t at = 0; at < chunk.size(); ++at)
+        chunk[at] = static_cast<char>(at * (2 * i + 1) >> 3);
+      const test::TinyPmesh pmesh = test::tiny_pmesh("base " + std::to_string(i), chunk);
+      chunks_.push_back("/api/v1/chunks/" + to_hex(pmesh.manifest.chunks[0].sha256));
+      manifests_.push_back("/api/v1/models/" + folder_.publish("a model", pmesh) + "/manifest");
+      write(chunks_.back(), chunk);
+    }
+  }
+
+  const std::filesystem::path& data() const { return folder_.path(); }
+  const std::filesystem::path& files() const { return files_.path(); }
+  const std::vector<std::string>& chunks() const { return chunks_; }
+  const std::vector<std::string>& manifests() const { return manifests_; }
+
+  void write(const std::string& target, const std::string& bytes) const {
+    const std::filesystem::path file = files_.path().string() + target;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << bytes;
+  }
+
+ private:
+  test::ServedFolder folder_;
+  test::TemporaryFolder files_;
+  std::vector<std::string> chunks_, manifests_;
+};
+
+// As one would set it up for this: the fields of caches, a log line for each request.
+std::string nginx_server(const std::filesystem::path& root) {
+  return "root " + root.string() +
+         ";\ndefault_type application/octet-stream;\n"
+         "location /api/v1/chunks/ { add_header Cache-Control \"public, max-age=31536000, "
+         "immutable\"; add_header Access-Control-Allow-Origin *; }\n"
+         "location /api/v1/models/ { add_header Cache-Control no-cache; "
+         "add_header Access-Control-Allow-Origin *; }\n";
+}
+constexpr const char* kNginxHttp =
+    "sendfile on; tcp_nopush on; tcp_nodelay on; keepalive_requests 1000000000;\n"
+    "log_format full '$time_iso8601 $request_id $remote_addr \"$request\" $status "
+    "$body_bytes_sent $request_time';\naccess_log access.log full;\n";
+
+struct Peer {
+  std::uint16_t port;
+  pid_t process;
+};
+
+// What one side did in one run.
+struct Run {
+  Delivery delivery;
+  double processor = 0;  // seconds of it for each answer
+};
+
+Run measure(const Peer& peer, Load load) {
+  load.port = peer.port;
+  const double before = processor_seconds(peer.process);
+  Run run{deliver(load)};
+  run.processor =
+      (processor_seconds(peer.process) - before) / static_cast<double>(run.delivery.answers);
+  return run;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+// Interleaved runs of both; every figure is the median of its runs' ratios.
+class Comparison {
+ public:
+  Comparison(const Peer& ours, const Peer& nginx, const Effort& effort)
+      : ours_(ours), nginx_(nginx), effort_(effort) {}
+
+  // `theirs` asks nginx for the same.
+  void run(const Load& load, const Load& theirs) {
+    const OnCore client(kClientCore);
+    pairs_.clear();
+    for (int i = 0; i < 5; ++i)
+      pairs_.emplace_back(measure(ours_, timed(load)), measure(nginx_, timed(theirs)));
+  }
+
+  using Value = std::function<double(const Run&)>;
+  Figure figure(std::string what, const Value& value, double threshold, bool at_least) const {
+    std::vector<double> ours, nginx, ratios;
+    for (const auto& [a, b] : pairs_) {
+      ours.push_back(value(a));
+      nginx.push_back(value(b));
+      ratios.push_back(value(a) / value(b));
+    }
+    return {std::move(what), "ratio_to_nginx", median(ours), median(nginx),
+            median(ratios),  threshold,        at_least};
+  }
+
+ private:
+  Load timed(Load load) const {
+    load.time = std::chrono::milliseconds(effort_.quick ? 500 : 3000);
+    return load;
+  }
+
+  const Peer ours_, nginx_;
+  const Effort effort_;
+  std::vector<std::pair<Run, Run>> pairs_;
+};
+
+double rate(const Run& run) {
+  return run.delivery.requests_per_second;
+}
+double p99(const Run& run) {
+  return run.delivery.p99;
+}
+double processor(const Run& run) {
+  return run.processor;
+}
+
+std::string request(const std::string& target, const std::string& fields = "") {
+  return "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n";
+}
+
+// What both serve must be the same, and what is asked again must be known by its tag.
+std::string checked_etag(const Peer& peer, const std::string& target, const std::string& body) {
+  const test::HttpAnswer answer = test::http_get(peer.port, target);
+  if (answer.status != 200 || answer.body != body || answer.field("etag").empty())
+    throw std::runtime_error("not served as it should be: " + target);
+  return "If-None-Match: " + answer.field("etag") + "\r\n";
+}
+
+}  // namespace
+
+void throughput(Report& report, const Effort& effort) {
+  const Gallery gallery;
+  Load chunks{.status = 200}, our_manifests{.status = 304}, their_manifests{.status = 304};
+  const test::Daemon daemon = [&] {
+    const OnCore server(kServerCore);
+    return test::Daemon(gallery.data(), {"--threads", "1"});
+  }();
+  const test::Nginx nginx = [&] {
+    const OnCore server(kServerCore);
+    return test::Nginx(nginx_server(gallery.files()), kNginxHttp);
+  }();
+  const Peer ours{daemon.port(), daemon.pid()}, theirs{nginx.port(), nginx.pid()};
+  for (std::size_t i = 0; i < kModels; ++i) {
+    const std::string& chunk = gallery.chunks()[i];
+    checked_etag(theirs, chunk, test::http_get(ours.port, chunk).body);
+    chunks.requests.push_back(request(chunk));
+    const std::string& manifest = gallery.manifests()[i];
+    const std::string json = test::http_get(ours.port, manifest).body;
+    gallery.write(manifest, json);
+    our_manifests.requests.push_back(request(manifest, checked_etag(ours, manifest, json)));
+    their_manifests.requests.push_back(request(manifest, checked_etag(theirs, manifest, json)));
+  }
+  Comparison comparison(ours, theirs, effort);
+  comparison.run(chunks, chunks);
+  report.add(comparison.figure("chunk_get", rate, 0.95, true));
+  report.add(comparison.figure("chunk_get_processor", processor, kNoThreshold, false));
+  report.add(comparison.figure("p99", p99, 1.5, false));
+  comparison.run(our_manifests, their_manifests);
+  report.add(comparison.figure("manifest_304", rate, 1.0, true));
+  report.add(comparison.figure("manifest_304_processor", processor, kNoThreshold, false));
+  report.add(comparison.figure("manifest_304_p99", p99, 1.5, false));
+}
+
+}  // namespace vitrine::bench

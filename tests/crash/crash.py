@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Kills the daemon at random points of what it does for operators, starts it again, and looks.
+
+usage: crash.py BINARIES [KILLS [SEED]]
+
+Meanwhile it uploads, builds, publishes, caps, replaces, deletes and collects. After each start: every model's
+file is the one that its manifest names and verifies, an upload holds all that was acknowledged, every job
+ends, and after a collection the store holds what models name and nothing else.
+"""
+import hashlib
+import math
+import random
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+from daemon import Client, Daemon, Gone, new_token
+
+MOST = 40  # requests until the kill
+LONGEST = 0.05  # seconds from the last of them to the kill
+PATIENCE = 120  # for jobs and collections
+
+
+def torus(rings, sides):
+    """A mesh file; of other counts, another one."""
+    lines = []
+    for i in range(rings):
+        for j in range(sides):
+            a, b = 2 * math.pi * i / rings, 2 * math.pi * j / sides
+            r = 3 + math.cos(b)
+            lines.append(f"v {r * math.cos(a):.6f} {r * math.sin(a):.6f} {math.sin(b):.6f}")
+    for i in range(rings):
+        for j in range(sides):
+            p = [u * sides + v + 1 for u, v in ((i, j), ((i + 1) % rings, j), ((i + 1) % rings, (j + 1) % sides), (i, (j + 1) % sides))]
+            lines += [f"f {p[0]} {p[1]} {p[2]}", f"f {p[0]} {p[2]} {p[3]}"]
+    return "\n".join(lines).encode()
+
+
+class Work(threading.Thread):
+    """What an operator does until the daemon is gone. `uploads`: path -> [bytes, acknowledged]."""
+
+    def __init__(self, daemon, token, dice, uploads):
+        super().__init__()
+        self.dice, self.uploads, self.fault = dice, uploads, None
+        self.client = Client(daemon, token, self.dice.randint(1, MOST))
+
+    def run(self):
+        try:
+            while True:
+                self.dice.choice([self.upload, self.go_on, self.make, self.make, self.change, self.delete])()
+        except Gone:
+            pass
+        except Exception as fault:  # pylint: disable=broad-except
+            self.fault = fault
+            self.client.enough.set()
+
+    def upload(self):
+        mesh = torus(self.dice.randint(12, 40), self.dice.randint(8, 20))
+        answer = self.client.tus("POST", "/api/v1/uploads", Upload_Length=len(mesh))
+        if answer.status == 201:
+            self.uploads[answer.getheader("Location")] = [mesh, 0]
+
+    def go_on(self):
+        for path in self.dice.sample(sorted(self.uploads), min(2, len(self.uploads))):
+            mesh, sent = self.uploads[path]
+            answer = self.client.tus("HEAD", path)
+            if answer.status == 404:  # a job has used it
+                del self.uploads[path]
+                continue
+            offset = int(answer.getheader("Upload-Offset"))
+            if offset < sent:
+                raise AssertionError(f"{path} had {sent} bytes and has {offset}")
+            self.uploads[path][1] = offset  # who is told of them sends them no more
+            piece = mesh[offset:offset + self.dice.choice([len(mesh), self.dice.randint(1, len(mesh))])]
+            if not piece:
+                continue
+            answer = self.client.tus("PATCH", path, piece, Upload_Offset=offset)
+            if answer.status == 204:
+                self.uploads[path][1] = offset + len(piece)
+
+    def make(self):
+        self.go_on()
+        whole = [path for path, (mesh, sent) in self.uploads.items() if sent == len(mesh)]
+        if not whole:
+            return
+        order = {"upload": self.dice.choice(whole).rsplit("/", 1)[1], "publish": self.dice.random() < 0.8,
+                 "metadata": {"title": f"model {self.dice.random()}"}}
+        if (models := self.models()) and self.dice.random() < 0.3:
+            order["replace"] = self.dice.choice(models)
+        self.client.json("POST", "/api/v1/models", order)
+
+    def models(self):
+        return [model["id"] for model in self.client.json("GET", "/api/v1/models?drafts=true")[1]["models"]]
+
+    def change(self):
+        if models := self.models():
+            body = self.dice.choice([{"public_max_level": 1}, {"public_max_level": None}, {"unit": self.dice.choice(["mm", "cm"])},
+                                     {"title": f"title {self.dice.random()}"}])
+            self.client.json("PATCH", "/api/v1/models/" + self.dice.choice(models), body)
+
+    def delete(self):
+        if len(models := self.models()) > 2:
+            self.client.json("DELETE", "/api/v1/models/" + self.dice.choice(models))
+
+
+class Look:
+    """Whether all is as it must be after a start."""
+
+    def __init__(self, binaries, data):
+        self.binaries, self.data, self.verified = binaries, data, set()
+
+    def at(self, client, uploads):
+        self.uploads(client, uploads)
+        self.until("a job does not end", lambda: self.jobs_have_ended(client))
+        names = self.models(client)
+        if names is not None and not self.until_clean(client, names):
+            raise AssertionError(f"orphans: {self.stored() ^ names}")
+
+    def until(self, what, holds):
+        end = time.monotonic() + PATIENCE
+        while not holds():
+            if time.monotonic() > end:
+                raise AssertionError(what)
+            time.sleep(0.02)
+
+    def uploads(self, client, uploads):
+        for path, (mesh, sent) in list(uploads.items()):
+            answer = client.tus("HEAD", path)
+            if answer.status == 404 and sent == len(mesh):
+                del uploads[path]
+                continue
+            offset = int(answer.getheader("Upload-Offset") or -1)
+            held = (self.data / "uploads" / (path.rsplit("/", 1)[1] + ".part")).read_bytes()
+            if offset < sent or held[:offset] != mesh[:offset]:
+                raise AssertionError(f"{path}: {sent} bytes were acknowledged, {offset} are there")
+
+    @staticmethod
+    def jobs_have_ended(client):
+        jobs = client.json("GET", "/api/v1/jobs?limit=50")[1]["jobs"]
+        for job in jobs:
+            if job["state"] == "failed" and "gone" not in job["error"]:  # what it needs was used or deleted before
+                raise AssertionError(f"a job failed: {job}")
+        return all(job["state"] in ("done", "failed", "cancelled") for job in jobs)
+
+    def models(self, client):
+        """The objects that models name."""
+        names = set()
+        for model in client.json("GET", "/api/v1/models?drafts=true&limit=200")[1]["models"]:
+            path = "/api/v1/models/" + model["id"]
+            names.add(self.model(client, path))
+            if model["public_max_level"] is not None and model["state"] == "published":
+                client.bearer, bearer = {}, client.bearer
+                names.add(self.model(client, path))
+                client.bearer = bearer
+            elif model["public_max_level"] is not None:
+                return None  # what is public of a draft has no address
+        return names
+
+    def model(self, client, path):
+        status, manifest = client.json("GET", path + "/manifest")
+        if status != 200:
+            raise AssertionError(f"{path}/manifest: {status} {manifest}")
+        named = manifest["sha256"]
+        file = client.ask("GET", path + "/file.pmesh")[1]
+        if hashlib.sha256(file).hexdigest() != named:
+            raise AssertionError(f"{path} is not what its manifest says")
+        if named not in self.verified:
+            self.verify(file, path)
+            self.verified.add(named)
+        return named
+
+    def verify(self, file, path):
+        with tempfile.NamedTemporaryFile(suffix=".pmesh") as copy:
+            copy.write(file)
+            copy.flush()
+            result = subprocess.run([str(self.binaries / "vitrine"), "verify", copy.name], capture_output=True, text=True, check=False)
+            if result.returncode != 0:
+                raise AssertionError(f"{path}: {result.stderr}")
+
+    def stored(self):
+        return {file.name for file in (self.data / "objects").rglob("*") if file.is_file()}
+
+    def until_clean(self, client, names):
+        """A collection is asked for as a deletion asks for one: by changing a model to what it is."""
+        models = client.json("GET", "/api/v1/models?drafts=true")[1]["models"]
+        if models:
+            client.json("PATCH", "/api/v1/models/" + models[0]["id"], {"title": models[0]["title"]})
+        end = time.monotonic() + PATIENCE
+        while self.stored() != names and time.monotonic() < end:
+            time.sleep(0.02)
+        return self.stored() == names
+
+
+def main():
+    binaries = Path(sys.argv[1])
+    kills = int(sys.argv[2]) if len(sys.argv) > 2 else 20
+    seed = int(sys.argv[3]) if len(sys.argv) > 3 else random.SystemRandom().randrange(1 << 32)
+    print(f"{kills} kills, seed {seed}", flush=True)
+    dice, uploads = random.Random(seed), {}
+    with tempfile.TemporaryDirectory(prefix="vitrine-") as folder:
+        data = Path(folder) / "data"
+        data.mkdir()
+        token = new_token(binaries, data)
+        look = Look(binaries, data)
+        for _ in range(kills):
+            daemon = Daemon(binaries, data)
+            try:
+                look.at(Client(daemon, token), uploads)
+                work = Work(daemon, token, random.Random(dice.random()), uploads)
+                work.start()
+                work.client.enough.wait(PATIENCE)
+                time.sleep(dice.uniform(0, LONGEST))
+            except AssertionError:
+                daemon.kill()
+                print("".join(daemon.printed[-20:]))
+                raise
+            daemon.kill()
+            work.join()
+            if work.fault:
+                raise work.fault
+        daemon = Daemon(binaries, data)
+        try:
+            look.at(Client(daemon, token), uploads)
+        finally:
+            code = daemon.stop()
+        print(f"ok: {len(look.verified)} files verified, {len(uploads)} uploads open")
+        return code if look.verified else "no model was made"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The daemon as a process that can be killed, and what is asked of it over HTTP."""
+import http.client
+import json
+import os
+import signal
+import subprocess
+import threading
+
+
+class Gone(Exception):
+    """The daemon answers no more: it was killed."""
+
+
+class Daemon:
+    def __init__(self, binaries, data, options=(), before=()):
+        command = [*before, str(binaries / "vitrined"), "--data", str(data), "--listen", "127.0.0.1:0",
+                   "--admin-listen", "127.0.0.1:0", "--access-log", "", "--threads", "2", "--collect-after", "0", *options]
+        self.process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True,
+                                        env={k: v for k, v in os.environ.items() if not k.startswith("VITRINE_")})
+        self.printed = []
+        self.port = None
+        while self.port is None:
+            line = self.process.stderr.readline()
+            self.printed.append(line)
+            if not line:
+                raise RuntimeError("the daemon ended: " + "".join(self.printed))
+            if "listening on http://" in line and "admin" not in line:
+                self.port = int(line.rsplit(":", 1)[1].split('"')[0].strip())
+        self.reader = threading.Thread(target=lambda: self.printed.extend(self.process.stderr))
+        self.reader.start()
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.end()
+
+    def stop(self):
+        self.process.send_signal(signal.SIGTERM)
+        self.end()
+        return self.process.returncode
+
+    def end(self):
+        self.process.wait()
+        self.reader.join()
+        self.process.stderr.close()
+
+
+class Client:
+    """One connection at a time; Gone where it breaks. `enough` is set with the request of that number."""
+
+    def __init__(self, daemon, token, number=0):
+        self.left, self.enough = number, threading.Event()
+        self.connection = http.client.HTTPConnection("127.0.0.1", daemon.port, timeout=60)
+        self.bearer = {"Authorization": "Bearer " + token}
+
+    def ask(self, method, path, body=None, headers=None):
+        self.left -= 1
+        if self.left == 0:
+            self.enough.set()
+        try:
+            self.connection.request(method, path, body=body, headers={**self.bearer, **(headers or {})})
+            answer = self.connection.getresponse()
+            return answer, answer.read()
+        except (OSError, http.client.HTTPException) as fault:
+            self.connection.close()
+            raise Gone from fault
+
+    def json(self, method, path, body=None):
+        headers = {"Content-Type": "application/json"} if body is not None else {}
+        answer, text = self.ask(method, path, None if body is None else json.dumps(body), headers)
+        return answer.status, json.loads(text) if text else {}
+
+    def tus(self, method, path, body=None, **headers):
+        fields = {"Tus-Resumable": "1.0.0", **{k.replace("_", "-"): str(v) for k, v in headers.items()}}
+        if method == "PATCH":
+            fields["Content-Type"] = "application/offset+octet-stream"
+        return self.ask(method, path, body, fields)[0]
+
+
+def new_token(binaries, data, role="operator"):
+    words = [str(binaries / "vitrine"), "token", "create", "--role", role, "--data", str(data), "--json"]
+    return json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)["token"]

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""A disk that is full, and one that fails: what cannot be kept is refused in clear words, and all else is served.
+
+usage: disk.py BINARIES
+"""
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from crash import torus
+from daemon import Client, Daemon, new_token
+
+SIZE = 6 << 20  # bytes of the small disk
+
+
+def upload(client, content):
+    """The status and the path."""
+    answer = client.tus("POST", "/api/v1/uploads", Upload_Length=len(content))
+    if answer.status != 201:
+        return answer.status, None
+    path = answer.getheader("Location")
+    return client.tus("PATCH", path, content, Upload_Offset=0).status, path
+
+
+def job_of(client, path, **order):
+    status, started = client.json("POST", "/api/v1/models", {"upload": path.rsplit("/", 1)[1], "publish": True, **order})
+    assert status == 202, started
+    while True:
+        job = client.json("GET", "/api/v1/jobs/" + started["job"])[1]
+        if job["state"] in ("done", "failed"):
+            return job
+        time.sleep(0.02)
+
+
+def is_served(client, model):
+    status, _ = client.json("GET", f"/api/v1/models/{model}/manifest")
+    answer, body = client.ask("GET", f"/api/v1/models/{model}/file.pmesh")
+    return status == 200 and answer.status == 200 and len(body) == int(answer.getheader("Content-Length"))
+
+
+def a_full_disk(binaries, data):
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={SIZE}", "tmpfs", str(data)], check=True)
+    token = new_token(binaries, data)
+    daemon = Daemon(binaries, data)
+    client = Client(daemon, token)
+    model = job_of(client, upload(client, torus(30, 20))[1])["model"]
+
+    status, path = upload(client, bytes(2 * SIZE))
+    assert status == 507, status
+    held = int(client.tus("HEAD", path).getheader("Upload-Offset"))
+    assert 0 < held < 2 * SIZE, held
+    assert is_served(client, model), "while the disk is full"
+    assert client.json("GET", "/api/v1/models")[0] == 200
+    assert client.tus("DELETE", path).status == 204
+
+    status, mesh = upload(client, torus(60, 40))
+    assert status == 204, status
+    filler = data / "filler"
+    filler.write_bytes(b"")
+    with open(filler, "ab", buffering=0) as file:
+        try:
+            while file.write(bytes(4096)):
+                pass
+        except OSError:
+            pass
+    order = {"upload": mesh.rsplit("/", 1)[1], "publish": True}
+    status, problem = client.json("POST", "/api/v1/models", order)
+    assert status == 500 and list(problem) == ["type", "title", "status", "request_id"], problem
+    assert is_served(client, model), "after a job was refused"
+    filler.unlink()
+    job = job_of(client, mesh)
+    assert job["state"] == "done" and is_served(client, job["model"]), job
+    assert daemon.stop() == 0
+    assert any("free some space" in line for line in daemon.printed), daemon.printed
+
+
+def a_failing_disk(binaries, data, control):
+    token = new_token(binaries, data)
+    daemon = Daemon(binaries, data, before=["fiu-run", "-x", "-f", str(control)])
+    client = Client(daemon, token)
+    model = job_of(client, upload(client, torus(30, 20))[1])["model"]
+
+    def fiu(command):
+        subprocess.run(["fiu-ctrl", "-f", str(control), "-c", command, str(daemon.process.pid)], check=True, capture_output=True)
+
+    for point in ("posix/io/sync/fsync", "posix/io/rw/pwrite"):
+        answer = client.tus("POST", "/api/v1/uploads", Upload_Length=1000)
+        path = answer.getheader("Location")
+        fiu(f"enable name={point},failinfo=5")
+        answer = client.tus("PATCH", path, bytes(1000), Upload_Offset=0)
+        assert answer.status == 500, (point, answer.status)
+        assert is_served(client, model), point
+        fiu(f"disable name={point}")
+        offset = int(client.tus("HEAD", path).getheader("Upload-Offset"))
+        assert client.tus("PATCH", path, bytes(1000 - offset), Upload_Offset=offset).status == 204, point
+        assert client.tus("DELETE", path).status == 204
+    mesh = upload(client, torus(40, 20))[1]
+    for number, words in ((5, "Input/output error"), (28, "No space left on device")):
+        fiu(f"enable name=posix/io/rw/write,failinfo={number}")
+        job = job_of(client, mesh)
+        fiu("disable name=posix/io/rw/write")
+        assert job["state"] == "failed" and words in job["error"], job
+        assert len(client.json("GET", "/api/v1/models?drafts=true")[1]["models"]) == 1, "part of a model is seen"
+        assert is_served(client, model), words
+    assert job_of(client, mesh)["state"] == "done"
+    assert daemon.stop() == 0
+
+
+def main():
+    if os.environ.get("VITRINE_OWN_MOUNTS") != "yes":
+        os.environ["VITRINE_OWN_MOUNTS"] = "yes"
+        own = ["unshare", "--mount"] if os.getuid() == 0 else ["unshare", "--map-root-user", "--mount"]
+        os.execvp("unshare", [*own, sys.executable, *sys.argv])
+    binaries = Path(sys.argv[1])
+    with tempfile.TemporaryDirectory(prefix="vitrine-") as folder:
+        small, failing, control = (Path(folder) / name for name in ("small", "failing", "control"))
+        small.mkdir()
+        failing.mkdir()
+        try:
+            a_full_disk(binaries, small)
+        finally:
+            subprocess.run(["umount", "-l", str(small)], check=False)
+        a_failing_disk(binaries, failing, control)
+    print("ok")
+
+
+if __name__ == "__main__":
+    main()

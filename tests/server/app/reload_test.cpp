@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the real daemon reads its configuration again, and what the service manager hears of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "served_folder.h"
+#include "support/daemon.h"
+#include "support/http_client.h"
+
+namespace vitrine::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class Reload : public ::testing::Test {
+ protected:
+  Reload() : config((served.path() / "vitrine.conf").string()), id(served.publish("Bust")) {
+    write("public-url = https://one.example\n");
+    daemon.emplace(served.path(), std::vector<std::string>{"--config", config});
+  }
+
+  void write(const std::string& text) const { std::ofstream(config) << text; }
+
+  // Reads it again; the line that says what came of it.
+  std::string reload() {
+    daemon->signal(SIGHUP);
+    return daemon->wait_for_line("configuration");
+  }
+  // What it takes its visitors to see.
+  std::string origin() const {
+    const auto answer = http_get(daemon->port(), "/api/v1/iiif/" + id + "/manifest.json");
+    const std::string self = nlohmann::json::parse(answer.body)["id"];
+    return self.substr(0, self.find("/api"));
+  }
+
+  ServedFolder served;
+  const std::string config, id;
+  std::optional<Daemon> daemon;
+};
+
+TEST_F(Reload, TakesANewValueWhileVisitorsStay) {
+  HttpClient visitor(daemon->port());
+  EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
+  EXPECT_EQ(origin(), "https://one.example");
+  write("public-url = https://two.example\n");
+  EXPECT_THAT(reload(), HasSubstr("configuration read again; new: public-url"));
+  EXPECT_EQ(origin(), "https://two.example");
+  EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
+}
+
+TEST_F(Reload, AFaultLeavesAllAsItWas) {
+  write("public-url = https://two.example\nstop-timeout = soon\n");
+  EXPECT_THAT(reload(), AllOf(HasSubstr("event=error"), HasSubstr("stays as it was"),
+                              HasSubstr("vitrine.conf:2: stop-timeout: ")));
+  EXPECT_EQ(origin(), "https://one.example");
+  write("public-url = https://two.example\nnonsense = 1\n");
+  EXPECT_THAT(reload(), HasSubstr("unknown key 'nonsense'"));
+  write("public-url = https://two.example\n");
+  reload();
+  EXPECT_EQ(origin(), "https://two.example");
+}
+
+TEST_F(Reload, WhatNeedsANewStartSaysSo) {
+  write("public-url = https://two.example\nmax-connections = 5\n");
+  EXPECT_THAT(reload(), HasSubstr("new: public-url"));
+  EXPECT_THAT(daemon->wait_for_line("restart"), HasSubstr("to have the new max-connections"));
+}
+
+TEST_F(Reload, ARotatedLogIsOpenedAnew) {
+  HttpClient visitor(daemon->port());
+  // A request is in the log once the next one on its connection is answered.
+  const auto visit = [&](const std::string& word) {
+    EXPECT_EQ(visitor.get("/api/v1/models?q=" + word).status, 200);
+    EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
+  };
+  for (const int signal : {SIGHUP, SIGUSR1}) {
+    const std::string number = std::to_string(signal);
+    const auto rotated = served.path() / ("access.log." + number);
+    visit("before" + number);
+    std::filesystem::rename(served.path() / "access.log", rotated);
+    daemon->signal(signal);
+    daemon->wait_for_line(signal == SIGHUP ? "read again" : "access log opened anew");
+    visit("after" + number);
+    std::ifstream old(rotated);
+    const std::string lines{std::istreambuf_iterator<char>(old), {}};
+    EXPECT_THAT(lines, AllOf(HasSubstr("q=before" + number), Not(HasSubstr("q=after" + number))));
+    EXPECT_THAT(daemon->access_log(),
+                AllOf(HasSubstr("q=after" + number), Not(HasSubstr("q=before" + number))));
+  }
+}
+
+TEST_F(Reload, ALogIsReopenedThoughTheConfigurationHasAFault) {
+  std::filesystem::rename(served.path() / "access.log", served.path() / "rotated");
+  write("nonsense = 1\n");
+  reload();
+  daemon->wait_for_line("access log opened anew");
+  EXPECT_TRUE(std::filesystem::exists(served.path() / "access.log"));
+}
+
+// The socket that systemd would listen at.
+class ServiceManager {
+ public:
+  explicit ServiceManager(const std::filesystem::path& path)
+      : socket_(::socket(AF_UNIX, SOCK_DGRAM, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.string().copy(address.sun_path, sizeof address.sun_path - 1);
+    const timeval patience{.tv_sec = 20, .tv_usec = 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    if (::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+      throw std::runtime_error("cannot bind " + path.string());
+    ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
+    ::setenv("WATCHDOG_USEC", "400000", 1);
+  }
+  ~ServiceManager() {
+    ::close(socket_);
+    ::unsetenv("NOTIFY_SOCKET");
+    ::unsetenv("WATCHDOG_USEC");
+  }
+
+  // The next message; those of the watchdog only where they are waited for.
+  std::string hear(bool watchdog = false) const {
+    for (;;) {
+      char text[512];
+      const ssize_t length = ::recv(socket_, text, sizeof text, 0);
+      if (length <= 0) return "nothing";
+      std::string message(text, static_cast<std::size_t>(length));
+      if (watchdog == (message == "WATCHDOG=1")) return message;
+    }
+  }
+
+ private:
+  int socket_;
+};
+
+TEST(ServiceManagerTest, HearsWhenItIsReadyReloadsLivesAndStops) {
+  const ServedFolder served;
+  const ServiceManager manager(served.path() / "notify");
+  Daemon daemon(served.path());
+  EXPECT_EQ(manager.hear(), "READY=1");
+  EXPECT_EQ(manager.hear(true), "WATCHDOG=1");
+  daemon.signal(SIGHUP);
+  EXPECT_THAT(manager.hear(), StartsWith("RELOADING=1\nMONOTONIC_USEC="));
+  EXPECT_EQ(manager.hear(), "READY=1");
+  EXPECT_EQ(manager.hear(true), "WATCHDOG=1");
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(manager.hear(), "STOPPING=1");
+  EXPECT_EQ(daemon.wait().exit_code, 0);
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// `vitrine fetch` of the real daemon.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "cutting_relay.h"
+#include "server/jobs/build_model.h"
+#include "server/store/installation.h"
+#include "server/store/publish.h"
+#include "support/daemon.h"
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+
+// A wavy sheet of 2 * 119 * 119 = 28322 triangles as OBJ.
+std::string wavy_sheet() {
+  constexpr int kSide = 120;
+  std::string text;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      text += "v " + std::to_string(x) + " " + std::to_string(y) + " " +
+              std::to_string(std::sin(0.3 * x) * std::cos(0.2 * y)) + "\n";
+    }
+  }
+  for (int y = 0; y + 1 < kSide; ++y) {
+    for (int x = 0; x + 1 < kSide; ++x) {
+      const int a = y * kSide + x + 1, b = a + 1, c = a + kSide, d = c + 1;
+      for (const auto& [p, q, r] : {std::array{a, b, d}, std::array{a, d, c}}) {
+        text += "f " + std::to_string(p) + " " + std::to_string(q) + " " + std::to_string(r) + "\n";
+      }
+    }
+  }
+  return text;
+}
+
+const std::vector<std::uint8_t>& sheet() {
+  static const std::vector<std::uint8_t> file = [] {
+    const std::string text = wavy_sheet();
+    return build_model({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {},
+                       [](std::string_view, double) {})
+        .value()
+        .file;
+  }();
+  return file;
+}
+
+std::vector<std::uint8_t> file_at(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class FetchTest : public ::testing::Test {
+ protected:
+  FetchTest() {
+    const auto installation = open_installation(data.path()).value();
+    id = publish(*installation.store, *installation.catalogue, sheet(), {.title = "A sheet"})
+             .value()
+             .id.to_string();
+  }
+
+  std::string url(std::uint16_t port) const {
+    return "http://127.0.0.1:" + std::to_string(port) + "/models/" + id;
+  }
+  ProgramResult fetch(const std::string& from, const std::string& out,
+                      std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {VITRINE_BIN_DIR "/vitrine", "fetch", from, "-o",
+                               (results.path() / out).string(), "--json"});
+    return run_program(more);
+  }
+  // Beside OUT.
+  std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(results.path()), fs::directory_iterator()));
+  }
+
+  TemporaryFolder data, results;
+  std::string id;
+};
+
+TEST_F(FetchTest, BringsTheWholeFile) {
+  const Daemon daemon(data.path());
+  const auto run = fetch(url(daemon.port()), "sheet.pmesh");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(file_at(results.path() / "sheet.pmesh"), sheet());
+  const Json report = Json::parse(run.output);
+  EXPECT_EQ(report["faces"], 28322);
+  EXPECT_EQ(report["bytes"], sheet().size());
+  EXPECT_EQ(report["received_bytes"], sheet().size());
+  EXPECT_EQ(files(), 1u) << "what was on its way is gone";
+}
+
+TEST_F(FetchTest, MeetsWhatIsAskedFor) {
+  const Daemon daemon(data.path());
+  const std::string from = url(daemon.port());
+  const auto triangles = fetch(from, "a.ply", {"--triangles", "9000"});
+  ASSERT_EQ(triangles.exit_code, 0) << triangles.errors;
+  const std::uint64_t faces = Json::parse(triangles.output)["faces"];
+  EXPECT_LE(faces, 9000u);
+  EXPECT_GE(faces, 8100u);
+  const auto bytes = fetch(from, "b.obj", {"--bytes", "20000"});
+  ASSERT_EQ(bytes.exit_code, 0) << bytes.errors;
+  EXPECT_LE(Json::parse(bytes.output)["bytes"], 20000);
+  const auto error = fetch(from, "c.stl", {"--error", "0.5"});
+  ASSERT_EQ(error.exit_code, 0) << error.errors;
+  EXPECT_LE(Json::parse(error.output)["error"], 0.5);
+  const auto seconds = fetch(from, "d.glb", {"--seconds", "10"});
+  ASSERT_EQ(seconds.exit_code, 0) << seconds.errors;
+  EXPECT_EQ(Json::parse(seconds.output)["faces"], 28322) << "all of it comes in that time";
+  EXPECT_TRUE(Json::parse(seconds.output).contains("promise"));
+  EXPECT_EQ(files(), 4u);
+}
+
+TEST_F(FetchTest, GoesOnWhereTheConnectionIsCut) {
+  const Daemon daemon(data.path());
+  const CuttingRelay relay(daemon.port(), sheet().size() / 2);
+  const auto run = fetch(url(relay.port()), "sheet.pmesh");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(relay.connections(), 2);
+  EXPECT_EQ(file_at(results.path() / "sheet.pmesh"), sheet());
+  EXPECT_LT(Json::parse(run.output)["received_bytes"], sheet().size() * 3 / 2)
+      << "what has come does not come again, but for the chunk that was cut";
+}
+
+TEST_F(FetchTest, GoesOnWhereAnEarlierRunWasStopped) {
+  const Daemon daemon(data.path());
+  const auto coarse = fetch(url(daemon.port()), "sheet.ply", {"--bytes", "1"});
+  EXPECT_EQ(coarse.exit_code, 1) << "the head alone is longer";
+  EXPECT_THAT(coarse.errors, HasSubstr("ask for as many or more"));
+  ASSERT_EQ(files(), 1u) << "but it is kept";
+  const auto run = fetch(url(daemon.port()), "sheet.ply");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(Json::parse(run.output)["faces"], 28322);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FetchTest, SaysWhatIsWrongAndWhatToDo) {
+  const Daemon daemon(data.path());
+  const std::string other = url(daemon.port()).replace(url(daemon.port()).size() - 4, 4, "0000");
+  const std::pair<std::vector<std::string>, const char*> wrong[] = {
+      {{other, "a.ply"}, "404"},
+      {{url(daemon.port()), "a.txt"}, "no format"},
+      {{url(daemon.port()), "a.ply", "--seconds", "2", "--bytes", "9"}, "give one"},
+      {{url(daemon.port()), "a.pmesh", "--bytes", "9"}, "whole"},
+      {{url(daemon.port()), "a.ply", "--token", "x"}, "401"},
+      {{"http://127.0.0.1/", "a.ply"}, "not the URL of a model"}};
+  for (const auto& [words, reason] : wrong) {
+    const auto run = fetch(words[0], words[1], {words.begin() + 2, words.end()});
+    EXPECT_NE(run.exit_code, 0);
+    EXPECT_THAT(run.errors, HasSubstr(reason));
+  }
+}
+
+}  // namespace
+}  // namespace vitrine::test
