@@ -44,9 +44,6 @@ function(vitrine_room folder)
   if(room_SOURCES AND folder MATCHES "^codec/" AND CMAKE_BUILD_TYPE STREQUAL "Release")
     # The codec's hot loops cross files: a twentieth of a build's time.
     set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
-    if(VITRINE_TESTS)
-      target_compile_options(${target} PRIVATE -ffat-lto-objects)  # the tests link without it
-    endif()
   endif()
   file(MAKE_DIRECTORY ${door}/${parent})
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${door}/${folder} SYMBOLIC)

@@ -70,7 +70,7 @@ def initramfs(folder):
 def boot(folder, line):
     """The guest; its console is its standard output."""
     return subprocess.Popen(
-        ["qemu-system-x86_64", "-M", "q35", "-accel", "tcg", "-m", "256", "-nodefaults", "-no-reboot",
+        ["qemu-system-x86_64", "-M", "q35", "-accel", "tcg", "-m", "1024", "-nodefaults", "-no-reboot",
          "-display", "none", "-serial", "stdio", "-kernel", next(KERNEL.glob("boot/vmlinuz-*")),
          "-initrd", initramfs(folder), "-append", "console=ttyS0 quiet panic=-1", "-device", "qemu-xhci",
          "-chardev", f"socket,id=line,path={line},server=on,wait=on", "-device", "usb-serial,chardev=line"],
