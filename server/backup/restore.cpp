@@ -130,18 +130,14 @@ class Restoration {
   Expected<void> check_models(const ObjectStore& store) {
     const auto catalogue = open_sqlite_catalogue(unnamed());
     if (!catalogue) return Unexpected(catalogue.error());
-    ModelQuery query{.limit = kMaxPage, .drafts = true};
-    do {
-      const auto page = (*catalogue)->search(query);
-      if (!page) return Unexpected(page.error());
-      for (const ModelRecord& model : page->models) {
-        const auto object = store.open(model.file);
-        if (!object) return Unexpected(object.error());
-        if (!*object) return damaged("the file of model " + model.id.to_string(), "is missing");
-      }
-      report_.models += page->models.size();
-      query.after = page->next;
-    } while (query.after);
+    const auto files = (*catalogue)->files();
+    if (!files) return Unexpected(files.error());
+    for (const NamedFile& named : *files) {
+      const auto object = store.open(named.file);
+      if (!object) return Unexpected(object.error());
+      if (!*object) return damaged("the file of model " + named.model.to_string(), "is missing");
+    }
+    report_.models = models_in(*files);
     return {};
   }
 

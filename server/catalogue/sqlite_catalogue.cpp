@@ -144,8 +144,8 @@ class SqliteCatalogue final : public Catalogue, private sqlite::GuardedConnectio
         remove_chunks_(database_, "DELETE FROM chunk WHERE model = ?"),
         remove_model_(database_, "DELETE FROM model WHERE id = ? RETURNING 1"),
         files_(database_,
-               "SELECT file, file_bytes FROM model UNION "
-               "SELECT public_file, public_file_bytes FROM model WHERE public_file IS NOT NULL"),
+               "SELECT id, file, file_bytes FROM model UNION ALL SELECT id, public_file, "
+               "public_file_bytes FROM model WHERE public_file IS NOT NULL ORDER BY 1"),
         find_model_(database_, fmt::format("SELECT {} FROM model WHERE id = ?", kColumns)),
         find_same_(database_, fmt::format("SELECT {} FROM model WHERE state = 1 AND file = ? AND "
                                           "title = ? AND creator = ? AND rights = ? AND "
@@ -236,7 +236,8 @@ class SqliteCatalogue final : public Catalogue, private sqlite::GuardedConnectio
       std::vector<NamedFile> files;
       files_.reset();
       while (files_.step())
-        files.push_back({files_.blob<32>(0), count(files_, 1)});
+        files.push_back(
+            {ModelId::from_bytes(files_.blob<16>(0)), files_.blob<32>(1), count(files_, 2)});
       return files;
     });
   }
