@@ -76,6 +76,8 @@ Expected<JobEnd> PublishJobs::work(JobRun& run) {
 
 Expected<Publication> PublishJobs::make(JobRun& run, const ModelOrder& order) {
   const auto file = means_.uploads.open(order.upload);
+  if (!file && file.error().kind != UploadFault::kGone)
+    return fail(ErrorCode::kIo, file.error().message);
   if (!file) {
     return fail(ErrorCode::kState, "the upload is gone or not whole; upload the file again");
   }

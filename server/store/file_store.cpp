@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -12,6 +11,7 @@
 
 #include "codec/files/atomic_file.h"
 #include "codec/files/file_descriptor.h"
+#include "server/store/file_lock.h"
 
 namespace vitrine {
 namespace {
@@ -70,13 +70,6 @@ bool is_unnamed(const fs::path& path, const std::set<Sha256>& keep, std::chrono:
   return status.st_mtim.tv_sec + grace.count() <= std::time(nullptr);
 }
 
-bool wait_for_lock(int fd) {
-  while (::flock(fd, LOCK_EX) != 0) {
-    if (errno != EINTR) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Expected<std::vector<std::uint8_t>> Object::read(std::uint64_t offset, std::uint64_t length) const {
@@ -123,7 +116,7 @@ Expected<void> FileStore::put(const Sha256& name, std::span<const std::uint8_t> 
 Expected<std::shared_ptr<const void>> FileStore::lock() {
   auto folder =
       std::make_shared<FileDescriptor>(::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!*folder || !wait_for_lock(folder->get())) {
+  if (!*folder || !lock_file(folder->get())) {
     return refused("lock", root_, std::strerror(errno));
   }
   return folder;
