@@ -100,7 +100,7 @@ Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
   const char* stage = is_built ? "verifying" : "building";
   run.report(stage, 0);
   BuildChild child;
-  run.when_asked([&child] { child.stop(); });
+  const Reaction stop(run, [&child] { child.stop(); });
   const BuildOrder how{.bits = order.bits,
                        .placement = order.placement,
                        .z_is_up = order.z_is_up,
@@ -109,7 +109,6 @@ Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
                        .program = means_.program};
   auto pmesh = child.build(
       file, how, [&](std::string_view, double done) { run.report(stage, kBuilt * done); });
-  run.when_asked({});
   return pmesh && is_built ? read_all(file) : std::move(pmesh);
 }
 

@@ -431,7 +431,7 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   const auto file = write_mesh(mesh, MeshFormat::kPly, "mm");
   if (!file) return Unexpected(file.error());
   BuildChild child;
-  run.when_asked([&child] { child.stop(); });
+  const Reaction stop(run, [&child] { child.stop(); });
   const BuildOrder build{.bits = order.bits,
                          .placement = order.placement,
                          .z_is_up = true,
@@ -440,7 +440,6 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   const auto pmesh = child.build(*file, build, [&](std::string_view, double done) {
     run.report("building", std::lerp(kMeshed, kBuilt, done));
   });
-  run.when_asked({});
   if (!pmesh) return Unexpected(pmesh.error());
   const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
   const auto model = publish(means_.store, means_.catalogue, *pmesh, order.metadata,
