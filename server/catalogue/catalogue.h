@@ -101,7 +101,7 @@ struct ModelPage {
 };
 
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
-// kIo where the database refuses, kState as stated.
+// kIo where the database refuses, kLimit where the disk is full, kState as stated.
 class Catalogue {
  public:
   virtual ~Catalogue() = default;

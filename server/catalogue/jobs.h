@@ -96,7 +96,7 @@ struct PageOf {
 using JobCounts = std::array<std::uint64_t, 6>;
 
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
-// kIo where the database refuses, kState as stated.
+// kIo where the database refuses, kLimit where the disk is full, kState as stated.
 class JobCatalogue {
  public:
   virtual ~JobCatalogue() = default;

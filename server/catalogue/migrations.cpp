@@ -95,7 +95,7 @@ std::int64_t migrate(Database& database) {
 }  // namespace
 
 Unexpected refused(const std::string& what, const sqlite::Failure& failure) {
-  return fail(ErrorCode::kIo,
+  return fail(failure.disk_full ? ErrorCode::kLimit : ErrorCode::kIo,
               fmt::format("{}: {}; {}", what, failure.what(),
                           failure.disk_full ? "free some space or choose another data folder"
                                             : "check the data folder"));

@@ -127,12 +127,12 @@ Response make_model(const Request& request, Services& services) {
   if (!once) return once.error();
   auto& jobs = services.scans.jobs();
   const auto begun = jobs.begun_by(*once);
-  if (!begun) return refused(begun.error(), request, services);
+  if (!begun) return refused_job(begun.error(), request, services);
   if (*begun) return accepted(**begun);  // its upload may be gone by now
   if (const auto faults = check(*order, request, services); !faults.empty())
     return invalid(faults, request);
   const auto job = jobs.add(PublishJobs::job_for(*order), std::nullopt, *once);
-  return job ? accepted(*job) : refused(job.error(), request, services);
+  return job ? accepted(*job) : refused_job(job.error(), request, services);
 }
 
 Response change_model(const Request& request, Services& services) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Resumable uploads: tus 1.0.0 (https://tus.io/protocols/resumable-upload) with its extensions
 // creation, creation-with-upload, expiration and termination.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "server/http/job_json.h"
 #include "server/http/published.h"
 #include "server/http/timestamp.h"
+#include "server/jobs/publish_jobs.h"
 
 namespace vitrine {
 namespace {
@@ -76,14 +76,9 @@ Response refusal(const UploadFault& fault, std::string_view request_id, Services
   return tus(problem(status, fault.message, request_id));
 }
 
-std::string http_date(std::int64_t milliseconds) {
-  return fmt::format("{:%a, %d %b %Y %H:%M:%S} GMT",
-                     fmt::gmtime(static_cast<std::time_t>(milliseconds / 1000)));
-}
-
 void add_state(Response& response, const Upload& upload) {
   response.fields.emplace_back("Upload-Offset", std::to_string(upload.offset));
-  response.fields.emplace_back("Upload-Expires", http_date(upload.expires));
+  response.fields.emplace_back("Upload-Expires", http_date(upload.expires / 1000));
 }
 
 // Pieces go to the disk as they come, and the answer waits until they are on it.
@@ -222,6 +217,14 @@ Response remove_upload(const Request& request, Services& services) {
   if (auto refused = refuse_version(request)) return *refused;
   const auto upload = own_upload(request, services);
   if (!upload) return refusal(upload.error(), request.id, services);
+  const auto job = services.scans.jobs().job_where(
+      [&](const JobRecord& one) { return PublishJobs::upload_of(one) == upload->id; });
+  if (job) {
+    return tus(problem(409,
+                       fmt::format("job {} needs the upload; wait for its end or cancel it",
+                                   job->record.id.to_string()),
+                       request.id));
+  }
   if (const auto removed = services.uploads.remove(upload->id); !removed)
     return refusal(removed.error(), request.id, services);
   Response response;

@@ -245,10 +245,12 @@ std::optional<JobStatus> JobQueue::job_of(const std::string& scanner) const {
   return run ? std::optional(run->status()) : std::nullopt;
 }
 
-std::optional<JobStatus> JobQueue::job_on(const ScanId& scan) const {
+std::optional<JobStatus> JobQueue::job_where(
+    const std::function<bool(const JobRecord&)>& is) const {
   const std::scoped_lock lock(mutex_);
   for (const auto& [id, run] : runs_) {
-    if (run->job().scan == scan) return run->status();
+    const JobStatus status = run->status();
+    if (is(status.record)) return status;
   }
   return std::nullopt;
 }

@@ -137,8 +137,8 @@ class JobQueue {
   // The unfinished job of a scanner.
   std::optional<JobStatus> job_of(const std::string& scanner) const;
 
-  // An unfinished job on a scan, of whatever kind.
-  std::optional<JobStatus> job_on(const ScanId& scan) const;
+  // The oldest unfinished job that is such a one.
+  std::optional<JobStatus> job_where(const std::function<bool(const JobRecord&)>& is) const;
 
   // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
   // is done, where it is busy; a job that is put aside is in the way unless `beside_paused`.

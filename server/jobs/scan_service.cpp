@@ -259,7 +259,7 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
 }
 
 Expected<void> ScanService::check_unused(const ScanEntry& scan) const {
-  const auto job = queue_.job_on(scan.id);
+  const auto job = queue_.job_where([&](const JobRecord& one) { return one.scan == scan.id; });
   if (!job) return {};
   return fail(ErrorCode::kState, fmt::format("job {} works on the scan; wait for its end",
                                              job->record.id.to_string()));

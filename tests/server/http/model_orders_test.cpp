@@ -162,6 +162,9 @@ TEST_F(ModelOrders, ARequestThatIsRepeatedWithItsKeyMakesOneModel) {
   const HttpAnswer again = ask("POST", "/models", operator_, order, "Idempotency-Key: k\r\n");
   EXPECT_EQ(again.status, 202);
   EXPECT_EQ(again.field("location"), first.field("location"));
+  const json other = {{"upload", order["upload"]}, {"publish", true}};
+  EXPECT_EQ(fault_of(ask("POST", "/models", operator_, other, "Idempotency-Key: k\r\n")),
+            "Idempotency-Key");
   EXPECT_EQ(json::parse(ask("GET", "/models?drafts=true", operator_).body)["models"].size(), 1u);
 }
 
