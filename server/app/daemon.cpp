@@ -97,7 +97,7 @@ class Daemon {
                     events_, live_.get()->collect_after}),
         scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
                 live_.get()->data, "/proc/self/exe", std::chrono::seconds(10),
-                [this](JobRun& run) { return publishing_.work(run); }},
+                [this](JobRun& run) { return publishing_.work(run); }, &quota_},
                std::move(scanners)),
         exports_(live_.get()->export_cache_bytes),
         pages_(web_assets()),
@@ -334,7 +334,7 @@ class Daemon {
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
   Uploads uploads_;
-  const Quota quota_;
+  Quota quota_;
   Webhooks webhooks_;
   PublishJobs publishing_;
   Collector collector_;

@@ -104,7 +104,8 @@ class Restoration {
     if (!from_hex(std::string_view(entry.name).substr(last), name))
       return damaged(entry.name, "does not belong into a backup");
     if (found_[entry.name] != name) return damaged(entry.name, "is damaged");
-    return store.put(name, entry.bytes);
+    const auto put = store.put(name, entry.bytes);
+    return put ? Expected<void>{} : Unexpected(put.error());
   }
 
   Expected<void> take_scan(const TarEntry& entry) {

@@ -118,8 +118,9 @@ class Catalogue {
   virtual Expected<void> update(const ModelRecord& model,
                                 std::optional<std::span<const ChunkPlace>> chunks) = 0;
 
-  // Takes a model away, with its chunks. kState where there is none.
-  virtual Expected<void> remove(const ModelId& id) = 0;
+  // Takes a model away, with its chunks. kState where there is none, or its version is another than
+  // the one that is stated.
+  virtual Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) = 0;
 
   // Every object that a model names, once for each that does, drafts too: its file, and what is
   // public of it where that is less. By model.

@@ -125,6 +125,19 @@ Uploading<Upload> own_upload(const Request& request, Services& services) {
   return tl::unexpected(UploadFault{UploadFault::kGone, "there is no such upload"});
 }
 
+// A new upload, where it fits.
+Uploading<Upload> announce(std::uint64_t length, std::string_view metadata, const Request& request,
+                           Services& services) {
+  Uploading<Upload> upload;
+  const auto fits = services.quota.admit(length, [&] {
+    upload = services.uploads.create(request.caller->token, length, std::string(metadata));
+  });
+  if (fits) return upload;
+  const bool is_full = fits.error().code == ErrorCode::kLimit;
+  return tl::unexpected(
+      UploadFault{is_full ? UploadFault::kNoRoom : UploadFault::kIo, fits.error().message});
+}
+
 bool is_printable(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return c >= 0x20 && c < 0x7F; });
 }
@@ -162,15 +175,8 @@ Response create_upload(const Request& request, Services& services) {
   if (!length) return tus(problem(400, "send Upload-Length, the number of bytes", request.id));
   if (!is_printable(metadata))
     return tus(problem(400, "Upload-Metadata is not in base64", request.id));
-  if (const auto fits = services.quota.admit(*length); !fits) {
-    return refusal(
-        {fits.error().code == ErrorCode::kLimit ? UploadFault::kNoRoom : UploadFault::kIo,
-         fits.error().message},
-        request.id, services);
-  }
   const bool with_piece = value(request.header, "Content-Type") == kPieceType;
-  const auto upload =
-      services.uploads.create(request.caller->token, *length, std::string(metadata));
+  const auto upload = announce(*length, metadata, request, services);
   if (!upload) return refusal(upload.error(), request.id, services);
   Response response;
   response.status = 201;

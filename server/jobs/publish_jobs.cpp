@@ -83,13 +83,14 @@ Expected<Publication> PublishJobs::make(JobRun& run, const ModelOrder& order) {
   }
   auto pmesh = build(run, order, *file);
   if (!pmesh) return Unexpected(pmesh.error());
-  if (auto fits = means_.quota.admit(pmesh->size()); !fits) return Unexpected(fits.error());
   run.report("publishing", kBuilt);
-  const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
-  if (order.replace)
-    return replace(means_.store, means_.catalogue, *pmesh, order.metadata, {state, *order.replace});
   // The model has the job's id, so that a job which is interrupted after this makes no second one.
-  return publish(means_.store, means_.catalogue, *pmesh, order.metadata, {state, run.job().id});
+  const PublishAs as{.state = order.publish ? ModelState::kPublished : ModelState::kDraft,
+                     .id = order.replace.value_or(run.job().id),
+                     .quota = &means_.quota,
+                     .upload = order.upload};
+  if (order.replace) return replace(means_.store, means_.catalogue, *pmesh, order.metadata, as);
+  return publish(means_.store, means_.catalogue, *pmesh, order.metadata, as);
 }
 
 Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,

@@ -443,7 +443,7 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   if (!pmesh) return Unexpected(pmesh.error());
   const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
   const auto model = publish(means_.store, means_.catalogue, *pmesh, order.metadata,
-                             {.state = state, .id = run.job().id});
+                             {.state = state, .id = run.job().id, .quota = means_.quota});
   if (!model) return Unexpected(model.error());
   run.made(model->id);
   auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));

@@ -314,12 +314,15 @@ TEST_F(CatalogueSuite, a_model_that_is_removed_is_gone_with_its_chunks) {
   add(model(1), {{digest(8), 100, 10}});
   add(model(2), {{digest(8), 50, 10}});
   const auto before = catalogue_->revision().value();
-  ASSERT_TRUE(catalogue_->remove(id_of(2)));
+  const std::uint64_t version = catalogue_->find(id_of(2)).value().value().version;
+  EXPECT_EQ(catalogue_->remove(id_of(2), version + 1).error().code, ErrorCode::kState);
+  EXPECT_TRUE(catalogue_->find(id_of(2)).value());
+  ASSERT_TRUE(catalogue_->remove(id_of(2), version));
   EXPECT_NE(catalogue_->revision().value(), before);
   EXPECT_FALSE(catalogue_->find(id_of(2)).value());
   EXPECT_EQ(catalogue_->find_chunk(digest(8)).value().value().model, id_of(1));
-  EXPECT_EQ(catalogue_->remove(id_of(2)).error().code, ErrorCode::kState);
-  ASSERT_TRUE(catalogue_->remove(id_of(1)));
+  EXPECT_EQ(catalogue_->remove(id_of(2), std::nullopt).error().code, ErrorCode::kState);
+  ASSERT_TRUE(catalogue_->remove(id_of(1), std::nullopt));
   EXPECT_FALSE(catalogue_->find_chunk(digest(8)).value());
 }
 
