@@ -97,7 +97,7 @@ class Daemon {
                     events_, live_.get()->collect_after}),
         scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
                 live_.get()->data, "/proc/self/exe", std::chrono::seconds(10),
-                [this](JobRun& run) { return publishing_.work(run); }},
+                [this](JobRun& run) { return publishing_.work(run); }, &quota_},
                std::move(scanners)),
         exports_(live_.get()->export_cache_bytes),
         pages_(web_assets()),
@@ -137,10 +137,11 @@ class Daemon {
             bind(admin_, live_.get()->admin_listen, live_.get()->admin_port_file, "admin ");
         !bound)
       return bound;
-    scans_.jobs().when_ended([this](const JobStatus& job) {
-      constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-      webhooks_.tell(job.record.webhook, job_json(job).dump(-1, ' ', false, kReplace));
-    });
+    const auto untold = installation_.jobs->untold_jobs();  // by the daemon before
+    if (!untold) return Unexpected(untold.error());
+    for (const JobRecord& job : *untold)
+      tell_of(JobStatus{job, std::nullopt, {}});
+    scans_.jobs().when_ended([this](const JobStatus& job) { tell_of(job); });
     return scans_.start();
   }
 
@@ -173,6 +174,15 @@ class Daemon {
   }
 
  private:
+  void tell_of(const JobStatus& job) {
+    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+    webhooks_.tell(job.record.webhook, job_json(job).dump(-1, ' ', false, kReplace),
+                   [this, id = job.record.id] {
+                     if (const auto kept = installation_.jobs->set_told(id); !kept)
+                       events_.event(Severity::kError, kept.error().message);
+                   });
+  }
+
   HttpOptions public_options() {
     return {.routes = public_routes(),
             .recorded = true,
@@ -324,7 +334,7 @@ class Daemon {
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
   Uploads uploads_;
-  const Quota quota_;
+  Quota quota_;
   Webhooks webhooks_;
   PublishJobs publishing_;
   Collector collector_;

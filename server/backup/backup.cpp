@@ -68,15 +68,15 @@ void allow_many_files() {
   ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-Expected<void> open_object(const ObjectStore& store, const ModelRecord& model, Objects& objects) {
-  if (objects.contains(model.file)) return {};
-  auto object = store.open(model.file);
+Expected<void> open_object(const ObjectStore& store, const NamedFile& named, Objects& objects) {
+  if (objects.contains(named.file)) return {};
+  auto object = store.open(named.file);
   if (!object) return Unexpected(object.error());
   if (*object == nullptr) {
     return fail(ErrorCode::kState, fmt::format("the file of model {} is missing; publish it again",
-                                               model.id.to_string()));
+                                               named.model.to_string()));
   }
-  objects.emplace(model.file, std::move(*object));
+  objects.emplace(named.file, std::move(*object));
   return {};
 }
 
@@ -84,18 +84,13 @@ Expected<Objects> open_objects(const ObjectStore& store, const fs::path& snapsho
                                BackupReport& report) {
   const auto catalogue = open_sqlite_catalogue(snapshot);
   if (!catalogue) return Unexpected(catalogue.error());
+  const auto files = (*catalogue)->files();
+  if (!files) return Unexpected(files.error());
   Objects objects;
-  ModelQuery query{.limit = kMaxPage, .drafts = true};
-  do {
-    const auto page = (*catalogue)->search(query);
-    if (!page) return Unexpected(page.error());
-    for (const ModelRecord& model : page->models) {
-      if (auto opened = open_object(store, model, objects); !opened)
-        return Unexpected(opened.error());
-    }
-    report.models += page->models.size();
-    query.after = page->next;
-  } while (query.after);
+  for (const NamedFile& file : *files) {
+    if (auto opened = open_object(store, file, objects); !opened) return Unexpected(opened.error());
+  }
+  report.models = models_in(*files);
   return objects;
 }
 

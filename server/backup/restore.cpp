@@ -104,7 +104,8 @@ class Restoration {
     if (!from_hex(std::string_view(entry.name).substr(last), name))
       return damaged(entry.name, "does not belong into a backup");
     if (found_[entry.name] != name) return damaged(entry.name, "is damaged");
-    return store.put(name, entry.bytes);
+    const auto put = store.put(name, entry.bytes);
+    return put ? Expected<void>{} : Unexpected(put.error());
   }
 
   Expected<void> take_scan(const TarEntry& entry) {
@@ -130,18 +131,14 @@ class Restoration {
   Expected<void> check_models(const ObjectStore& store) {
     const auto catalogue = open_sqlite_catalogue(unnamed());
     if (!catalogue) return Unexpected(catalogue.error());
-    ModelQuery query{.limit = kMaxPage, .drafts = true};
-    do {
-      const auto page = (*catalogue)->search(query);
-      if (!page) return Unexpected(page.error());
-      for (const ModelRecord& model : page->models) {
-        const auto object = store.open(model.file);
-        if (!object) return Unexpected(object.error());
-        if (!*object) return damaged("the file of model " + model.id.to_string(), "is missing");
-      }
-      report_.models += page->models.size();
-      query.after = page->next;
-    } while (query.after);
+    const auto files = (*catalogue)->files();
+    if (!files) return Unexpected(files.error());
+    for (const NamedFile& named : *files) {
+      const auto object = store.open(named.file);
+      if (!object) return Unexpected(object.error());
+      if (!*object) return damaged("the file of model " + named.model.to_string(), "is missing");
+    }
+    report_.models = models_in(*files);
     return {};
   }
 

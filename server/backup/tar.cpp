@@ -3,7 +3,6 @@
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -13,7 +12,7 @@
 #include <ctime>
 
 #include "codec/files/atomic_file.h"
-#include "codec/files/file_descriptor.h"
+#include "server/catalogue/private_file.h"
 
 namespace vitrine {
 namespace {
@@ -23,13 +22,6 @@ namespace fs = std::filesystem;
 struct FreeEntry {
   void operator()(archive_entry* entry) const { archive_entry_free(entry); }
 };
-
-Expected<void> sync_file(const fs::path& file) {
-  const FileDescriptor fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  if (fd && ::fsync(fd.get()) == 0) return {};
-  return fail(ErrorCode::kIo, fmt::format("cannot write {}: {}; {}", file.string(),
-                                          std::strerror(errno), next_step(errno)));
-}
 
 }  // namespace
 
@@ -42,10 +34,11 @@ void TarWriter::Close::operator()(archive* handle) const {
   archive_write_free(handle);
 }
 
-TarWriter::TarWriter(fs::path file, fs::path temporary, Handle handle)
+TarWriter::TarWriter(fs::path file, fs::path temporary)
     : file_(std::move(file)),
       temporary_(new fs::path(std::move(temporary))),
-      handle_(std::move(handle)) {}
+      fd_(create_private_file(*temporary_)),
+      handle_(archive_write_new()) {}
 
 Unexpected TarWriter::refused(const char* why) const {
   return fail(ErrorCode::kIo, fmt::format("cannot write {}: {}; check the disk and its free space",
@@ -56,10 +49,11 @@ Expected<TarWriter> TarWriter::create(const fs::path& file) {
   if (auto writable = check_writable(file); !writable) return Unexpected(writable.error());
   fs::path temporary =
       folder_of(file) / fmt::format(".{}.{}.part", file.filename().string(), ::getpid());
-  TarWriter writer(file, std::move(temporary), Handle(archive_write_new()));
+  TarWriter writer(file, std::move(temporary));
+  if (!writer.fd_) return writer.refused(std::strerror(errno));
   archive* handle = writer.handle_.get();
   archive_write_set_format_pax_restricted(handle);
-  if (archive_write_open_filename(handle, writer.temporary_->c_str()) != ARCHIVE_OK)
+  if (archive_write_open_fd(handle, writer.fd_.get()) != ARCHIVE_OK)
     return writer.refused(archive_error_string(handle));
   return writer;
 }
@@ -85,7 +79,7 @@ Expected<void> TarWriter::add(const std::string& name, std::span<const std::uint
 Expected<void> TarWriter::finish() {
   if (archive_write_close(handle_.get()) != ARCHIVE_OK)
     return refused(archive_error_string(handle_.get()));
-  if (auto synced = sync_file(*temporary_); !synced) return synced;
+  if (::fsync(fd_.get()) != 0) return refused(std::strerror(errno));
   if (::rename(temporary_->c_str(), file_.c_str()) != 0) return refused(std::strerror(errno));
   return sync_folder(folder_of(file_));
 }

@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "codec/files/file_descriptor.h"
 
 struct archive;
 
 namespace vitrine {
 
-// Writes to a temporary file beside `file`; finish() gives it its name. All calls fail with kIo.
+// Writes to a temporary file beside `file`, which is for its owner alone; finish() gives it its
+// name. All calls fail with kIo.
 class TarWriter {
  public:
   static Expected<TarWriter> create(const std::filesystem::path& file);
@@ -32,11 +34,12 @@ class TarWriter {
     void operator()(archive* handle) const;
   };
   using Handle = std::unique_ptr<archive, Close>;
-  TarWriter(std::filesystem::path file, std::filesystem::path temporary, Handle handle);
+  TarWriter(std::filesystem::path file, std::filesystem::path temporary);
   Unexpected refused(const char* why) const;
 
   std::filesystem::path file_;
   std::unique_ptr<std::filesystem::path, Remove> temporary_;
+  FileDescriptor fd_;
   Handle handle_;
 };
 

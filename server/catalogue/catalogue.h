@@ -52,9 +52,18 @@ struct ModelRecord {
 
 // An object that a model names.
 struct NamedFile {
+  ModelId model;
   Sha256 file{};
   std::uint64_t bytes = 0;
 };
+
+// How many models name the files; those of one follow each other.
+inline std::size_t models_in(std::span<const NamedFile> files) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    count += i == 0 || files[i].model != files[i - 1].model ? 1 : 0;
+  return count;
+}
 
 // A chunk (or a base mesh) is a range of a stored file.
 struct ChunkPlace {
@@ -92,7 +101,7 @@ struct ModelPage {
 };
 
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
-// kIo where the database refuses, kState as stated.
+// kIo where the database refuses, kLimit where the disk is full, kState as stated.
 class Catalogue {
  public:
   virtual ~Catalogue() = default;
@@ -109,10 +118,12 @@ class Catalogue {
   virtual Expected<void> update(const ModelRecord& model,
                                 std::optional<std::span<const ChunkPlace>> chunks) = 0;
 
-  // Takes a model away, with its chunks. kState where there is none.
-  virtual Expected<void> remove(const ModelId& id) = 0;
+  // Takes a model away, with its chunks. kState where there is none, or its version is another than
+  // the one that is stated.
+  virtual Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) = 0;
 
-  // Every object that some model names, drafts too; each once.
+  // Every object that a model names, once for each that does, drafts too: its file, and what is
+  // public of it where that is less. By model.
   virtual Expected<std::vector<NamedFile>> files() = 0;
 
   virtual Expected<std::optional<ModelRecord>> find(const ModelId& id) = 0;  // drafts too

@@ -50,6 +50,7 @@ struct JobRecord {
   std::string parameters;               // JSON, for who runs it
   std::int64_t created = 0, ended = 0;  // milliseconds since 1970, UTC; 0: not yet
   std::string webhook = {};             // a URL that is told of its end; empty: none
+  std::uint32_t attempts = 0;           // how often it was begun since it last ended in order
 
   bool operator==(const JobRecord&) const = default;
 };
@@ -95,7 +96,7 @@ struct PageOf {
 using JobCounts = std::array<std::uint64_t, 6>;
 
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
-// kIo where the database refuses, kState as stated.
+// kIo where the database refuses, kLimit where the disk is full, kState as stated.
 class JobCatalogue {
  public:
   virtual ~JobCatalogue() = default;
@@ -115,6 +116,11 @@ class JobCatalogue {
   virtual Expected<std::vector<ScanEntry>> scans(const PageOf& page) = 0;
   virtual Expected<std::vector<JobRecord>> unfinished_jobs() = 0;  // oldest first
   virtual Expected<JobCounts> count_jobs() = 0;
+
+  // Those that have ended and whose webhooks have not been told so; oldest first.
+  virtual Expected<std::vector<JobRecord>> untold_jobs() = 0;
+  // The webhook was told, or nobody tries any more. kState where there is no such job.
+  virtual Expected<void> set_told(const JobId& id) = 0;
 
   // The job that was added with this key, and the request of then.
   struct Earlier {

@@ -65,6 +65,11 @@ ALTER TABLE model ADD COLUMN public_faces INTEGER;
 ALTER TABLE model ADD COLUMN public_vertices INTEGER;
 ALTER TABLE job ADD COLUMN webhook TEXT NOT NULL DEFAULT '';
 )sql",
+    R"sql(
+ALTER TABLE job ADD COLUMN attempts INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE job ADD COLUMN told INTEGER NOT NULL DEFAULT 0;
+UPDATE job SET told = 1 WHERE state >= 3;
+)sql",
 };
 constexpr std::int64_t kSchemaVersion = std::size(kMigrations);
 
@@ -90,7 +95,7 @@ std::int64_t migrate(Database& database) {
 }  // namespace
 
 Unexpected refused(const std::string& what, const sqlite::Failure& failure) {
-  return fail(ErrorCode::kIo,
+  return fail(failure.disk_full ? ErrorCode::kLimit : ErrorCode::kIo,
               fmt::format("{}: {}; {}", what, failure.what(),
                           failure.disk_full ? "free some space or choose another data folder"
                                             : "check the data folder"));

@@ -14,7 +14,7 @@ namespace vitrine::sqlite {
 // newer version of the software wrote it. The folder must exist.
 Expected<Database> open_database(const std::filesystem::path& file);
 
-// kIo: what was refused, why, and what to do.
+// kIo, or kLimit where the disk is full: what was refused, why, and what to do.
 Unexpected refused(const std::string& what, const Failure& failure);
 
 }  // namespace vitrine::sqlite

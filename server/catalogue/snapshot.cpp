@@ -2,6 +2,7 @@
 #include "server/catalogue/snapshot.h"
 
 #include "server/catalogue/migrations.h"
+#include "server/catalogue/private_file.h"
 #include "server/catalogue/sqlite.h"
 
 namespace vitrine {
@@ -10,6 +11,7 @@ namespace vitrine {
 Expected<void> snapshot_sqlite(const std::filesystem::path& from, const std::filesystem::path& to) {
   try {
     const sqlite::Database source(from.string());
+    static_cast<void>(create_private_file(to));  // what is refused here is refused and told below
     const sqlite::Database copy(to.string());
     sqlite3_backup* backup = sqlite3_backup_init(copy.handle(), "main", source.handle(), "main");
     if (backup == nullptr) copy.raise();

@@ -122,6 +122,12 @@ std::vector<std::string> patterns(std::string_view text) {
   return words;
 }
 
+Unexpected changed_meanwhile(const ModelId& id) {
+  return fail(
+      ErrorCode::kState,
+      fmt::format("model {} was changed or removed meanwhile; read it again", id.to_string()));
+}
+
 class SqliteCatalogue final : public Catalogue, private sqlite::GuardedConnection {
  public:
   explicit SqliteCatalogue(Database database)
@@ -142,10 +148,12 @@ class SqliteCatalogue final : public Catalogue, private sqlite::GuardedConnectio
             "public_head_bytes = ?20, public_faces = ?21, public_vertices = ?22 "
             "WHERE id = ?1 AND version = ?16 RETURNING 1"),
         remove_chunks_(database_, "DELETE FROM chunk WHERE model = ?"),
-        remove_model_(database_, "DELETE FROM model WHERE id = ? RETURNING 1"),
+        remove_model_(
+            database_,
+            "DELETE FROM model WHERE id = ?1 AND version = ifnull(?2, version) RETURNING 1"),
         files_(database_,
-               "SELECT file, file_bytes FROM model UNION "
-               "SELECT public_file, public_file_bytes FROM model WHERE public_file IS NOT NULL"),
+               "SELECT id, file, file_bytes FROM model UNION ALL SELECT id, public_file, "
+               "public_file_bytes FROM model WHERE public_file IS NOT NULL ORDER BY 1"),
         find_model_(database_, fmt::format("SELECT {} FROM model WHERE id = ?", kColumns)),
         find_same_(database_, fmt::format("SELECT {} FROM model WHERE state = 1 AND file = ? AND "
                                           "title = ? AND creator = ? AND rights = ? AND "
@@ -202,11 +210,7 @@ class SqliteCatalogue final : public Catalogue, private sqlite::GuardedConnectio
     return guarded<void>([&]() -> Expected<void> {
       Transaction transaction(database_);
       bind_model(update_model_, model);
-      if (!update_model_.any()) {
-        return fail(ErrorCode::kState, fmt::format("model {} was changed or removed meanwhile; "
-                                                   "read it again",
-                                                   model.id.to_string()));
-      }
+      if (!update_model_.any()) return changed_meanwhile(model.id);
       if (chunks) {
         remove_chunks_.reset().bind(model.id.bytes()).any();
         insert_chunks(model.id, *chunks);
@@ -217,14 +221,13 @@ class SqliteCatalogue final : public Catalogue, private sqlite::GuardedConnectio
     });
   }
 
-  Expected<void> remove(const ModelId& id) override {
+  Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) override {
     return guarded<void>([&]() -> Expected<void> {
       Transaction transaction(database_);
       remove_chunks_.reset().bind(id.bytes()).any();
-      if (!remove_model_.reset().bind(id.bytes()).any()) {
-        return fail(ErrorCode::kState,
-                    fmt::format("there is no model {}; list the models", id.to_string()));
-      }
+      remove_model_.reset().bind(id.bytes());
+      if (version) remove_model_.bind(number(*version));
+      if (!remove_model_.any()) return changed_meanwhile(id);
       transaction.commit();
       ++own_changes_;
       return {};
@@ -236,7 +239,8 @@ class SqliteCatalogue final : public Catalogue, private sqlite::GuardedConnectio
       std::vector<NamedFile> files;
       files_.reset();
       while (files_.step())
-        files.push_back({files_.blob<32>(0), count(files_, 1)});
+        files.push_back(
+            {ModelId::from_bytes(files_.blob<16>(0)), files_.blob<32>(1), count(files_, 2)});
       return files;
     });
   }

@@ -17,7 +17,7 @@ using sqlite::Transaction;
 
 constexpr std::string_view kJobColumns =
     "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended, "
-    "webhook";
+    "webhook, attempts";
 constexpr std::string_view kScanColumns =
     "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
     "created, "
@@ -45,7 +45,7 @@ Statement& bind_record(Statement& row, const JobRecord& job) {
   bind_id(row, job.scan);
   bind_id(row, job.model);
   row.bind(job.stage).bind_real(job.progress).bind(job.error).bind(job.parameters);
-  return row.bind(job.created).bind(job.ended).bind(job.webhook);
+  return row.bind(job.created).bind(job.ended).bind(job.webhook).bind(number(job.attempts));
 }
 
 Statement& bind_record(Statement& row, const ScanEntry& scan) {
@@ -74,6 +74,7 @@ void read(const Statement& row, JobRecord& job) {
   job.created = row.integer(10);
   job.ended = row.integer(11);
   job.webhook = row.text(12);
+  job.attempts = static_cast<std::uint32_t>(row.integer(13));
 }
 
 void read(const Statement& row, ScanEntry& scan) {
@@ -150,11 +151,17 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
     return list<ScanEntry>("scan", kScanColumns, page);
   }
 
-  Expected<std::vector<JobRecord>> unfinished_jobs() override {
-    return guarded<std::vector<JobRecord>>([&]() -> Expected<std::vector<JobRecord>> {
-      Statement rows(database_,
-                     fmt::format("SELECT {} FROM job WHERE state < ? ORDER BY id", kJobColumns));
-      return all<JobRecord>(rows.bind(number(JobState::kDone)));
+  Expected<std::vector<JobRecord>> unfinished_jobs() override { return jobs_where("state < ?"); }
+
+  Expected<std::vector<JobRecord>> untold_jobs() override {
+    return jobs_where("state >= ? AND told = 0 AND webhook != ''");
+  }
+
+  Expected<void> set_told(const JobId& id) override {
+    return guarded<void>([&]() -> Expected<void> {
+      Statement row(database_, "UPDATE job SET told = 1 WHERE id = ? RETURNING 1");
+      if (row.bind(id.bytes()).any()) return {};
+      return fail(ErrorCode::kState, fmt::format("there is no job {}; list them", id.to_string()));
     });
   }
 
@@ -178,6 +185,15 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
   }
 
  private:
+  // Oldest first; the condition's ? is the first state in which a job has ended.
+  Expected<std::vector<JobRecord>> jobs_where(std::string_view condition) {
+    return guarded<std::vector<JobRecord>>([&]() -> Expected<std::vector<JobRecord>> {
+      Statement rows(database_, fmt::format("SELECT {} FROM job WHERE {} ORDER BY id", kJobColumns,
+                                            condition));
+      return all<JobRecord>(rows.bind(number(JobState::kDone)));
+    });
+  }
+
   // Whether the row was written.
   bool insert(std::string_view how, std::string_view columns, const auto& record) {
     Statement row(database_,

@@ -6,8 +6,10 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include "server/catalogue/snapshot.h"
 #include "server/catalogue/sqlite_catalogue.h"
@@ -66,19 +68,15 @@ Expected<Files> count_files(const fs::path& data, const fs::path& snapshot) {
   if (!catalogue) return Unexpected(catalogue.error());
   const auto store = FileStore::open(data / "objects");
   if (!store) return Unexpected(store.error());
-  Files files;
-  ModelQuery query{.limit = kMaxPage, .drafts = true};
-  do {
-    const auto page = (*catalogue)->search(query);
-    if (!page) return Unexpected(page.error());
-    for (const ModelRecord& model : page->models) {
-      const auto object = store->open(model.file);
-      ++files.models;
-      if (object && *object != nullptr && (*object)->size() == model.file_bytes) continue;
-      if (files.missing++ == 0) files.first = model.id.to_string();
-    }
-    query.after = page->next;
-  } while (query.after);
+  const auto named = (*catalogue)->files();
+  if (!named) return Unexpected(named.error());
+  std::vector<NamedFile> missing;
+  std::ranges::copy_if(*named, std::back_inserter(missing), [&](const NamedFile& file) {
+    const auto object = store->open(file.file);
+    return !object || *object == nullptr || (*object)->size() != file.bytes;
+  });
+  Files files{.models = models_in(*named), .missing = models_in(missing), .first = {}};
+  if (!missing.empty()) files.first = missing.front().model.to_string();
   return files;
 }
 

@@ -60,7 +60,7 @@ Response start_calibration(const Request& request, Services& services) {
     const auto once = once_key(request);
     if (!once) return once.error();
     const auto job = services.scans.calibrate(scanner, *order, *once);
-    if (!job) return refused(job.error(), request, services);
+    if (!job) return refused_job(job.error(), request, services);
     Response response = json_answer({{"job", job->id.to_string()}}, 202);
     response.fields = {{"Location", "/api/v1/jobs/" + job->id.to_string()}};
     return response;

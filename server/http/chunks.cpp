@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include "server/http/handlers.h"
 #include "server/http/published.h"
 
@@ -14,15 +12,6 @@ Response chunk_response(const PublishedChunk& chunk, const Request& request) {
   response.etag = '"' + to_hex(request.parameters.sha256) + '"';
   response.body = stored_body(chunk.model, chunk.range);
   return response;
-}
-
-// Of the model's chunk or base of that name.
-std::optional<ByteRange> range_of(const PublishedModel& model, const Sha256& sha256) {
-  const Manifest& manifest = model.manifest();
-  if (manifest.base_sha256 == sha256) return model.base();
-  const auto chunk = std::ranges::find(manifest.chunks, sha256, &ChunkInfo::sha256);
-  if (chunk == manifest.chunks.end()) return std::nullopt;
-  return ByteRange{chunk->offset, chunk->length};
 }
 
 }  // namespace
@@ -44,7 +33,7 @@ Response show_chunk(const Request& request, Services& services) {
 // Where the chunks of drafts are.
 Response show_model_chunk(const Request& request, Services& services) {
   return with_model(request, services, [&](const auto& model) {
-    const auto range = range_of(*model, request.parameters.sha256);
+    const auto range = model->find(request.parameters.sha256);
     if (!range) return problem(404, "there is no such chunk", request.id);
     Response response = chunk_response({model, *range}, request);
     response.caching = Caching::kPrivate;

@@ -124,11 +124,16 @@ Response json_answer(const Json& json, unsigned status) {
 
 Response refused(const Error& error, const Request& request, Services& services) {
   if (error.code == ErrorCode::kState) return problem(409, error.message, request.id);
-  if (error.code == ErrorCode::kBadInput) {  // all else has been looked at before
-    return problem(422, error.message, request.id,
-                   {{"Idempotency-Key", "a new key, or the request of then"}});
-  }
-  return internal_error(error, request, services);
+  if (error.code == ErrorCode::kBadInput) return problem(422, error.message, request.id);
+  if (error.code != ErrorCode::kLimit) return internal_error(error, request, services);
+  tell_operator(error, request, services);
+  return problem(507, error.message, request.id);
+}
+
+Response refused_job(const Error& error, const Request& request, Services& services) {
+  if (error.code != ErrorCode::kBadInput) return refused(error, request, services);
+  return problem(422, error.message, request.id,
+                 {{"Idempotency-Key", "a new key, or the request of then"}});
 }
 
 Response invalid(const FieldFaults& faults, const Request& request) {

@@ -25,8 +25,12 @@ nlohmann::ordered_json scanner_json(const ScannerStatus& scanner);
 // What changes all the time is not kept by anybody.
 Response json_answer(const nlohmann::ordered_json& json, unsigned status = 200);
 
-// 409 for kState, 422 for kBadInput, 500 with the reason in the log for all else.
+// 409 for kState, 422 for kBadInput, 507 for kLimit: there is no room; 500 with the reason in the
+// log for all else.
 Response refused(const Error& error, const Request& request, Services& services);
+
+// The same of the queue's begun_by() and add(), where kBadInput is about the Idempotency-Key.
+Response refused_job(const Error& error, const Request& request, Services& services);
 
 // 422: what is wrong with the body.
 Response invalid(const FieldFaults& faults, const Request& request);

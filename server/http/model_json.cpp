@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "server/http/response.h"
 #include "server/http/timestamp.h"
 #include "server/store/change.h"
 
@@ -110,6 +111,10 @@ Json expectation(const Wish& wish, const Manifest& manifest) {
 
 std::string model_json(const ModelRecord& record) {
   return dump(model(record));
+}
+
+std::string model_tag(const ModelRecord& record) {
+  return entity_tag(std::to_string(record.version) + model_json(record));
 }
 
 std::string model_page_json(const ModelPage& page, bool whole) {

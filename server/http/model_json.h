@@ -12,6 +12,8 @@
 namespace vitrine {
 
 std::string model_json(const ModelRecord& record);
+// The entity tag of that text: another one with each change of the model, of its file too.
+std::string model_tag(const ModelRecord& record);
 std::string model_page_json(const ModelPage& page, bool whole);  // else as visitors see it
 
 // With `expect`: what comes of the wish, where there is one.

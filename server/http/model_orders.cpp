@@ -44,8 +44,11 @@ Response accepted(const JobRecord& job) {
 
 // Of both views: who reads without a token and changes with one is right, too.
 bool matches(std::string_view list, const ModelRecord& model) {
-  return matches_any(list, entity_tag(model_json(model))) ||
-         matches_any(list, entity_tag(model_json(public_view(model))));
+  return matches_any(list, model_tag(model)) || matches_any(list, model_tag(public_view(model)));
+}
+
+Response model_has_changed(const Request& request) {
+  return problem(412, "the model has changed since; read it again", request.id);
 }
 
 // 412 where the request is about another state of the model.
@@ -54,7 +57,18 @@ std::optional<Response> refuse_state(const ModelRecord& model, const Request& re
   if (wanted == request.header.end()) return std::nullopt;
   const auto list = wanted->value();
   if (matches({list.data(), list.size()}, model)) return std::nullopt;
-  return problem(412, "the model has changed since; read it again", request.id);
+  return model_has_changed(request);
+}
+
+// Of a change or removal of the model that was read as `before`. Where the request states which
+// state it is about and somebody was faster, that state is gone: 412, as if they had been earlier.
+Response refused_change(const Error& error, const ModelRecord& before, const Request& request,
+                        Services& services) {
+  const auto now = services.catalogue.find(before.id);
+  const bool is_same = now && *now && (*now)->version == before.version;
+  if (now && !is_same && request.header.count(beast::http::field::if_match) > 0)
+    return model_has_changed(request);
+  return refused(error, request, services);
 }
 
 // Calls `answer(record)` for the request's model, drafts too, or answers 404, 412 or 500.
@@ -127,34 +141,36 @@ Response make_model(const Request& request, Services& services) {
   if (!once) return once.error();
   auto& jobs = services.scans.jobs();
   const auto begun = jobs.begun_by(*once);
-  if (!begun) return refused(begun.error(), request, services);
+  if (!begun) return refused_job(begun.error(), request, services);
   if (*begun) return accepted(**begun);  // its upload may be gone by now
   if (const auto faults = check(*order, request, services); !faults.empty())
     return invalid(faults, request);
   const auto job = jobs.add(PublishJobs::job_for(*order), std::nullopt, *once);
-  return job ? accepted(*job) : refused(job.error(), request, services);
+  return job ? accepted(*job) : refused_job(job.error(), request, services);
 }
 
 Response change_model(const Request& request, Services& services) {
   return with_record(request, services, [&](const ModelRecord& before) {
     const auto wanted = changed(before, request.body);
     if (!wanted) return invalid(wanted.error(), request);
-    const auto model = change(services.store, services.catalogue, *wanted);
-    if (!model) return refused(model.error(), request, services);
+    const auto model = change(services.store, services.catalogue, *wanted, &services.quota);
+    if (!model) return refused_change(model.error(), before, request, services);
     services.models.refresh();
     services.collector.hurry();
     Response response;
     response.type = "application/json";
     response.body = model_json(*model);
-    response.etag = entity_tag(model_json(*model));
+    response.etag = model_tag(*model);
     return response;
   });
 }
 
 Response remove_model(const Request& request, Services& services) {
   return with_record(request, services, [&](const ModelRecord& model) {
-    const auto removed = services.catalogue.remove(model.id);
-    if (!removed) return refused(removed.error(), request, services);
+    const bool conditional = request.header.count(beast::http::field::if_match) > 0;
+    const auto removed = remove(services.store, services.catalogue, model.id,
+                                conditional ? std::optional(model.version) : std::nullopt);
+    if (!removed) return refused_change(removed.error(), model, request, services);
     services.models.refresh();
     services.collector.hurry();
     Response response;

@@ -88,7 +88,9 @@ Response list_models(const Request& request, Services& services) {
 
 Response show_model(const Request& request, Services& services) {
   return with_model(request, services, [](const auto& model) {
-    return revalidated("application/json", model_json(model->record()));
+    Response response = revalidated("application/json", model_json(model->record()));
+    response.etag = model_tag(model->record());
+    return response;
   });
 }
 

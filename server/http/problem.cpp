@@ -15,7 +15,8 @@ Response problem(unsigned status, std::string_view detail, std::string_view requ
                {"title", std::string(title)},
                {"status", status},
                {"request_id", request_id}};
-  if (status < 500 && !detail.empty()) json["detail"] = detail;
+  const bool is_told = status < 500 || status == 507;
+  if (is_told && !detail.empty()) json["detail"] = detail;
   for (const ParameterFault& error : errors) {
     json["errors"].push_back({{"parameter", error.parameter}, {"detail", error.detail}});
   }

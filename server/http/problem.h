@@ -14,8 +14,9 @@ struct ParameterFault {
   std::string parameter, detail;
 };
 
-// `detail` is for the client. From status 500 up it is left out: the request id is all that a
-// client learns, the log has the rest.
+// `detail` is for the client. From status 500 up it is left out but for 507 (no room), which those
+// who upload can do something about: else the request id is all that a client learns, the log has
+// the rest.
 Response problem(unsigned status, std::string_view detail, std::string_view request_id,
                  const std::vector<ParameterFault>& errors = {});
 

@@ -12,10 +12,15 @@ inline Body stored_body(const std::shared_ptr<const PublishedModel>& model, Byte
   return StoredBytes{{model, &model->file()}, range.offset, range.length};
 }
 
-// 500, with the reason in the log only.
-inline Response internal_error(const Error& error, const Request& request, Services& services) {
+// In the operator's log.
+inline void tell_operator(const Error& error, const Request& request, Services& services) {
   services.errors.event(Severity::kError,
                         std::string("request ") + std::string(request.id) + ": " + error.message);
+}
+
+// 500, with the reason in the log only.
+inline Response internal_error(const Error& error, const Request& request, Services& services) {
+  tell_operator(error, request, services);
   return problem(500, "", request.id);
 }
 

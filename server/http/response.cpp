@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/response.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <ctime>
@@ -9,6 +8,7 @@
 
 #include "codec/core/sha256.h"
 #include "server/http/http_header.h"
+#include "server/http/timestamp.h"
 
 namespace vitrine {
 namespace {
@@ -28,13 +28,13 @@ std::string_view cache_control(Caching caching) {
 }
 
 // The Date field's value (RFC 9110, 5.6.7), made once a second.
-std::string_view http_date() {
+std::string_view date_field() {
   thread_local std::time_t made = 0;
   thread_local std::string text;
   const std::time_t now = std::time(nullptr);
   if (now != made) {
     made = now;
-    text = fmt::format("{:%a, %d %b %Y %H:%M:%S} GMT", fmt::gmtime(now));
+    text = http_date(now);
   }
   return text;
 }
@@ -77,7 +77,7 @@ std::string response_head(const Response& response, const HeadOptions& options) 
   std::string head;
   head.reserve(1024);
   append(head, {"HTTP/1.1 ", fmt::format_int(response.status).c_str(), " ", reason(response.status),
-                "\r\nDate: ", http_date(),
+                "\r\nDate: ", date_field(),
                 "\r\nServer: vitrine\r\nX-Request-Id: ", options.request_id, "\r\n"});
   if (!response.type.empty()) append(head, {"Content-Type: ", response.type, "\r\n"});
   if (response.status != 204 && response.status != 304 && !response.events) {

@@ -85,7 +85,7 @@ Response start_scan(const Request& request, Services& services) {
   const auto once = once_key(request);
   if (!once) return once.error();
   const auto scan = services.scans.scan(*order, *once);
-  return scan ? started(*scan) : refused(scan.error(), request, services);
+  return scan ? started(*scan) : refused_job(scan.error(), request, services);
 }
 
 Response list_scans(const Request& request, Services& services) {
@@ -163,7 +163,7 @@ Response reprocess_scan(const Request& request, Services& services) {
     const auto once = once_key(request);
     if (!once) return once.error();
     const auto job = services.scans.reprocess(scan.entry, *order, *once);
-    return job ? started(*job) : refused(job.error(), request, services);
+    return job ? started(*job) : refused_job(job.error(), request, services);
   });
 }
 

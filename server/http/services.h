@@ -29,7 +29,7 @@ struct Services {
   PublishedModels& models;
   ScanService& scans;
   Uploads& uploads;
-  const Quota& quota;
+  Quota& quota;
   Collector& collector;
   const Webhooks& webhooks;
   ExportCache& exports;

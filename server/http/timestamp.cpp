@@ -14,4 +14,9 @@ std::string timestamp(std::int64_t milliseconds) {
                      milliseconds % 1000);
 }
 
+std::string http_date(std::int64_t seconds) {
+  return fmt::format("{:%a, %d %b %Y %H:%M:%S} GMT",
+                     fmt::gmtime(static_cast<std::time_t>(seconds)));
+}
+
 }  // namespace vitrine

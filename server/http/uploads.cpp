@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Resumable uploads: tus 1.0.0 (https://tus.io/protocols/resumable-upload) with its extensions
 // creation, creation-with-upload, expiration and termination.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "server/http/job_json.h"
 #include "server/http/published.h"
 #include "server/http/timestamp.h"
+#include "server/jobs/publish_jobs.h"
 
 namespace vitrine {
 namespace {
@@ -76,14 +76,9 @@ Response refusal(const UploadFault& fault, std::string_view request_id, Services
   return tus(problem(status, fault.message, request_id));
 }
 
-std::string http_date(std::int64_t milliseconds) {
-  return fmt::format("{:%a, %d %b %Y %H:%M:%S} GMT",
-                     fmt::gmtime(static_cast<std::time_t>(milliseconds / 1000)));
-}
-
 void add_state(Response& response, const Upload& upload) {
   response.fields.emplace_back("Upload-Offset", std::to_string(upload.offset));
-  response.fields.emplace_back("Upload-Expires", http_date(upload.expires));
+  response.fields.emplace_back("Upload-Expires", http_date(upload.expires / 1000));
 }
 
 // Pieces go to the disk as they come, and the answer waits until they are on it.
@@ -130,6 +125,19 @@ Uploading<Upload> own_upload(const Request& request, Services& services) {
   return tl::unexpected(UploadFault{UploadFault::kGone, "there is no such upload"});
 }
 
+// A new upload, where it fits.
+Uploading<Upload> announce(std::uint64_t length, std::string_view metadata, const Request& request,
+                           Services& services) {
+  Uploading<Upload> upload;
+  const auto fits = services.quota.admit(length, [&] {
+    upload = services.uploads.create(request.caller->token, length, std::string(metadata));
+  });
+  if (fits) return upload;
+  const bool is_full = fits.error().code == ErrorCode::kLimit;
+  return tl::unexpected(
+      UploadFault{is_full ? UploadFault::kNoRoom : UploadFault::kIo, fits.error().message});
+}
+
 bool is_printable(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return c >= 0x20 && c < 0x7F; });
 }
@@ -167,15 +175,8 @@ Response create_upload(const Request& request, Services& services) {
   if (!length) return tus(problem(400, "send Upload-Length, the number of bytes", request.id));
   if (!is_printable(metadata))
     return tus(problem(400, "Upload-Metadata is not in base64", request.id));
-  if (const auto fits = services.quota.admit(*length); !fits) {
-    return refusal(
-        {fits.error().code == ErrorCode::kLimit ? UploadFault::kNoRoom : UploadFault::kIo,
-         fits.error().message},
-        request.id, services);
-  }
   const bool with_piece = value(request.header, "Content-Type") == kPieceType;
-  const auto upload =
-      services.uploads.create(request.caller->token, *length, std::string(metadata));
+  const auto upload = announce(*length, metadata, request, services);
   if (!upload) return refusal(upload.error(), request.id, services);
   Response response;
   response.status = 201;
@@ -222,6 +223,14 @@ Response remove_upload(const Request& request, Services& services) {
   if (auto refused = refuse_version(request)) return *refused;
   const auto upload = own_upload(request, services);
   if (!upload) return refusal(upload.error(), request.id, services);
+  const auto job = services.scans.jobs().job_where(
+      [&](const JobRecord& one) { return PublishJobs::upload_of(one) == upload->id; });
+  if (job) {
+    return tus(problem(409,
+                       fmt::format("job {} needs the upload; wait for its end or cancel it",
+                                   job->record.id.to_string()),
+                       request.id));
+  }
   if (const auto removed = services.uploads.remove(upload->id); !removed)
     return refusal(removed.error(), request.id, services);
   Response response;

@@ -36,7 +36,12 @@ Expected<Collector::Collected> Collector::collect(std::int64_t now) {
 }
 
 void Collector::collect_and_tell() {
-  const auto collected = collect();
+  Expected<Collected> collected;
+  try {
+    collected = collect();
+  } catch (const std::exception& fault) {  // out of memory: the daemon goes on, and the next time
+    collected = fail(ErrorCode::kIo, std::string("cannot collect: ") + fault.what());
+  }
   if (!collected) return means_.events.event(Severity::kError, collected.error().message);
   if (collected->objects + collected->uploads == 0) return;
   means_.events.event(Severity::kInfo,

@@ -16,6 +16,13 @@ std::string lane_name(const JobRecord& job) {
   return needs_scanner(job.kind) ? job.scanner : "";
 }
 
+constexpr std::uint32_t kMaxAttempts = 3;
+
+// It ran when a daemon died, and the two before that as well: it may be what they died of.
+bool is_hopeless(const JobRecord& job) {
+  return job.state == JobState::kRunning && job.attempts >= kMaxAttempts;
+}
+
 Unexpected stopping() {
   return fail(ErrorCode::kState, "the daemon is stopping; try again later");
 }
@@ -147,7 +154,18 @@ void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   // Not at every step: each change of the catalogue makes visitors' caches ask anew.
   run->entered_stage_ = [this](const JobRecord& now) { store(now); };
   runs_[job.id] = run;
+  if (is_hopeless(job)) return give_up(run);
   if (job.state != JobState::kPaused) post(run);
+}
+
+void JobQueue::give_up(const Run& run) {
+  {
+    const std::scoped_lock lock(run->mutex_);
+    run->status_.record.error = fmt::format(
+        "the daemon died {} times at work on this; look into its log, then start it again",
+        kMaxAttempts);
+  }
+  set_state(run, JobState::kFailed);
 }
 
 void JobQueue::post(const Run& run) {
@@ -227,10 +245,12 @@ std::optional<JobStatus> JobQueue::job_of(const std::string& scanner) const {
   return run ? std::optional(run->status()) : std::nullopt;
 }
 
-std::optional<JobStatus> JobQueue::job_on(const ScanId& scan) const {
+std::optional<JobStatus> JobQueue::job_where(
+    const std::function<bool(const JobRecord&)>& is) const {
   const std::scoped_lock lock(mutex_);
   for (const auto& [id, run] : runs_) {
-    if (run->job().scan == scan) return run->status();
+    const JobStatus status = run->status();
+    if (is(status.record)) return status;
   }
   return std::nullopt;
 }
@@ -331,6 +351,10 @@ void JobQueue::work(const Run& run) {
   {
     const std::scoped_lock lock(mutex_);
     if (stopping_ || run->job().state != JobState::kQueued) return;
+    {
+      const std::scoped_lock inner(run->mutex_);
+      ++run->status_.record.attempts;
+    }
     set_state(run, JobState::kRunning);
   }
   Expected<JobEnd> result = JobEnd::kDone;
@@ -339,12 +363,15 @@ void JobQueue::work(const Run& run) {
   } catch (const std::exception& fault) {  // out of memory: this job ends, the daemon goes on
     result = fail(ErrorCode::kIo, fault.what());
   }
-  run->when_asked({});
   end(run, result);
 }
 
 void JobQueue::end(const Run& run, const Expected<JobEnd>& result) {
   const std::scoped_lock lock(mutex_);
+  {
+    const std::scoped_lock inner(run->mutex_);
+    run->status_.record.attempts = 0;
+  }
   const JobWish wish = run->wish();
   if (result && *result == JobEnd::kDone) return set_state(run, JobState::kDone);
   if (wish == JobWish::kCancel) return set_state(run, JobState::kCancelled);

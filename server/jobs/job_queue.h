@@ -46,10 +46,6 @@ class JobRun {
   // Of its scanner's emergency stops, how many whoever handed it in knew of.
   std::uint64_t stops_known() const;
 
-  // `react` is called, by another thread, when a wish comes; at once, where one has come already.
-  // Replaces the one before; {} takes it away, and it is not being called any more on return.
-  void when_asked(std::function<void()> react);
-
   // `stage` in a word; `progress` 0..1 of the whole job, which never goes back; seconds that are
   // left, where known; JobStatus::note.
   void report(std::string_view stage, double progress, std::optional<double> eta = {},
@@ -62,6 +58,9 @@ class JobRun {
 
  private:
   friend class JobQueue;
+  friend class Reaction;
+  // Replaces the one before; {} takes it away, and it is not being called any more on return.
+  void when_asked(std::function<void()> react);
   void ask(JobWish wish, std::string_view reason = {});
   bool go_on();             // false where it does not wait
   bool is_at_work() const;  // its task has not returned
@@ -78,6 +77,21 @@ class JobRun {
   std::function<void(const JobRecord&)> entered_stage_;  // set once, before the task starts
 };
 
+// Has `react` called, by another thread, when a wish comes, and at once where one has come already,
+// as long as this lives; one at a time for a run.
+class Reaction {
+ public:
+  Reaction(JobRun& run, std::function<void()> react) : run_(run) {
+    run_.when_asked(std::move(react));
+  }
+  ~Reaction() { run_.when_asked({}); }
+  Reaction(const Reaction&) = delete;
+  Reaction& operator=(const Reaction&) = delete;
+
+ private:
+  JobRun& run_;
+};
+
 // Does one job, or goes on with it. An error is the end of the job, unless a wish came meanwhile.
 using JobTask = std::function<Expected<JobEnd>(JobRun& run)>;
 
@@ -91,7 +105,8 @@ class JobQueue {
   // comes before start().
   void when_ended(std::function<void(const JobStatus&)> told) { ended_ = std::move(told); }
 
-  // Takes up what an earlier daemon left: what was paused stays paused, all else goes on.
+  // Takes up what an earlier daemon left: what was paused stays paused, all else goes on, but for
+  // what three daemons have died at: that has failed.
   Expected<void> start();
 
   // Every job that runs is put aside, and every lane ends.
@@ -122,8 +137,8 @@ class JobQueue {
   // The unfinished job of a scanner.
   std::optional<JobStatus> job_of(const std::string& scanner) const;
 
-  // An unfinished job on a scan, of whatever kind.
-  std::optional<JobStatus> job_on(const ScanId& scan) const;
+  // The oldest unfinished job that is such a one.
+  std::optional<JobStatus> job_where(const std::function<bool(const JobRecord&)>& is) const;
 
   // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
   // is done, where it is busy; a job that is put aside is in the way unless `beside_paused`.
@@ -141,6 +156,7 @@ class JobQueue {
   Expected<Run> unfinished(const JobId& id) const;
   Run run_of(const std::string& scanner) const;
   void take_up(const JobRecord& job, std::uint64_t stops);
+  void give_up(const Run& run);
   void post(const Run& run);
   void set_state(const Run& run, JobState state);
   Lane& lane_of(const std::string& name);

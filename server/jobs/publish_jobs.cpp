@@ -76,18 +76,21 @@ Expected<JobEnd> PublishJobs::work(JobRun& run) {
 
 Expected<Publication> PublishJobs::make(JobRun& run, const ModelOrder& order) {
   const auto file = means_.uploads.open(order.upload);
+  if (!file && file.error().kind != UploadFault::kGone)
+    return fail(ErrorCode::kIo, file.error().message);
   if (!file) {
     return fail(ErrorCode::kState, "the upload is gone or not whole; upload the file again");
   }
   auto pmesh = build(run, order, *file);
   if (!pmesh) return Unexpected(pmesh.error());
-  if (auto fits = means_.quota.admit(pmesh->size()); !fits) return Unexpected(fits.error());
   run.report("publishing", kBuilt);
-  const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
-  if (order.replace)
-    return replace(means_.store, means_.catalogue, *pmesh, order.metadata, {state, *order.replace});
   // The model has the job's id, so that a job which is interrupted after this makes no second one.
-  return publish(means_.store, means_.catalogue, *pmesh, order.metadata, {state, run.job().id});
+  const PublishAs as{.state = order.publish ? ModelState::kPublished : ModelState::kDraft,
+                     .id = order.replace.value_or(run.job().id),
+                     .quota = &means_.quota,
+                     .upload = order.upload};
+  if (order.replace) return replace(means_.store, means_.catalogue, *pmesh, order.metadata, as);
+  return publish(means_.store, means_.catalogue, *pmesh, order.metadata, as);
 }
 
 Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
@@ -98,7 +101,7 @@ Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
   const char* stage = is_built ? "verifying" : "building";
   run.report(stage, 0);
   BuildChild child;
-  run.when_asked([&child] { child.stop(); });
+  const Reaction stop(run, [&child] { child.stop(); });
   const BuildOrder how{.bits = order.bits,
                        .placement = order.placement,
                        .z_is_up = order.z_is_up,
@@ -107,7 +110,6 @@ Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
                        .program = means_.program};
   auto pmesh = child.build(
       file, how, [&](std::string_view, double done) { run.report(stage, kBuilt * done); });
-  run.when_asked({});
   return pmesh && is_built ? read_all(file) : std::move(pmesh);
 }
 

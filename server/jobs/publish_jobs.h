@@ -16,7 +16,7 @@ struct PublishMeans {
   ObjectStore& store;
   Catalogue& catalogue;
   Uploads& uploads;
-  const Quota& quota;
+  Quota& quota;
   std::filesystem::path data;                        // of the installation
   std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
 };

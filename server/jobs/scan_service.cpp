@@ -259,7 +259,7 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
 }
 
 Expected<void> ScanService::check_unused(const ScanEntry& scan) const {
-  const auto job = queue_.job_on(scan.id);
+  const auto job = queue_.job_where([&](const JobRecord& one) { return one.scan == scan.id; });
   if (!job) return {};
   return fail(ErrorCode::kState, fmt::format("job {} works on the scan; wait for its end",
                                              job->record.id.to_string()));
@@ -431,7 +431,7 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   const auto file = write_mesh(mesh, MeshFormat::kPly, "mm");
   if (!file) return Unexpected(file.error());
   BuildChild child;
-  run.when_asked([&child] { child.stop(); });
+  const Reaction stop(run, [&child] { child.stop(); });
   const BuildOrder build{.bits = order.bits,
                          .placement = order.placement,
                          .z_is_up = true,
@@ -440,11 +440,10 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   const auto pmesh = child.build(*file, build, [&](std::string_view, double done) {
     run.report("building", std::lerp(kMeshed, kBuilt, done));
   });
-  run.when_asked({});
   if (!pmesh) return Unexpected(pmesh.error());
   const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
   const auto model = publish(means_.store, means_.catalogue, *pmesh, order.metadata,
-                             {.state = state, .id = run.job().id});
+                             {.state = state, .id = run.job().id, .quota = means_.quota});
   if (!model) return Unexpected(model.error());
   run.made(model->id);
   auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));

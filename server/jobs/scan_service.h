@@ -13,6 +13,7 @@
 #include "server/jobs/job_queue.h"
 #include "server/jobs/scanner_station.h"
 #include "server/store/object_store.h"
+#include "server/store/quota.h"
 
 namespace vitrine {
 
@@ -36,6 +37,7 @@ struct ScanMeans {
   std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
   std::chrono::milliseconds patience{10'000};        // that devices stay open for the next command
   JobTask publishing = {};                           // what becomes of jobs of that kind
+  Quota* quota = nullptr;                            // of which models take; null: there is none
 };
 
 // Thread-safe. Errors: kState where something is not possible now, kBadInput where an idempotency

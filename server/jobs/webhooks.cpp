@@ -22,13 +22,24 @@ bool Webhooks::allows(std::string_view url) const {
   return std::ranges::find(hosts_, host) != hosts_.end();
 }
 
-void Webhooks::tell(const std::string& url, const std::string& json) {
-  if (allows(url) && !stopping_) lane_.post([this, url, json] { post(url, json); });
+void Webhooks::tell(const std::string& url, const std::string& json, std::function<void()> done) {
+  if (!allows(url)) return;
+  const std::scoped_lock lock(mutex_);
+  if (stopping_) return;
+  auto& lane = lanes_[origin_of(url)];
+  if (!lane) lane = std::make_unique<Lane>();
+  lane->post([this, message = Message{url, json, std::move(done)}] { deliver(message); });
 }
 
 void Webhooks::stop() {
-  if (stopping_.exchange(true)) return;
-  lane_.finish();
+  std::map<std::string, std::unique_ptr<Lane>> lanes;
+  {
+    const std::scoped_lock lock(mutex_);
+    stopping_ = true;
+    lanes.swap(lanes_);
+  }
+  for (const auto& [origin, lane] : lanes)
+    lane->finish();
 }
 
 // False where it ends meanwhile.
@@ -39,24 +50,27 @@ bool Webhooks::pause(int tries) {
   return !stopping_;
 }
 
-void Webhooks::post(const std::string& url, const std::string& json) {
+void Webhooks::deliver(const Message& message) {
+  const std::string origin = origin_of(message.url);
   RemoteServer server;
-  std::string fault = "the daemon stops";
+  std::string fault;
   for (int tries = 0; tries < kTries && (tries == 0 ? !stopping_ : pause(tries)); ++tries) {
-    const auto answer =
-        server.ask({.method = "POST",
-                    .url = url,
-                    .fields = {"Content-Type: application/json"},
-                    .body = {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()},
-                    .deadline = kDeadline});
+    const auto answer = server.ask(
+        {.method = "POST",
+         .url = message.url,
+         .fields = {"Content-Type: application/json"},
+         .body = {reinterpret_cast<const std::uint8_t*>(message.json.data()), message.json.size()},
+         .deadline = kDeadline,
+         .given_up = [this] { return stopping_.load(); }});
     if (answer && answer->status < 300) {
-      return events_.event(Severity::kInfo,
-                           fmt::format("webhook {}: {}", origin_of(url), answer->status));
+      events_.event(Severity::kInfo, fmt::format("webhook {}: {}", origin, answer->status));
+      return message.done();
     }
     fault = answer ? fmt::format("it answers {}", answer->status) : answer.error().message;
   }
-  events_.event(Severity::kWarning,
-                fmt::format("webhook {} was not told: {}", origin_of(url), fault));
+  if (stopping_) return;
+  events_.event(Severity::kWarning, fmt::format("webhook {} was not told: {}", origin, fault));
+  message.done();
 }
 
 }  // namespace vitrine

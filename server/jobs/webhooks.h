@@ -4,6 +4,10 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +17,7 @@
 
 namespace vitrine {
 
+// Thread-safe.
 class Webhooks {
  public:
   // `hosts`: "host" or "host:port" as URLs have them; none: nobody is told anything.
@@ -22,21 +27,28 @@ class Webhooks {
 
   bool allows(std::string_view url) const;
 
-  // Posts `json` there soon, on a thread of its own, a few times until it is taken; the log has
-  // how that went.
-  void tell(const std::string& url, const std::string& json);
+  // Posts `json` there soon, a few times until it is taken; the log has how that went. Each server
+  // has a thread of its own: one that is dead holds up no other. `done` is called once it is taken
+  // or given up, and not where stop() comes before.
+  void tell(const std::string& url, const std::string& json, std::function<void()> done);
 
-  // What is under way is given up, and the rest.
+  // What is under way is put aside, and the rest.
   void stop();
 
  private:
-  void post(const std::string& url, const std::string& json);
+  struct Message {
+    std::string url, json;
+    std::function<void()> done;
+  };
+  void deliver(const Message& message);
   bool pause(int tries);
 
   const std::vector<std::string> hosts_;
   const Log& events_;
   std::atomic<bool> stopping_{false};
-  Lane lane_;
+
+  std::mutex mutex_;                                    // guards what follows
+  std::map<std::string, std::unique_ptr<Lane>> lanes_;  // by the server's origin
 };
 
 }  // namespace vitrine

@@ -59,6 +59,10 @@ int rewind_body(void* from, curl_off_t offset, int origin) {
   return CURL_SEEKFUNC_OK;
 }
 
+int is_given_up(void* from, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
+  return static_cast<const RemoteRequest*>(from)->given_up() ? 1 : 0;
+}
+
 void initialise() {
   static std::once_flag once;
   std::call_once(once, [] { curl_global_init(CURL_GLOBAL_DEFAULT); });
@@ -101,6 +105,10 @@ void set_patience(CURL* curl, const RemoteRequest& request) {
   curl_easy_setopt(curl, CURLOPT_LOW_SPEED_TIME, patience);
   curl_easy_setopt(curl, CURLOPT_TIMEOUT, static_cast<long>(request.deadline.count()));
   curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
+  if (!request.given_up) return;
+  curl_easy_setopt(curl, CURLOPT_XFERINFOFUNCTION, is_given_up);
+  curl_easy_setopt(curl, CURLOPT_XFERINFODATA, &request);
+  curl_easy_setopt(curl, CURLOPT_NOPROGRESS, 0L);
 }
 
 }  // namespace

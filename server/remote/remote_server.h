@@ -24,6 +24,7 @@ struct RemoteRequest {
   std::function<void(std::uint64_t)> on_sent = {};  // bytes of the body so far
   std::chrono::seconds patience{30};                // for a connection, and for each byte to follow
   std::chrono::seconds deadline{0};                 // for all of it; 0: none
+  std::function<bool()> given_up = {};              // asked about once a second: true ends it
 };
 
 struct RemoteAnswer {

@@ -12,16 +12,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-void describe(ModelRecord& record, const StoredFile& stored) {
-  const Manifest& manifest = stored.manifest;
-  record.file = stored.name;
-  record.file_bytes = manifest.file_bytes;
-  record.head_bytes = manifest.head_bytes();
-  record.faces = manifest.levels.back().faces;
-  record.vertices = manifest.levels.back().vertices;
-  record.unit = manifest.unit;
-}
-
 PublicPart part_of(const StoredFile& stored, std::uint32_t max_level) {
   const Manifest& manifest = stored.manifest;
   return {.max_level = max_level,
@@ -32,30 +22,58 @@ PublicPart part_of(const StoredFile& stored, std::uint32_t max_level) {
           .vertices = manifest.levels.back().vertices};
 }
 
-// Has `pmesh` be the file of `record`, and as much of it public as the record says; the chunks are
-// those of what is public.
-Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, ModelRecord& record,
-                           const Bytes& pmesh) {
-  const auto whole = store_file(store, pmesh);
-  if (!whole) return tl::unexpected(whole.error());
-  describe(record, *whole);
-  std::vector<ChunkPlace> chunks = whole->chunks();
-  if (record.public_part) {
-    const std::uint32_t level = record.public_part->max_level;
-    const auto cut = with_header(pmesh, {.last_level = level, .unit = {}});
-    if (!cut) return tl::unexpected(cut.error());
-    const auto part = store_file(store, *cut);
-    if (!part) return tl::unexpected(part.error());
-    record.public_part = part_of(*part, level);
-    chunks = part->chunks();
-  }
-  return catalogue.update(record, chunks);
+// What is about to lose its name stays for the grace of a collection: somebody may have read the
+// record and not opened the files yet.
+Expected<void> let_go(ObjectStore& store, const ModelRecord& record) {
+  if (auto begun = store.begin_grace(record.file); !begun || !record.public_part) return begun;
+  return store.begin_grace(record.public_part->file);
 }
 
 Expected<Bytes> read_file(const ObjectStore& store, const ModelRecord& record) {
   const auto model = PublishedModel::open(store, record);
   if (!model) return tl::unexpected(model.error());
   return (*model)->read((*model)->whole());
+}
+
+// A file of a model that is to be stored.
+struct Part {
+  Bytes bytes;
+  StoredFile file;
+};
+
+// What is public of `pmesh`; nothing where all of it is.
+Expected<std::optional<Part>> public_part(const ModelRecord& record,
+                                          std::span<const std::uint8_t> pmesh) {
+  if (!record.public_part) return std::nullopt;
+  auto cut = with_header(pmesh, {.last_level = record.public_part->max_level, .unit = {}});
+  if (!cut) return tl::unexpected(cut.error());
+  auto file = to_be_stored(*cut);
+  if (!file) return tl::unexpected(file.error());
+  return Part{std::move(*cut), std::move(*file)};
+}
+
+// Has `pmesh` be the file of the model, and as much of it public as `record` says, which is written
+// over `before`; the chunks are those of what is public.
+Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const ModelRecord& before,
+                           ModelRecord& record, std::span<const std::uint8_t> pmesh,
+                           const PublishAs& as) {
+  auto whole = to_be_stored(pmesh);
+  if (!whole) return tl::unexpected(whole.error());
+  auto part = public_part(record, pmesh);
+  if (!part) return tl::unexpected(part.error());
+  std::vector<NamedFile> files = {{record.id, whole->name, pmesh.size()}};
+  if (*part) files.push_back({record.id, (*part)->file.name, (*part)->bytes.size()});
+  const auto room = Quota::reserve(as.quota, files, as.upload);
+  if (!room) return tl::unexpected(room.error());
+
+  if (auto stored = store_file(store, *whole, pmesh); !stored) return stored;
+  describe(record, *whole);
+  if (*part) {
+    if (auto stored = store_file(store, (*part)->file, (*part)->bytes); !stored) return stored;
+    record.public_part = part_of((*part)->file, record.public_part->max_level);
+  }
+  if (auto begun = let_go(store, before); !begun) return begun;
+  return catalogue.update(record, (*part ? (*part)->file : *whole).chunks());
 }
 
 void take_text(std::string& text, const std::string& given) {
@@ -84,7 +102,8 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
   auto found = catalogue.find(as.id.value_or(ModelId()));
   if (!found) return tl::unexpected(found.error());
   if (!*found) return fail(ErrorCode::kState, "the model to replace is gone; publish a new one");
-  ModelRecord record = std::move(**found);
+  const ModelRecord& before = **found;
+  ModelRecord record = before;
   take_text(record.title, metadata.title);
   take_text(record.creator, metadata.creator);
   take_text(record.rights, metadata.rights);
@@ -92,12 +111,25 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
   for (const auto& [name, text] : metadata.more)
     record.more[name] = text;
   if (as.state == ModelState::kPublished) record.state = as.state;
-  if (auto done = store_files(store, catalogue, record, {pmesh.begin(), pmesh.end()}); !done)
+  if (auto done = store_files(store, catalogue, before, record, pmesh, as); !done)
     return tl::unexpected(done.error());
   return Publication{.id = record.id};
 }
 
-Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const ModelRecord& wanted) {
+Expected<void> remove(ObjectStore& store, Catalogue& catalogue, const ModelId& id,
+                      std::optional<std::uint64_t> version) {
+  const auto lock = store.lock();
+  if (!lock) return tl::unexpected(lock.error());
+  const auto found = catalogue.find(id);
+  if (!found) return tl::unexpected(found.error());
+  if (*found) {
+    if (auto begun = let_go(store, **found); !begun) return begun;
+  }
+  return catalogue.remove(id, version);
+}
+
+Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const ModelRecord& wanted,
+                             Quota* quota) {
   const auto lock = store.lock();
   if (!lock) return tl::unexpected(lock.error());
   const auto found = catalogue.find(wanted.id);
@@ -118,7 +150,7 @@ Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const Mod
     if (pmesh && record.unit != before.unit)
       pmesh = with_header(*pmesh, {.last_level = {}, .unit = record.unit});
     if (!pmesh) return tl::unexpected(pmesh.error());
-    if (auto done = store_files(store, catalogue, record, *pmesh); !done)
+    if (auto done = store_files(store, catalogue, before, record, *pmesh, {.quota = quota}); !done)
       return tl::unexpected(done.error());
   }
   ++record.version;

@@ -17,7 +17,13 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
 
 // Writes `wanted` over the record that it was made of: texts, unit, accuracy and public_part's
 // max_level; all else in it does not matter. Where the unit or what is public changes, so do the
-// files. kState where somebody else has changed the model meanwhile.
-Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const ModelRecord& wanted);
+// files. kState where somebody else has changed the model meanwhile, kLimit where they do not fit.
+Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const ModelRecord& wanted,
+                             Quota* quota = nullptr);
+
+// Takes a model away. kState where there is none, or its version is another than the one that is
+// stated.
+Expected<void> remove(ObjectStore& store, Catalogue& catalogue, const ModelId& id,
+                      std::optional<std::uint64_t> version);
 
 }  // namespace vitrine

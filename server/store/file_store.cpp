@@ -3,15 +3,16 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 
 #include "codec/files/atomic_file.h"
 #include "codec/files/file_descriptor.h"
+#include "server/store/file_lock.h"
 
 namespace vitrine {
 namespace {
@@ -49,6 +50,19 @@ class FileObject final : public Object {
   std::uint64_t size_;
 };
 
+// Where a disk does not give them back they are not there.
+bool holds(const Object& object, std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kPiece = 1 << 18;
+  if (object.size() != bytes.size()) return false;
+  std::vector<std::uint8_t> piece;
+  for (std::size_t at = 0; at < bytes.size(); at += piece.size()) {
+    const auto expected = bytes.subspan(at, std::min(kPiece, bytes.size() - at));
+    piece.resize(expected.size());
+    if (!object.read(at, std::span(piece)) || !std::ranges::equal(piece, expected)) return false;
+  }
+  return true;
+}
+
 // Creates `folder` below `parent`; both names are durable afterwards.
 Expected<void> create_folder(const fs::path& folder) {
   if (::mkdir(folder.c_str(), 0777) == 0) return sync_folder(folder.parent_path());
@@ -60,7 +74,7 @@ bool is_temporary(const fs::path& path) {
   return path.filename().string().starts_with('.');
 }
 
-// An object that is put again is a new one: its age counts from then.
+// The time of an object's last change is when its grace began.
 bool is_unnamed(const fs::path& path, const std::set<Sha256>& keep, std::chrono::seconds grace) {
   if (is_temporary(path)) return true;
   Sha256 name{};
@@ -68,13 +82,6 @@ bool is_unnamed(const fs::path& path, const std::set<Sha256>& keep, std::chrono:
   if (!from_hex(path.filename().string(), name) || keep.contains(name)) return false;
   if (::stat(path.c_str(), &status) != 0) return false;
   return status.st_mtim.tv_sec + grace.count() <= std::time(nullptr);
-}
-
-bool wait_for_lock(int fd) {
-  while (::flock(fd, LOCK_EX) != 0) {
-    if (errno != EINTR) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -103,27 +110,30 @@ fs::path FileStore::path_of(const Sha256& name) const {
   return root_ / hex.substr(0, 2) / hex.substr(2, 2) / hex;
 }
 
-Expected<void> FileStore::put(const Sha256& name, std::span<const std::uint8_t> bytes) {
+Expected<bool> FileStore::put(const Sha256& name, std::span<const std::uint8_t> bytes) {
   if (sha256(bytes) != name) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("the bytes are not those of object {}; send them again", to_hex(name)));
   }
   const fs::path path = path_of(name);
   const fs::path folder = path.parent_path();
-  std::error_code error;
-  if (fs::file_size(path, error) == bytes.size() && !error) {
+  const auto before = open(name);
+  if (before && *before != nullptr && holds(**before, bytes)) {
     ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
-    return sync_folder(folder);
+    const auto synced = sync_folder(folder);
+    return synced ? Expected<bool>(false) : tl::unexpected(synced.error());
   }
-  if (auto made = create_folder(folder.parent_path()); !made) return made;
-  if (auto made = create_folder(folder); !made) return made;
-  return write_file_atomically(path, bytes);
+  for (const fs::path& needed : {folder.parent_path(), folder}) {
+    if (auto made = create_folder(needed); !made) return tl::unexpected(made.error());
+  }
+  const auto written = write_file_atomically(path, bytes);
+  return written ? Expected<bool>(true) : tl::unexpected(written.error());
 }
 
 Expected<std::shared_ptr<const void>> FileStore::lock() {
   auto folder =
       std::make_shared<FileDescriptor>(::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!*folder || !wait_for_lock(folder->get())) {
+  if (!*folder || !lock_file(folder->get())) {
     return refused("lock", root_, std::strerror(errno));
   }
   return folder;
@@ -134,6 +144,12 @@ Expected<void> FileStore::remove(const Sha256& name) {
   if (::unlink(path.c_str()) == 0) return sync_folder(path.parent_path());
   if (errno != ENOENT) return refused("remove", path, std::strerror(errno));
   return {};
+}
+
+Expected<void> FileStore::begin_grace(const Sha256& name) {
+  const fs::path path = path_of(name);
+  if (::utimensat(AT_FDCWD, path.c_str(), nullptr, 0) == 0 || errno == ENOENT) return {};
+  return refused("keep", path, std::strerror(errno));
 }
 
 Expected<std::size_t> FileStore::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) {

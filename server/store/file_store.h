@@ -13,9 +13,10 @@ class FileStore final : public ObjectStore {
   // Creates the folder where it is missing. Fails (kIo) where that is refused.
   static Expected<FileStore> open(const std::filesystem::path& root);
 
-  Expected<void> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
+  Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
   Expected<std::shared_ptr<const void>> lock() override;
   Expected<void> remove(const Sha256& name) override;
+  Expected<void> begin_grace(const Sha256& name) override;
   Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) override;
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
 

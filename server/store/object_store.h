@@ -39,9 +39,10 @@ class ObjectStore {
  public:
   virtual ~ObjectStore() = default;
 
-  // Stores `bytes` durably and under `name`, or not at all. Fails with kBadInput where the bytes do
-  // not have that name, kIo where the disk refuses. Putting an object again changes nothing.
-  virtual Expected<void> put(const Sha256& name, std::span<const std::uint8_t> bytes) = 0;
+  // Stores `bytes` durably and under `name`, or not at all. False where they were there already,
+  // and nothing changes; what is there and damaged is replaced. Fails with kBadInput where the
+  // bytes do not have that name, kIo where the disk refuses.
+  virtual Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) = 0;
 
   // Whoever puts an object and has it named, or takes it away, holds this meanwhile: nobody else,
   // in this process or another, does either until it is destroyed.
@@ -50,9 +51,14 @@ class ObjectStore {
   // Takes the object away; that there is none is no fault. Fails (kIo) where the disk refuses.
   virtual Expected<void> remove(const Sha256& name) = 0;
 
-  // Takes away what `keep` does not name and nobody has put for `grace`, and what interrupted puts
-  // have left; the number of objects. Call it with the lock held. Fails (kIo) where the disk
-  // refuses; then some are gone and some are not.
+  // Has the object's grace begin now: it is about to lose its name, and somebody may be on the way
+  // to it. That there is none is no fault. Call it with the lock held. Fails (kIo) where the disk
+  // refuses.
+  virtual Expected<void> begin_grace(const Sha256& name) = 0;
+
+  // Takes away what `keep` does not name and whose grace is over, counted from when it was put or
+  // begin_grace() was called, and what interrupted puts have left; the number of objects. Call it
+  // with the lock held. Fails (kIo) where the disk refuses; then some are gone and some are not.
   virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) = 0;
 
   // Null where there is no such object.

@@ -15,8 +15,7 @@ std::int64_t now_in_milliseconds() {
       .count();
 }
 
-ModelRecord describe(const Manifest& manifest, const ModelMetadata& metadata, const PublishAs& as,
-                     const Sha256& file) {
+ModelRecord new_record(const StoredFile& file, const ModelMetadata& metadata, const PublishAs& as) {
   ModelRecord record;
   record.id = as.id.value_or(ModelId::generate());
   record.state = as.state;
@@ -26,12 +25,7 @@ ModelRecord describe(const Manifest& manifest, const ModelMetadata& metadata, co
   record.rights = metadata.rights;
   record.licence = metadata.licence;
   record.more = metadata.more;
-  record.unit = manifest.unit;
-  record.file = file;
-  record.file_bytes = manifest.file_bytes;
-  record.head_bytes = manifest.head_bytes();
-  record.faces = manifest.levels.back().faces;
-  record.vertices = manifest.levels.back().vertices;
+  describe(record, file);
   return record;
 }
 
@@ -55,7 +49,14 @@ Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record,
                           const StoredFile& stored) {
   const auto same = find_earlier(catalogue, record);
   if (!same) return tl::unexpected(same.error());
-  if (*same) return Publication{.id = (*same)->id, .is_new = false};
+  if (*same) {
+    // Whoever holds the file that was lost or damaged opens it anew.
+    const bool is_mended = stored.is_new || stored.is_repaired;
+    const auto told =
+        is_mended ? catalogue.set_state((*same)->id, (*same)->state) : Expected<void>{};
+    if (!told) return tl::unexpected(told.error());
+    return Publication{.id = (*same)->id, .is_new = false};
+  }
   if (auto added = catalogue.add(record, stored.chunks()); !added)
     return tl::unexpected(added.error());
   return Publication{.id = record.id};
@@ -80,10 +81,15 @@ Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
   if (auto good = check_texts(metadata); !good) return tl::unexpected(good.error());
   const auto lock = store.lock();
   if (!lock) return tl::unexpected(lock.error());
-  const auto stored = store_file(store, pmesh);
-  if (!stored) return tl::unexpected(stored.error());
-  auto published = add(catalogue, describe(stored->manifest, metadata, as, stored->name), *stored);
-  if (!published && stored->is_new) static_cast<void>(store.remove(stored->name));
+  auto file = to_be_stored(pmesh);
+  if (!file) return tl::unexpected(file.error());
+  const ModelRecord record = new_record(*file, metadata, as);
+  const NamedFile named{record.id, record.file, record.file_bytes};
+  const auto room = Quota::reserve(as.quota, {&named, 1}, as.upload);
+  if (!room) return tl::unexpected(room.error());
+  if (auto stored = store_file(store, *file, pmesh); !stored) return tl::unexpected(stored.error());
+  auto published = add(catalogue, record, *file);
+  if (!published && file->is_new) static_cast<void>(store.remove(file->name));
   return published;
 }
 

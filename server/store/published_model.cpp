@@ -53,6 +53,13 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModel::open(const Objec
   return model;
 }
 
+std::optional<ByteRange> PublishedModel::find(const Sha256& sha256) const {
+  if (manifest_.base_sha256 == sha256) return base();
+  const auto found = std::ranges::find(manifest_.chunks, sha256, &ChunkInfo::sha256);
+  if (found == manifest_.chunks.end()) return std::nullopt;
+  return ByteRange{found->offset, found->length};
+}
+
 std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const noexcept {
   return first_word(sha256);
 }
@@ -173,7 +180,9 @@ Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {
   if (!*location) return PublishedChunk{};
   const auto model = load((*location)->model);
   if (!model) return tl::unexpected(model.error());
-  return PublishedChunk{*model, {(*location)->place.offset, (*location)->place.length}};
+  // The model may have got another file since: only its own manifest says what lies where.
+  const auto range = *model ? (*model)->find(sha256) : std::nullopt;
+  return range ? PublishedChunk{*model, *range} : PublishedChunk{};
 }
 
 }  // namespace vitrine

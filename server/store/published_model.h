@@ -41,6 +41,8 @@ class PublishedModel {
   ByteRange chunk(std::size_t index) const {
     return {manifest_.chunks[index].offset, manifest_.chunks[index].length};
   }
+  // Where the chunk or the base of that name lies; nothing where it has none.
+  std::optional<ByteRange> find(const Sha256& sha256) const;
   Expected<std::vector<std::uint8_t>> read(ByteRange range) const {
     return file_->read(range.offset, range.length);
   }

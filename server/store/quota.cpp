@@ -3,24 +3,83 @@
 
 #include <fmt/core.h>
 
-namespace vitrine {
+#include <map>
 
-Expected<void> Quota::admit(std::uint64_t more) const {
-  if (bytes_ == 0) return {};
-  const auto files = catalogue_.files();
+namespace vitrine {
+namespace {
+
+using Sizes = std::map<Sha256, std::uint64_t>;  // each file once, however many models name it
+
+Expected<Sizes> named_files(Catalogue& catalogue) {
+  const auto files = catalogue.files();
   if (!files) return tl::unexpected(files.error());
+  Sizes sizes;
+  for (const NamedFile& file : *files)
+    sizes[file.file] = file.bytes;
+  return sizes;
+}
+
+std::uint64_t sum(const Sizes& sizes) {
+  std::uint64_t all = 0;
+  for (const auto& [file, bytes] : sizes)
+    all += bytes;
+  return all;
+}
+
+}  // namespace
+
+Expected<std::uint64_t> Quota::announced(const std::optional<UploadId>& spent) const {
   const auto uploads = uploads_.list();
   if (!uploads) return fail(ErrorCode::kIo, uploads.error().message);
-  std::uint64_t used = 0;
-  for (const NamedFile& file : *files)
-    used += file.bytes;
+  std::uint64_t all = 0;
   for (const Upload& upload : *uploads)
-    used += upload.length;
-  if (used <= bytes_ && more <= bytes_ - used) return {};
-  return fail(ErrorCode::kLimit,
-              fmt::format("{} bytes do not fit: {} of the quota of {} are taken; delete models or "
-                          "uploads, or raise the setting quota",
-                          more, used, bytes_));
+    all += upload.id == spent ? 0 : upload.length;
+  return all;
+}
+
+Expected<void> Quota::check(std::uint64_t more, std::uint64_t taken) const {
+  if (taken <= bytes_ && more <= bytes_ - taken) return {};
+  return fail(
+      ErrorCode::kLimit,
+      fmt::format("{} bytes do not fit: {} of {} bytes are taken; delete models or uploads, "
+                  "or raise the setting quota",
+                  more, taken, bytes_));
+}
+
+Expected<void> Quota::admit(std::uint64_t bytes, const std::function<void()>& take) {
+  const std::scoped_lock lock(mutex_);
+  if (bytes_ != 0) {
+    const auto named = named_files(catalogue_);
+    if (!named) return tl::unexpected(named.error());
+    const auto uploads = announced(std::nullopt);
+    if (!uploads) return tl::unexpected(uploads.error());
+    if (auto fits = check(bytes, sum(*named) + *uploads + reserved_); !fits) return fits;
+  }
+  take();
+  return {};
+}
+
+Expected<Quota::Reservation> Quota::reserve(std::span<const NamedFile> files,
+                                            const std::optional<UploadId>& spent) {
+  if (bytes_ == 0) return Reservation();
+  const std::scoped_lock lock(mutex_);
+  auto named = named_files(catalogue_);
+  if (!named) return tl::unexpected(named.error());
+  const auto uploads = announced(spent);
+  if (!uploads) return tl::unexpected(uploads.error());
+  const std::uint64_t before = sum(*named);
+  for (const NamedFile& file : files)
+    (*named)[file.file] = file.bytes;
+  const std::uint64_t more = sum(*named) - before;
+  if (auto fits = check(more, before + *uploads + reserved_); !fits)
+    return tl::unexpected(fits.error());
+  reserved_ += more;
+  return Reservation(*this, more);
+}
+
+void Quota::release(std::uint64_t bytes) {
+  const std::scoped_lock lock(mutex_);
+  reserved_ -= bytes;
 }
 
 }  // namespace vitrine

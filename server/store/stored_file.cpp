@@ -38,20 +38,35 @@ std::vector<ChunkPlace> StoredFile::chunks() const {
   return result;
 }
 
-Expected<StoredFile> store_file(ObjectStore& store, std::span<const std::uint8_t> pmesh) {
+Expected<StoredFile> to_be_stored(std::span<const std::uint8_t> pmesh) {
   auto manifest = parse_header(pmesh);
   if (!manifest) return tl::unexpected(manifest.error());
   if (auto fits = check_size(*manifest, pmesh.size()); !fits) return tl::unexpected(fits.error());
-  StoredFile file{.name = sha256(pmesh), .manifest = std::move(*manifest)};
+  return StoredFile{.name = sha256(pmesh), .manifest = std::move(*manifest)};
+}
+
+Expected<void> store_file(ObjectStore& store, StoredFile& file,
+                          std::span<const std::uint8_t> pmesh) {
   const auto before = store.open(file.name);
   if (!before) return tl::unexpected(before.error());
+  const auto written = store.put(file.name, pmesh);
+  if (!written) return tl::unexpected(written.error());
   file.is_new = *before == nullptr;
-  if (auto stored = store.put(file.name, pmesh); !stored) return tl::unexpected(stored.error());
-  const auto checked = check_stored(store, file);
-  if (checked) return file;
+  file.is_repaired = *written && !file.is_new;
+  auto checked = check_stored(store, file);
   // The first fault is the one to tell: a full disk takes a removal.
-  if (file.is_new) static_cast<void>(store.remove(file.name));
-  return tl::unexpected(checked.error());
+  if (!checked && file.is_new) static_cast<void>(store.remove(file.name));
+  return checked;
+}
+
+void describe(ModelRecord& record, const StoredFile& file) {
+  const Manifest& manifest = file.manifest;
+  record.file = file.name;
+  record.file_bytes = manifest.file_bytes;
+  record.head_bytes = manifest.head_bytes();
+  record.faces = manifest.levels.back().faces;
+  record.vertices = manifest.levels.back().vertices;
+  record.unit = manifest.unit;
 }
 
 }  // namespace vitrine

@@ -2,17 +2,16 @@
 #include "server/store/uploads.h"
 
 #include <fmt/core.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "codec/files/atomic_file.h"
+#include "server/store/file_lock.h"
 
 namespace vitrine {
 namespace {
@@ -37,17 +36,9 @@ tl::unexpected<UploadFault> gone() {
   return fault(UploadFault::kGone, "there is no such upload");
 }
 
-// The descriptor's lock goes with it.
-bool take_lock(int fd) {
-  while (::flock(fd, LOCK_EX) != 0) {
-    if (errno != EINTR) return false;
-  }
-  return true;
-}
-
 class ScopedLock {
  public:
-  explicit ScopedLock(int fd) : fd_(fd), held_(take_lock(fd)) {}
+  explicit ScopedLock(int fd) : fd_(fd), held_(lock_file(fd)) {}
   ~ScopedLock() { ::flock(fd_, LOCK_UN); }
   ScopedLock(const ScopedLock&) = delete;
   ScopedLock& operator=(const ScopedLock&) = delete;
@@ -74,6 +65,26 @@ Uploading<void> write_all(int fd, std::span<const std::uint8_t> bytes, std::uint
     bytes = bytes.subspan(static_cast<std::size_t>(n));
   }
   return {};
+}
+
+// Nothing but a name that is not there says that there is no such upload.
+tl::unexpected<UploadFault> not_read(int error) {
+  return error == ENOENT ? gone() : refused("read", error);
+}
+
+// The few words that describe one.
+Uploading<std::string> read_text(const fs::path& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file) return not_read(errno);
+  std::string text;
+  char buffer[4096];
+  for (;;) {
+    const ssize_t n = ::read(file.get(), buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return refused("read", errno);
+    if (n == 0) return text;
+    text.append(buffer, static_cast<std::size_t>(n));
+  }
 }
 
 std::optional<UploadId> id_of(const fs::path& file) {
@@ -106,7 +117,7 @@ fs::path Uploads::path_of(const UploadId& id, const char* suffix) const {
 
 Uploading<FileDescriptor> Uploads::lock() const {
   FileDescriptor folder(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder || !take_lock(folder.get())) return refused("make", errno);
+  if (!folder || !lock_file(folder.get())) return refused("make", errno);
   return folder;
 }
 
@@ -139,14 +150,20 @@ Uploading<Upload> Uploads::create(const ModelId& token, std::uint64_t length,
   if (kept) return find(id);
   const int error = errno;
   ::unlink(path_of(id, kBytes).c_str());
-  return fault(error == ENOSPC ? UploadFault::kNoRoom : UploadFault::kIo, kept.error().message);
+  return refused("make", error);
 }
 
 Uploading<Upload> Uploads::read(const UploadId& id) const {
-  const auto json = nlohmann::json::parse(std::ifstream(path_of(id, kAbout)), nullptr,
-                                          /*allow_exceptions=*/false);
+  const auto about = read_text(path_of(id, kAbout));
+  if (!about) return tl::unexpected(about.error());
   struct stat status {};
-  if (!json.is_object() || ::stat(path_of(id, kBytes).c_str(), &status) != 0) return gone();
+  if (::stat(path_of(id, kBytes).c_str(), &status) != 0) return not_read(errno);
+  const auto json = nlohmann::json::parse(*about, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) {
+    return fault(
+        UploadFault::kIo,
+        fmt::format("upload {0} is damaged; remove {0}.json and {0}.part", id.to_string()));
+  }
   Upload upload;
   upload.id = id;
   upload.token = UploadId::parse(json.value("token", "")).value_or(ModelId());
@@ -163,8 +180,7 @@ Uploading<Upload> Uploads::find(const UploadId& id) const {
   auto upload = read(id);
   if (!upload) return upload;
   const FileDescriptor bytes(::open(path_of(id, kBytes).c_str(), O_RDONLY | O_CLOEXEC));
-  if (!bytes && errno == ENOENT) return gone();
-  if (!bytes || ::fsync(bytes.get()) != 0) return refused("read", errno);
+  if (!bytes || ::fsync(bytes.get()) != 0) return not_read(errno);
   return upload;
 }
 
@@ -176,16 +192,16 @@ Uploading<UploadWriter> Uploads::writer(const UploadId& id, std::uint64_t offset
                  fmt::format("the upload's offset is {}; go on from there", upload->offset));
   }
   FileDescriptor bytes(::open(path_of(id, kBytes).c_str(), O_WRONLY | O_CLOEXEC));
-  if (!bytes && errno == ENOENT) return gone();
-  if (!bytes) return refused("open", errno);
+  if (!bytes) return not_read(errno);
   return UploadWriter(std::move(bytes), offset, upload->length);
 }
 
 Uploading<FileDescriptor> Uploads::open(const UploadId& id) const {
   const auto upload = read(id);
-  if (!upload || !upload->is_whole()) return gone();
+  if (!upload) return tl::unexpected(upload.error());
+  if (!upload->is_whole()) return gone();
   FileDescriptor bytes(::open(path_of(id, kBytes).c_str(), O_RDONLY | O_CLOEXEC));
-  if (!bytes) return gone();
+  if (!bytes) return not_read(errno);
   return bytes;
 }
 
@@ -223,12 +239,14 @@ Uploading<std::size_t> Uploads::sweep(const std::set<UploadId>& in_use, std::int
   if (!locked) return tl::unexpected(locked.error());
   std::size_t swept = 0;
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder_, error))
-    files.push_back(entry.path());
+  fs::directory_iterator at(folder_, error);
+  for (; !error && at != fs::directory_iterator(); at.increment(error))
+    files.push_back(at->path());
   for (const fs::path& file : files) {
     const auto id = id_of(file);
     const auto upload = id ? read(*id) : gone();
     if (upload && (upload->expires > now || in_use.contains(*id))) continue;
+    if (!upload && upload.error().kind != UploadFault::kGone) continue;  // it may live
     if (file.extension() == kAbout) ++swept;
     ::unlink(file.c_str());
   }

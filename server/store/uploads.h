@@ -84,15 +84,15 @@ class Uploads {
   Uploading<Upload> find(const UploadId& id) const;
   Uploading<UploadWriter> writer(const UploadId& id, std::uint64_t offset) const;  // kGone, kMoved
 
-  // Its bytes; kGone where they are not there as a whole.
+  // Its bytes; kGone where they are not there as a whole, kIo where that cannot be told.
   Uploading<FileDescriptor> open(const UploadId& id) const;
 
   Uploading<void> remove(const UploadId& id);  // kGone
 
   Uploading<std::vector<Upload>> list() const;
 
-  // Takes away what has expired at `now` and what interrupted calls have left, but for `in_use`.
-  // The number of those.
+  // Takes away what has expired at `now` and what interrupted calls have left, but for `in_use`
+  // and what cannot be read just now. The number of those.
   Uploading<std::size_t> sweep(const std::set<UploadId>& in_use, std::int64_t now);
 
  private:

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
+#include <set>
 #include <thread>
+#include <tuple>
 
 namespace vitrine::test {
 namespace {
@@ -313,29 +314,36 @@ TEST_F(CatalogueSuite, a_model_that_is_removed_is_gone_with_its_chunks) {
   add(model(1), {{digest(8), 100, 10}});
   add(model(2), {{digest(8), 50, 10}});
   const auto before = catalogue_->revision().value();
-  ASSERT_TRUE(catalogue_->remove(id_of(2)));
+  const std::uint64_t version = catalogue_->find(id_of(2)).value().value().version;
+  EXPECT_EQ(catalogue_->remove(id_of(2), version + 1).error().code, ErrorCode::kState);
+  EXPECT_TRUE(catalogue_->find(id_of(2)).value());
+  ASSERT_TRUE(catalogue_->remove(id_of(2), version));
   EXPECT_NE(catalogue_->revision().value(), before);
   EXPECT_FALSE(catalogue_->find(id_of(2)).value());
   EXPECT_EQ(catalogue_->find_chunk(digest(8)).value().value().model, id_of(1));
-  EXPECT_EQ(catalogue_->remove(id_of(2)).error().code, ErrorCode::kState);
-  ASSERT_TRUE(catalogue_->remove(id_of(1)));
+  EXPECT_EQ(catalogue_->remove(id_of(2), std::nullopt).error().code, ErrorCode::kState);
+  ASSERT_TRUE(catalogue_->remove(id_of(1), std::nullopt));
   EXPECT_FALSE(catalogue_->find_chunk(digest(8)).value());
 }
 
-TEST_F(CatalogueSuite, the_files_are_those_that_models_and_drafts_name_each_once) {
+TEST_F(CatalogueSuite, the_files_are_those_that_models_and_drafts_name_by_model) {
   EXPECT_TRUE(catalogue_->files().value().empty());
   ModelRecord second = model(2, "A draft", ModelState::kDraft);
   second.file = digest(1);
   ModelRecord third = model(3);
   third.public_part = PublicPart{.file = digest(4), .file_bytes = 44};
   add(model(1)), add(second), add(third);
-  std::map<Sha256, std::uint64_t> files;
   const auto listed = catalogue_->files().value();
+  std::set<std::tuple<ModelId, Sha256, std::uint64_t>> files;
   for (const NamedFile& file : listed)
-    EXPECT_TRUE(files.emplace(file.file, file.bytes).second);
-  const std::map<Sha256, std::uint64_t> expected = {
-      {digest(1), 1'000}, {digest(3), 1'000}, {digest(4), 44}};
+    files.emplace(file.model, file.file, file.bytes);
+  const decltype(files) expected = {{id_of(1), digest(1), 1'000},
+                                    {id_of(2), digest(1), 1'000},
+                                    {id_of(3), digest(3), 1'000},
+                                    {id_of(3), digest(4), 44}};
   EXPECT_EQ(files, expected);
+  EXPECT_EQ(listed.size(), 4u);
+  EXPECT_EQ(models_in(listed), 3u);
 }
 
 TEST_F(CatalogueSuite, a_token_is_added_once_and_revoked_once) {

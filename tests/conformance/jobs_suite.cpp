@@ -27,7 +27,8 @@ JobRecord job(std::uint8_t value, JobState state = JobState::kRunning) {
           .parameters = R"({"title":"L'Écorché"})",
           .created = 1'700'000'000'000 + value,
           .ended = 0,
-          .webhook = "https://museum.example/told"};
+          .webhook = "https://museum.example/told",
+          .attempts = 2};
 }
 
 ScanEntry scan(std::uint8_t value, std::uint8_t job) {
@@ -154,6 +155,19 @@ TEST_F(JobsSuite, several_threads_write_at_once) {
   for (std::thread& thread : threads)
     thread.join();
   EXPECT_EQ(jobs_->jobs({.limit = 200}).value().size(), 40u);
+}
+
+TEST_F(JobsSuite, who_is_to_be_told_of_an_end_is_remembered_until_it_was) {
+  JobRecord quiet = job(3, JobState::kDone);
+  quiet.webhook.clear();
+  add(job(4, JobState::kCancelled)), add(job(1)), add(job(2, JobState::kDone)), add(quiet);
+  EXPECT_EQ(backend_->connect()->untold_jobs().value(),
+            (std::vector{job(2, JobState::kDone), job(4, JobState::kCancelled)}));
+  ASSERT_TRUE(jobs_->set_told(id_of(2)));
+  EXPECT_EQ(jobs_->untold_jobs().value(), std::vector{job(4, JobState::kCancelled)});
+  ASSERT_TRUE(jobs_->update(job(2, JobState::kDone)));
+  EXPECT_EQ(jobs_->untold_jobs().value().size(), 1u) << "what is told stays told";
+  EXPECT_EQ(jobs_->set_told(id_of(9)).error().code, ErrorCode::kState);
 }
 
 }  // namespace

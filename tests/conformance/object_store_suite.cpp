@@ -130,6 +130,11 @@ TEST_F(ObjectStoreSuite, a_sweep_takes_what_is_not_named_once_its_grace_is_over)
   EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0)).value(), 0u);
 }
 
+TEST_F(ObjectStoreSuite, the_grace_of_what_is_not_there_is_no_fault) {
+  const auto lock = store_->lock();
+  EXPECT_TRUE(store_->begin_grace(sha256(some_bytes(9, 4))));
+}
+
 TEST_F(ObjectStoreSuite, another_connection_sees_what_was_put) {
   const Bytes bytes = some_bytes(1'000, 8);
   put(bytes);

@@ -6,7 +6,8 @@ usage: crash.py BINARIES [KILLS [SEED]]
 
 Meanwhile it uploads, builds, publishes, caps, replaces, deletes and collects. After each start: every model's
 file is the one that its manifest names and verifies, an upload holds all that was acknowledged, every job
-ends, and after a collection the store holds what models name and nothing else.
+ends, no model that was made is missing unless it was to be deleted, and after a collection the store holds what
+models name and nothing else.
 """
 import hashlib
 import math
@@ -40,12 +41,28 @@ def torus(rings, sides):
     return "\n".join(lines).encode()
 
 
-class Work(threading.Thread):
-    """What an operator does until the daemon is gone. `uploads`: path -> [bytes, acknowledged]."""
+class Known:
+    """What the operator has been told, whichever daemon it was."""
 
-    def __init__(self, daemon, token, dice, uploads):
+    def __init__(self):
+        self.uploads = {}  # path -> [bytes, acknowledged]
+        self.ordered = set()  # uploads of which a model was to be made: they may be gone
+        self.jobs = set()  # that were accepted
+        self.made = set()  # models of jobs that were seen done
+        self.deleted = set()  # models that were to be deleted
+
+    def is_gone(self, path):
+        if path not in self.ordered:
+            raise AssertionError(f"{path} is lost: {self.uploads[path][1]} bytes of it were acknowledged")
+        del self.uploads[path]
+
+
+class Work(threading.Thread):
+    """What an operator does until the daemon is gone."""
+
+    def __init__(self, daemon, token, dice, known):
         super().__init__()
-        self.dice, self.uploads, self.fault = dice, uploads, None
+        self.dice, self.known, self.uploads, self.fault = dice, known, known.uploads, None
         self.client = Client(daemon, token, self.dice.randint(1, MOST))
 
     def run(self):
@@ -68,8 +85,8 @@ class Work(threading.Thread):
         for path in self.dice.sample(sorted(self.uploads), min(2, len(self.uploads))):
             mesh, sent = self.uploads[path]
             answer = self.client.tus("HEAD", path)
-            if answer.status == 404:  # a job has used it
-                del self.uploads[path]
+            if answer.status == 404:
+                self.known.is_gone(path)
                 continue
             offset = int(answer.getheader("Upload-Offset"))
             if offset < sent:
@@ -87,11 +104,15 @@ class Work(threading.Thread):
         whole = [path for path, (mesh, sent) in self.uploads.items() if sent == len(mesh)]
         if not whole:
             return
-        order = {"upload": self.dice.choice(whole).rsplit("/", 1)[1], "publish": self.dice.random() < 0.8,
+        path = self.dice.choice(whole)
+        order = {"upload": path.rsplit("/", 1)[1], "publish": self.dice.random() < 0.8,
                  "metadata": {"title": f"model {self.dice.random()}"}}
         if (models := self.models()) and self.dice.random() < 0.3:
             order["replace"] = self.dice.choice(models)
-        self.client.json("POST", "/api/v1/models", order)
+        self.known.ordered.add(path)
+        status, answer = self.client.json("POST", "/api/v1/models", order)
+        if status == 202:
+            self.known.jobs.add(answer["job"])
 
     def models(self):
         return [model["id"] for model in self.client.json("GET", "/api/v1/models?drafts=true")[1]["models"]]
@@ -104,7 +125,9 @@ class Work(threading.Thread):
 
     def delete(self):
         if len(models := self.models()) > 2:
-            self.client.json("DELETE", "/api/v1/models/" + self.dice.choice(models))
+            model = self.dice.choice(models)
+            self.known.deleted.add(model)
+            self.client.json("DELETE", "/api/v1/models/" + model)
 
 
 class Look:
@@ -113,9 +136,10 @@ class Look:
     def __init__(self, binaries, data):
         self.binaries, self.data, self.verified = binaries, data, set()
 
-    def at(self, client, uploads):
-        self.uploads(client, uploads)
-        self.until("a job does not end", lambda: self.jobs_have_ended(client))
+    def at(self, client, known):
+        self.uploads(client, known)
+        self.until("a job does not end", lambda: self.jobs_have_ended(client, known))
+        self.nothing_is_lost(client, known)
         names = self.models(client)
         if names is not None and not self.until_clean(client, names):
             raise AssertionError(f"orphans: {self.stored() ^ names}")
@@ -127,11 +151,11 @@ class Look:
                 raise AssertionError(what)
             time.sleep(0.02)
 
-    def uploads(self, client, uploads):
-        for path, (mesh, sent) in list(uploads.items()):
+    def uploads(self, client, known):
+        for path, (mesh, sent) in list(known.uploads.items()):
             answer = client.tus("HEAD", path)
-            if answer.status == 404 and sent == len(mesh):
-                del uploads[path]
+            if answer.status == 404:
+                known.is_gone(path)
                 continue
             offset = int(answer.getheader("Upload-Offset") or -1)
             held = (self.data / "uploads" / (path.rsplit("/", 1)[1] + ".part")).read_bytes()
@@ -139,12 +163,22 @@ class Look:
                 raise AssertionError(f"{path}: {sent} bytes were acknowledged, {offset} are there")
 
     @staticmethod
-    def jobs_have_ended(client):
+    def jobs_have_ended(client, known):
         jobs = client.json("GET", "/api/v1/jobs?limit=50")[1]["jobs"]
+        known.made.update(job["model"] for job in jobs if job["state"] == "done")
         for job in jobs:
             if job["state"] == "failed" and "gone" not in job["error"]:  # what it needs was used or deleted before
                 raise AssertionError(f"a job failed: {job}")
         return all(job["state"] in ("done", "failed", "cancelled") for job in jobs)
+
+    @staticmethod
+    def nothing_is_lost(client, known):
+        for model in known.made - known.deleted:
+            if client.json("GET", "/api/v1/models/" + model)[0] != 200:
+                raise AssertionError(f"model {model} is lost")
+        for job in known.jobs:
+            if client.json("GET", "/api/v1/jobs/" + job)[0] != 200:
+                raise AssertionError(f"job {job} is lost")
 
     def models(self, client):
         """The objects that models name."""
@@ -200,7 +234,7 @@ def main():
     kills = int(sys.argv[2]) if len(sys.argv) > 2 else 20
     seed = int(sys.argv[3]) if len(sys.argv) > 3 else random.SystemRandom().randrange(1 << 32)
     print(f"{kills} kills, seed {seed}", flush=True)
-    dice, uploads = random.Random(seed), {}
+    dice, known = random.Random(seed), Known()
     with tempfile.TemporaryDirectory(prefix="vitrine-") as folder:
         data = Path(folder) / "data"
         data.mkdir()
@@ -209,8 +243,8 @@ def main():
         for _ in range(kills):
             daemon = Daemon(binaries, data)
             try:
-                look.at(Client(daemon, token), uploads)
-                work = Work(daemon, token, random.Random(dice.random()), uploads)
+                look.at(Client(daemon, token), known)
+                work = Work(daemon, token, random.Random(dice.random()), known)
                 work.start()
                 work.client.enough.wait(PATIENCE)
                 time.sleep(dice.uniform(0, LONGEST))
@@ -224,10 +258,10 @@ def main():
                 raise work.fault
         daemon = Daemon(binaries, data)
         try:
-            look.at(Client(daemon, token), uploads)
+            look.at(Client(daemon, token), known)
         finally:
             code = daemon.stop()
-        print(f"ok: {len(look.verified)} files verified, {len(uploads)} uploads open")
+        print(f"ok: {len(look.verified)} files verified, {len(known.made - known.deleted)} models kept, {len(known.uploads)} uploads open")
         return code if look.verified else "no model was made"
 
 

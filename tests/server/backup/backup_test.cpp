@@ -4,14 +4,17 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <atomic>
 #include <fstream>
 #include <thread>
 
+#include "server/backup/checksums.h"
 #include "server/backup/tar.h"
+#include "server/catalogue/snapshot.h"
+#include "server/store/change.h"
 #include "server/store/installation.h"
-#include "server/store/publish.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
@@ -48,6 +51,14 @@ class BackupTest : public ::testing::Test {
     if (!done) throw std::runtime_error(done.error().message);
     return done->id;
   }
+  // The same with less of it public than there is.
+  ModelId publish_capped(const std::string& title) {
+    ModelRecord model = installation.catalogue->find(publish(title)).value().value();
+    model.public_part = PublicPart{.max_level = 0};
+    const auto done = change(*installation.store, *installation.catalogue, model);
+    if (!done) throw std::runtime_error(done.error().message);
+    return done->id;
+  }
   fs::path path(const std::string& name) const { return folder.path() / name; }
 
   // What restoring says, and that it leaves nothing behind.
@@ -64,7 +75,8 @@ class BackupTest : public ::testing::Test {
 };
 
 TEST_F(BackupTest, WhatIsRestoredIsWhatThereWas) {
-  const ModelId shown = publish("Shown"), draft = publish("Draft", ModelState::kDraft);
+  const ModelId shown = publish("Shown"), draft = publish("Draft", ModelState::kDraft),
+                capped = publish_capped("Capped");
   ASSERT_TRUE(installation.catalogue->add_token(
       {.id = ModelId::generate(), .role = Role::kAdmin, .hash = Sha256{7}, .label = "door"}));
   fs::create_directories(data / "scans/one");
@@ -72,24 +84,64 @@ TEST_F(BackupTest, WhatIsRestoredIsWhatThereWas) {
   write(data / "scans/one/.half.part", "not yet");
   const auto report = back_up(data, tar);
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_EQ(report->models, 2u);
-  EXPECT_EQ(report->files, 4u);
+  EXPECT_EQ(report->models, 3u);
+  EXPECT_EQ(report->files, 6u);
   const auto restored = restore(tar, path("again"));
   ASSERT_TRUE(restored) << restored.error().message;
-  EXPECT_EQ(restored->models, 2u);
+  EXPECT_EQ(restored->models, 3u);
   EXPECT_EQ(restored->bytes, report->bytes);
   Installation again = open_installation(path("again")).value();
-  for (const ModelId& id : {shown, draft}) {
+  const auto bytes_of = [](const Installation& in, const ModelRecord& model) {
+    return in.store->open(model.file).value()->read(0, model.file_bytes).value();
+  };
+  for (const ModelId& id : {shown, draft, capped}) {
     const ModelRecord before = installation.catalogue->find(id).value().value();
     const ModelRecord after = again.catalogue->find(id).value().value();
     EXPECT_EQ(after.title, before.title);
     EXPECT_EQ(after.state, before.state);
-    EXPECT_EQ(again.store->open(after.file).value()->read(0, after.file_bytes).value(),
-              installation.store->open(before.file).value()->read(0, before.file_bytes).value());
+    EXPECT_EQ(bytes_of(again, after), bytes_of(installation, before));
+    EXPECT_EQ(bytes_of(again, public_view(after)), bytes_of(installation, public_view(before)));
   }
   EXPECT_EQ(again.catalogue->tokens_like(Sha256{7}).value().size(), 1u);
   EXPECT_EQ(slurp(path("again/scans/one/profiles")), "measured");
   EXPECT_FALSE(fs::exists(path("again/scans/one/.half.part")));
+}
+
+TEST_F(BackupTest, OneThatLacksWhatIsPublicOfAModelIsRefused) {
+  const ModelId id = publish_capped("Capped");
+  ASSERT_TRUE(back_up(data, tar));
+  const std::string hex =
+      to_hex(installation.catalogue->find(id).value().value().public_part.value().file);
+  auto reader = TarReader::open(tar).value();
+  auto writer = TarWriter::create(path("less.tar")).value();
+  for (auto entry = reader.next().value(); entry; entry = reader.next().value()) {
+    if (entry->name.ends_with(hex)) continue;
+    std::string text(entry->bytes.begin(), entry->bytes.end());
+    if (entry->name == kChecksums) {
+      const std::size_t end = text.find(hex + "\n") + hex.size() + 1;
+      text.erase(text.rfind('\n', end - 2) + 1, end - text.rfind('\n', end - 2) - 1);
+    }
+    ASSERT_TRUE(writer.add(entry->name, to_bytes(text)));
+  }
+  ASSERT_TRUE(writer.finish());
+  EXPECT_THAT(fault_of_restoring(path("less.tar")),
+              HasSubstr("the file of model " + id.to_string() + " is missing"));
+}
+
+TEST_F(BackupTest, IsForItsOwnerAloneFromItsFirstByteOn) {
+  publish("Shown");
+  const mode_t mask = ::umask(0);
+  const auto done = back_up(data, tar);
+  const auto copied = snapshot_sqlite(data / kCatalogueFile, path("copy"));
+  auto unfinished = TarWriter::create(path("unfinished.tar"));
+  ::umask(mask);
+  ASSERT_TRUE(done && copied && unfinished);
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    if (entry.is_directory()) continue;
+    EXPECT_EQ(entry.status().permissions(), fs::perms::owner_read | fs::perms::owner_write)
+        << entry.path();
+  }
+  EXPECT_EQ(names_in(folder.path()).size(), 4u);
 }
 
 TEST_F(BackupTest, OrdinaryToolsReadAndCheckIt) {

@@ -36,13 +36,23 @@ TEST_F(Migrations, a_scan_of_an_older_version_does_not_know_its_rows) {
   ASSERT_TRUE(open_sqlite_jobs(file_).value()->add({.id = scan.job}, scan, {}));
   run("ALTER TABLE scan DROP COLUMN empty_rows; ALTER TABLE scan DROP COLUMN saturated_rows;"
       "ALTER TABLE scan DROP COLUMN doubled_rows; DELETE FROM migration WHERE version >= 4;"
-      "ALTER TABLE job DROP COLUMN webhook; ALTER TABLE model DROP COLUMN more;"
+      "ALTER TABLE job DROP COLUMN webhook; ALTER TABLE job DROP COLUMN attempts;"
+      "ALTER TABLE job DROP COLUMN told; ALTER TABLE model DROP COLUMN more;"
       "ALTER TABLE model DROP COLUMN accuracy; ALTER TABLE model DROP COLUMN version;"
       "ALTER TABLE model DROP COLUMN public_max_level; ALTER TABLE model DROP COLUMN public_file;"
       "ALTER TABLE model DROP COLUMN public_file_bytes;"
       "ALTER TABLE model DROP COLUMN public_head_bytes;"
       "ALTER TABLE model DROP COLUMN public_faces; ALTER TABLE model DROP COLUMN public_vertices");
   EXPECT_EQ(open_sqlite_jobs(file_).value()->find_scan(scan.id).value(), scan);
+}
+
+TEST_F(Migrations, nobody_is_told_of_what_ended_before_that_was_kept) {
+  const JobRecord ended{.id = JobId::generate(), .state = JobState::kDone, .webhook = "http://a/"};
+  ASSERT_TRUE(open_sqlite_jobs(file_).value()->add(ended, {}, {}));
+  EXPECT_EQ(open_sqlite_jobs(file_).value()->untold_jobs().value().size(), 1u);
+  run("ALTER TABLE job DROP COLUMN attempts; ALTER TABLE job DROP COLUMN told;"
+      "DELETE FROM migration WHERE version >= 6");
+  EXPECT_TRUE(open_sqlite_jobs(file_).value()->untold_jobs().value().empty());
 }
 
 TEST_F(Migrations, a_catalogue_of_a_newer_version_is_refused_and_left_alone) {

@@ -22,7 +22,7 @@ class LocalServer {
                        std::vector<std::unique_ptr<ScannerBackend>> scanners = {})
       : scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, log_,
                 folder_.path(), VITRINE_BIN_DIR "/vitrined", std::chrono::seconds(10),
-                [this](JobRun& run) { return publishing_.work(run); }},
+                [this](JobRun& run) { return publishing_.work(run); }, &quota_},
                std::move(scanners)),
         metrics_(Router(routes).templates()),
         server_(io_, services_, workers_,

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <fstream>
+#include <future>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "codec/export/write_mesh.h"
@@ -162,6 +166,9 @@ TEST_F(ModelOrders, ARequestThatIsRepeatedWithItsKeyMakesOneModel) {
   const HttpAnswer again = ask("POST", "/models", operator_, order, "Idempotency-Key: k\r\n");
   EXPECT_EQ(again.status, 202);
   EXPECT_EQ(again.field("location"), first.field("location"));
+  const json other = {{"upload", order["upload"]}, {"publish", true}};
+  EXPECT_EQ(fault_of(ask("POST", "/models", operator_, other, "Idempotency-Key: k\r\n")),
+            "Idempotency-Key");
   EXPECT_EQ(json::parse(ask("GET", "/models?drafts=true", operator_).body)["models"].size(), 1u);
 }
 
@@ -202,6 +209,97 @@ TEST_F(ModelOrders, TextsAreChangedWhereTheModelIsTheOneThatWasRead) {
   EXPECT_EQ(fault_of(ask("PATCH", path, operator_, {{"title", "two\nlines"}})), "title");
   EXPECT_EQ(ask("PATCH", path, server_.bearer(Role::kViewer), {{"title", "x"}}).status, 403);
   EXPECT_EQ(ask("PATCH", path, "", {{"title", "x"}}).status, 401);
+}
+
+TEST_F(ModelOrders, TheTagIsAnotherWithEachChangeThoughTheTextsAreThoseOfBefore) {
+  const std::string id = publish(mesh_, {{"metadata", {{"title", "Ring"}}}}),
+                    path = "/models/" + id;
+  const HttpAnswer before = ask("GET", path, "");
+  for (const char* title : {"Hoop", "Ring"})
+    EXPECT_EQ(ask("PATCH", path, operator_, {{"title", title}}).status, 200);
+  const HttpAnswer after = ask("GET", path, "");
+  EXPECT_EQ(after.body, before.body);
+  EXPECT_NE(after.field("etag"), before.field("etag"));
+}
+
+TEST_F(ModelOrders, OfThoseWhoHaveReadTheSameStateOneChangesIt) {
+  const std::string id = publish(mesh_), path = "/models/" + id;
+  for (int round = 0; round < 5; ++round) {
+    const std::string read = "If-Match: " + ask("GET", path, operator_).field("etag") + "\r\n";
+    std::vector<std::future<unsigned>> answers;
+    for (int i = 0; i < 6; ++i) {
+      answers.push_back(std::async(std::launch::async, [&, i] {
+        return static_cast<unsigned>(
+            ask("PATCH", path, operator_, {{"title", "by " + std::to_string(i)}}, read).status);
+      }));
+    }
+    std::map<unsigned, int> count;
+    for (auto& answer : answers)
+      ++count[answer.get()];
+    EXPECT_EQ(count, (std::map<unsigned, int>{{200, 1}, {412, 5}}));
+  }
+}
+
+TEST_F(ModelOrders, AFaultOfTheFileIsNotOneOfTheKey) {
+  const std::string id = publish(mesh_);
+  const Sha256 name = server_.catalogue().find(*ModelId::parse(id)).value().value().file;
+  const std::string hex = to_hex(name);
+  std::fstream(server_.data() / "objects" / hex.substr(0, 2) / hex.substr(2, 2) / hex,
+               std::ios::in | std::ios::out | std::ios::binary)
+      .seekp(-9, std::ios::end)
+      .write("damaged", 7);
+  const HttpAnswer answer = ask("PATCH", "/models/" + id, operator_, {{"unit", "in"}});
+  EXPECT_EQ(answer.status, 422) << answer.body;
+  EXPECT_FALSE(json::parse(answer.body).contains("errors"));
+  EXPECT_THAT(answer.body, HasSubstr("SHA-256"));
+}
+
+TEST_F(ModelOrders, WhatIsPublicOfAModelHasToFitIntoTheQuota) {
+  const std::string id = publish(mesh_);
+  for (int i = 0; i < 3; ++i) {
+    const std::string size = std::to_string(i < 2 ? 1 << 20 : (1 << 20) - 100'000);
+    EXPECT_EQ(send("POST", "/uploads",
+                   operator_ + "Tus-Resumable: 1.0.0\r\nUpload-Length: " + size + "\r\n", "")
+                  .status,
+              201);
+  }
+  std::size_t filled = 0;  // up to the last byte
+  const HttpAnswer full = send(
+      "POST", "/uploads",
+      server_.bearer(Role::kOperator) + "Tus-Resumable: 1.0.0\r\nUpload-Length: 1000000\r\n", "");
+  EXPECT_EQ(full.status, 507);
+  EXPECT_THAT(full.body, HasSubstr(" of 3145728 bytes are taken; delete models or uploads"));
+  std::sscanf(json::parse(full.body)["detail"].get<std::string>().c_str(),
+              "1000000 bytes do not fit: %zu", &filled);
+  EXPECT_EQ(send("POST", "/uploads",
+                 server_.bearer(Role::kOperator) + "Tus-Resumable: 1.0.0\r\nUpload-Length: " +
+                     std::to_string((3 << 20) - filled) + "\r\n",
+                 "")
+                .status,
+            201);
+  const HttpAnswer answer = ask("PATCH", "/models/" + id, operator_, {{"public_max_level", 0}});
+  EXPECT_EQ(answer.status, 507) << answer.body;
+  EXPECT_THAT(json::parse(answer.body)["detail"].get<std::string>(),
+              HasSubstr("3145728 of 3145728 bytes are taken"));
+  EXPECT_EQ(model(id)["public_max_level"], nullptr);
+}
+
+TEST_F(ModelOrders, AnUploadThatAJobWaitsForIsNotDeleted) {
+  std::promise<void> go;
+  server_.scans().jobs().lane("").post([waits = go.get_future().share()] { waits.wait(); });
+  const std::string id = upload(mesh_);
+  const HttpAnswer order = ask("POST", "/models", operator_, {{"upload", id}});
+  const std::string job = json::parse(order.body)["job"];
+  const auto remove = [&] {
+    return send("DELETE", "/uploads/" + id, operator_ + "Tus-Resumable: 1.0.0\r\n", "");
+  };
+  const HttpAnswer refused = remove();
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_THAT(refused.body, HasSubstr("job " + job + " needs the upload"));
+  EXPECT_EQ(ask("DELETE", "/jobs/" + job, operator_).status, 202);
+  EXPECT_EQ(remove().status, 204);
+  go.set_value();
+  settle();
 }
 
 TEST_F(ModelOrders, AnotherUnitIsInTheFileToo) {

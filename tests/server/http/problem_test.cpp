@@ -32,6 +32,11 @@ TEST(Problem, KeepsTheReasonOfAServerErrorToItself) {
   EXPECT_THAT(body, Not(HasSubstr("secret")));
 }
 
+TEST(Problem, SaysWhatThereIsNoRoomFor) {
+  EXPECT_THAT(text(problem(507, "7 of 9 bytes are taken", "42")),
+              HasSubstr("\"detail\":\"7 of 9 bytes are taken\""));
+}
+
 TEST(Problem, IsValidJsonWhateverBytesTheDetailHolds) {
   EXPECT_THAT(text(problem(400, "\xff\"\n", "42")), HasSubstr("\xEF\xBF\xBD\\\"\\n"));
 }

@@ -24,7 +24,7 @@ class Gate {
  public:
   Expected<JobEnd> pass(JobRun& run) {
     bool asked = false;
-    run.when_asked([&] {
+    const Reaction reaction(run, [&] {
       const std::scoped_lock lock(mutex_);
       asked = true;
       changed_.notify_all();
@@ -36,7 +36,6 @@ class Gate {
       changed_.wait(lock, [&] { return open_ || asked; });
       open_ = false;
     }
-    run.when_asked({});
     return run.wish() == JobWish::kNone ? JobEnd::kDone : JobEnd::kPutAside;
   }
   void open() {
@@ -257,6 +256,49 @@ TEST_F(Jobs, what_ran_when_the_daemon_was_killed_goes_on_at_the_next_start) {
   ASSERT_TRUE(queue->start());
   settle(*queue);
   EXPECT_EQ(stored(killed), JobState::kDone);
+}
+
+TEST_F(Jobs, what_three_daemons_have_died_at_has_failed) {
+  JobRecord killed = job_for("a");
+  killed.state = JobState::kRunning;
+  killed.attempts = 1;
+  ASSERT_TRUE(catalogue_->add(killed, {}, {}));
+  for (std::uint32_t died = 1; died <= 3; ++died) {
+    std::string told;
+    const auto queue = gated();
+    queue->when_ended([&](const JobStatus& job) { told = job.record.error; });
+    ASSERT_TRUE(queue->start());
+    if (died == 3) {
+      EXPECT_NE(told.find("the daemon died 3 times at work on this"), std::string::npos) << told;
+      EXPECT_EQ(stored(killed), JobState::kFailed);
+      break;
+    }
+    gate_.await_beginning(static_cast<int>(died));
+    JobRecord left = catalogue_->find_job(killed.id).value().value();
+    EXPECT_EQ(left.attempts, died + 1);
+    queue->stop();  // in order: that it does not do when it dies
+    EXPECT_EQ(catalogue_->find_job(killed.id).value()->attempts, 0u);
+    ASSERT_TRUE(catalogue_->update(left));
+  }
+}
+
+TEST_F(Jobs, nothing_reacts_to_a_wish_once_what_would_is_gone) {
+  bool reacted = false;
+  const auto queue = queue_of([&](JobRun& run) -> Expected<JobEnd> {
+    try {
+      const Reaction reaction(run, [&] { reacted = true; });
+      throw std::bad_alloc();
+    } catch (const std::bad_alloc&) {
+    }
+    return gate_.pass(run);
+  });
+  const JobRecord job = job_for("a");
+  ASSERT_TRUE(queue->add(job, {}, {}));
+  gate_.await_beginning();
+  ASSERT_TRUE(queue->cancel(job.id));
+  settle(*queue);
+  EXPECT_EQ(stored(job), JobState::kCancelled);
+  EXPECT_FALSE(reacted);
 }
 
 TEST_F(Jobs, a_job_that_was_being_paused_stays_paused_when_the_daemon_stops) {

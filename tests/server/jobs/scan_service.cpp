@@ -23,10 +23,16 @@ class Scans : public testing::Test {
   void start(std::chrono::milliseconds patience = std::chrono::hours(1)) {
     std::vector<std::unique_ptr<ScannerBackend>> backends;
     backends.push_back(std::make_unique<test::FakeBackend>(world_));
-    service_ = std::make_unique<ScanService>(
-        ScanMeans{*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
-                  folder_.path(), VITRINE_BIN_DIR "/vitrined", patience},
-        std::move(backends));
+    service_ = std::make_unique<ScanService>(ScanMeans{*installation_.store,
+                                                       *installation_.catalogue,
+                                                       *installation_.jobs,
+                                                       events_,
+                                                       folder_.path(),
+                                                       VITRINE_BIN_DIR "/vitrined",
+                                                       patience,
+                                                       {},
+                                                       quota_.get()},
+                                             std::move(backends));
     ASSERT_TRUE(service_->start());
   }
   void settle() {
@@ -54,6 +60,8 @@ class Scans : public testing::Test {
   test::TemporaryFolder folder_;
   Installation installation_ = open_installation(folder_.path()).value();
   const Log events_ = Log::open("").value();
+  const Uploads uploads_{folder_.path() / "uploads", {}};
+  std::unique_ptr<Quota> quota_;
   std::unique_ptr<ScanService> service_;
 };
 
@@ -73,6 +81,18 @@ TEST_F(Scans, a_scan_ends_in_a_draft_that_has_the_operators_words) {
   EXPECT_EQ(model->title, "A ring");
   EXPECT_EQ(model->unit, "mm");
   EXPECT_FALSE(world_.laser);
+}
+
+TEST_F(Scans, a_model_that_does_not_fit_into_the_quota_is_not_made) {
+  quota_ = std::make_unique<Quota>(*installation_.catalogue, uploads_, 10);
+  start();
+  const ScanStarted started = begin(order_);
+  settle();
+  const JobRecord job = info(started.scan).job.record;
+  EXPECT_EQ(job.state, JobState::kFailed);
+  EXPECT_NE(job.error.find("bytes do not fit: 0 of 10 bytes are taken"), std::string::npos)
+      << job.error;
+  EXPECT_TRUE(installation_.catalogue->search({.drafts = true}).value().models.empty());
 }
 
 TEST_F(Scans, a_scan_is_published_where_that_was_ordered) {

@@ -1,56 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/webhooks.h"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
+#include <future>
 #include <string>
 
-#include "codec/files/file_descriptor.h"
+#include "server/remote/remote_server.h"
+#include "support/webhook_listener.h"
 
 namespace vitrine {
 namespace {
 
+using test::WebhookListener;
 using testing::HasSubstr;
 
-// The museum's own server: hears one request at a time.
-class Listener {
- public:
-  Listener() : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
-    EXPECT_EQ(::listen(socket_.get(), 8), 0);
-    EXPECT_EQ(::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
-    host_ = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
-  }
-  const std::string& host() const { return host_; }
-
-  std::string hear(const std::string& status) {
-    const FileDescriptor peer(::accept(socket_.get(), nullptr, nullptr));
-    std::string request;
-    char buffer[1024];
-    while (!request.ends_with("}")) {
-      const ssize_t n = ::read(peer.get(), buffer, sizeof buffer);
-      if (n <= 0) break;
-      request.append(buffer, static_cast<std::size_t>(n));
-    }
-    const std::string answer =
-        "HTTP/1.1 " + status + "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
-    EXPECT_EQ(::write(peer.get(), answer.data(), answer.size()),
-              static_cast<ssize_t>(answer.size()));
-    return request;
-  }
-
- private:
-  FileDescriptor socket_;
-  std::string host_;
-};
+std::string url_of(const WebhookListener& listener, const std::string& path = "/told") {
+  return "http://" + listener.host() + path;
+}
 
 TEST(Webhooks, OnlyHostsThatAreNamedAreTold) {
   const Log log = Log::open("").value();
@@ -67,26 +35,53 @@ TEST(Webhooks, OnlyHostsThatAreNamedAreTold) {
 
 TEST(Webhooks, AreTriedAgainUntilTheyAreTaken) {
   const Log log = Log::open("").value();
-  Listener listener;
+  WebhookListener listener;
+  std::promise<void> done;
   Webhooks hooks({listener.host()}, log);
-  hooks.tell("http://" + listener.host() + "/told", R"({"state":"done"})");
+  hooks.tell(url_of(listener), R"({"state":"done"})", [&] { done.set_value(); });
   const std::string first = listener.hear("503 Busy");
   EXPECT_THAT(first, HasSubstr("POST /told HTTP/1.1\r\n"));
   EXPECT_THAT(first, HasSubstr("Content-Type: application/json\r\n"));
   EXPECT_TRUE(first.ends_with("\r\n\r\n{\"state\":\"done\"}"));
   EXPECT_EQ(listener.hear("204 Taken"), first);
-  hooks.tell("http://" + listener.host() + "/next", "{}");
+  done.get_future().wait();
+  hooks.tell(url_of(listener, "/next"), "{}", [] {});
   EXPECT_THAT(listener.hear("200 OK"), HasSubstr("POST /next"));
+}
+
+TEST(Webhooks, AServerThatDoesNotAnswerHoldsUpNoOther) {
+  const Log log = Log::open("").value();
+  WebhookListener dead, other;
+  std::atomic<bool> given_up = false;
+  Webhooks hooks({dead.host(), other.host()}, log);
+  hooks.tell(url_of(dead), "{}", [&] { given_up = true; });
+  std::string request;
+  const FileDescriptor peer = dead.accept(request);
+  hooks.tell(url_of(other), "{}", [] {});
+  EXPECT_THAT(other.hear("200 OK"), HasSubstr("POST /told"));
+  EXPECT_FALSE(given_up);
+  hooks.stop();
+  EXPECT_FALSE(given_up) << "it is for the next daemon to tell";
+}
+
+TEST(Webhooks, ARequestThatIsGivenUpEnds) {
+  WebhookListener dead;
+  RemoteServer server;
+  const auto answer = server.ask({.url = url_of(dead), .given_up = [] { return true; }});
+  ASSERT_FALSE(answer);
+  EXPECT_THAT(answer.error().message, HasSubstr("aborted"));
 }
 
 TEST(Webhooks, DoNotHoldUpTheEnd) {
   const Log log = Log::open("").value();
-  Listener listener;
+  WebhookListener listener;
+  std::atomic<int> done = 0;
   Webhooks hooks({listener.host()}, log);
   for (int i = 0; i < 10; ++i)
-    hooks.tell("http://" + listener.host() + "/told", "{}");
+    hooks.tell(url_of(listener), "{}", [&] { ++done; });
   listener.hear("500 No");
   hooks.stop();  // and does not try the others
+  EXPECT_EQ(done, 0);
 }
 
 }  // namespace

@@ -66,6 +66,17 @@ TEST_F(FileStoreTest, a_folder_that_cannot_be_made_is_named) {
   EXPECT_NE(store.error().message.find("file/objects"), std::string::npos);
 }
 
+TEST_F(FileStoreTest, what_is_damaged_is_replaced_where_it_is_put_again) {
+  EXPECT_TRUE(store_.put(name_, bytes_).value());
+  EXPECT_FALSE(store_.put(name_, bytes_).value());
+  std::ofstream(path()) << "an 0bject";
+  EXPECT_TRUE(store_.put(name_, bytes_).value());
+  EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+  fs::resize_file(path(), 3);
+  EXPECT_TRUE(store_.put(name_, bytes_).value());
+  EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+}
+
 TEST_F(FileStoreTest, a_sweep_takes_what_a_crash_left_half_written) {
   ASSERT_TRUE(store_.put(name_, bytes_));
   const fs::path left = path().parent_path() / ".half.part";
@@ -75,12 +86,19 @@ TEST_F(FileStoreTest, a_sweep_takes_what_a_crash_left_half_written) {
   EXPECT_TRUE(fs::exists(path()));
 }
 
-TEST_F(FileStoreTest, an_object_that_is_put_again_has_its_grace_anew) {
+TEST_F(FileStoreTest, an_object_that_is_put_again_or_loses_its_name_has_its_grace_anew) {
   ASSERT_TRUE(store_.put(name_, bytes_));
-  fs::last_write_time(path(), fs::file_time_type::clock::now() - std::chrono::hours(2));
+  const auto grow_old = [&] {
+    fs::last_write_time(path(), fs::file_time_type::clock::now() - std::chrono::hours(2));
+  };
+  grow_old();
   ASSERT_TRUE(store_.put(name_, bytes_));
   EXPECT_EQ(store_.sweep({}, std::chrono::hours(1)).value(), 0u);
-  EXPECT_TRUE(fs::exists(path()));
+  grow_old();
+  ASSERT_TRUE(store_.begin_grace(name_));
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1)).value(), 0u);
+  grow_old();
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1)).value(), 1u);
 }
 
 }  // namespace

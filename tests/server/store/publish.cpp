@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <set>
 
 #include "server/catalogue/sqlite_catalogue.h"
+#include "server/store/change.h"
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
@@ -40,6 +44,69 @@ class Publish : public testing::Test {
   std::size_t model_count() { return catalogue_->search({.drafts = true}).value().models.size(); }
 };
 
+// Hands all on: for catalogues that differ in one thing.
+class CatalogueBefore : public Catalogue {
+ public:
+  explicit CatalogueBefore(Catalogue& before) : before_(before) {}
+
+  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
+    return before_.add(model, chunks);
+  }
+  Expected<void> set_state(const ModelId& id, ModelState state) override {
+    return before_.set_state(id, state);
+  }
+  Expected<void> update(const ModelRecord& model,
+                        std::optional<std::span<const ChunkPlace>> chunks) override {
+    return before_.update(model, chunks);
+  }
+  Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) override {
+    return before_.remove(id, version);
+  }
+  Expected<std::vector<NamedFile>> files() override { return before_.files(); }
+  Expected<std::vector<TokenRecord>> tokens() override { return before_.tokens(); }
+  Expected<std::optional<ModelRecord>> find(const ModelId& id) override { return before_.find(id); }
+  Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) override {
+    return before_.find_same(model);
+  }
+  Expected<ModelPage> search(const ModelQuery& query) override { return before_.search(query); }
+  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
+    return before_.find_chunk(chunk);
+  }
+  Expected<void> add_token(const TokenRecord& token) override { return before_.add_token(token); }
+  Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
+    return before_.tokens_like(hash);
+  }
+  Expected<void> revoke_token(const ModelId& id) override { return before_.revoke_token(id); }
+  Expected<std::uint64_t> revision() override { return before_.revision(); }
+
+ protected:
+  Catalogue& before_;
+};
+
+// As on a disk that is full by then.
+class FullCatalogue final : public CatalogueBefore {
+ public:
+  using CatalogueBefore::CatalogueBefore;
+  Expected<void> add(const ModelRecord&, std::span<const ChunkPlace>) override {
+    return fail(ErrorCode::kIo, "the disk is full; free some space");
+  }
+};
+
+// Somebody is always faster: as soon as a chunk was found, its model changes.
+class HastyCatalogue final : public CatalogueBefore {
+ public:
+  HastyCatalogue(Catalogue& before, std::function<void()> change)
+      : CatalogueBefore(before), change_(std::move(change)) {}
+  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
+    auto found = before_.find_chunk(chunk);
+    change_();
+    return found;
+  }
+
+ private:
+  const std::function<void()> change_;
+};
+
 TEST_F(Publish, a_published_model_serves_its_head_its_chunks_and_its_file) {
   const auto id = publish(store_, *catalogue_, file_.bytes, {.title = "A head"});
   ASSERT_TRUE(id) << id.error().message;
@@ -61,6 +128,80 @@ TEST_F(Publish, base_and_chunks_are_found_by_hash_before_the_model_was_opened) {
   EXPECT_EQ(served(sha256(test::to_bytes("another"))), Bytes{});
 }
 
+TEST_F(Publish, a_chunk_of_a_model_that_is_replaced_meanwhile_is_that_chunk_or_none) {
+  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value().id;
+  const auto same_chunk = test::tiny_pmesh("a longer base", "a chunk").bytes;
+  const auto other_chunk = test::tiny_pmesh("the base", "a chink").bytes;
+  for (const auto& [next, expected] :
+       {std::pair(same_chunk, test::to_bytes("a chunk")), std::pair(other_chunk, Bytes{})}) {
+    HastyCatalogue hasty(*catalogue_,
+                         [&] { ASSERT_TRUE(replace(store_, *catalogue_, next, {}, {.id = id})); });
+    PublishedModels models(store_, hasty);
+    const auto found = models.find_chunk(sha256(test::to_bytes("a chunk"))).value();
+    EXPECT_EQ(found.model ? found.model->read(found.range).value() : Bytes{}, expected);
+  }
+}
+
+TEST_F(Publish, a_damaged_file_is_served_whole_once_it_was_published_again) {
+  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value().id;
+  const Sha256 chunk = sha256(test::to_bytes("a chunk"));
+  std::filesystem::path path;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(folder_.path() / "objects"))
+    if (entry.is_regular_file()) path = entry.path();
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::ate | std::ios::binary)
+      .seekp(-1, std::ios::end)
+      .put('!');
+  EXPECT_NE(served(chunk), test::to_bytes("a chunk"));
+  EXPECT_EQ(publish(store_, *catalogue_, file_.bytes, {}).value().id, id);
+  EXPECT_EQ(served(chunk), test::to_bytes("a chunk"));
+}
+
+TEST_F(Publish, what_loses_its_name_is_kept_for_the_grace_from_then_on) {
+  constexpr std::chrono::hours kGrace{1};
+  const auto unnamed = [&] {  // what is past its grace now, with all objects two hours old before
+    const auto files = catalogue_->files().value();
+    std::set<Sha256> named;
+    for (const NamedFile& file : files)
+      named.insert(file.file);
+    return store_.sweep(named, kGrace).value();
+  };
+  const auto grow_old = [&] {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(folder_.path() / "objects"))
+      if (entry.is_regular_file())
+        std::filesystem::last_write_time(
+            entry.path(), std::filesystem::file_time_type::clock::now() - 2 * kGrace);
+  };
+  const ModelId id = publish(store_, *catalogue_, file_.bytes, {}).value().id;
+  const auto change_to = [&](std::optional<PublicPart> part) {
+    ModelRecord model = catalogue_->find(id).value().value();
+    model.public_part = part;
+    grow_old();
+    ASSERT_TRUE(change(store_, *catalogue_, model));
+  };
+  change_to(PublicPart{.max_level = 0});
+  change_to(std::nullopt);
+  EXPECT_EQ(unnamed(), 0u) << "what was public of it";
+  grow_old();
+  EXPECT_EQ(unnamed(), 1u);
+  const auto other = test::tiny_pmesh("another base", "a chunk").bytes;
+  grow_old();
+  ASSERT_TRUE(replace(store_, *catalogue_, other, {}, {.id = id}));
+  EXPECT_EQ(unnamed(), 0u) << "what was replaced";
+  grow_old();
+  EXPECT_EQ(unnamed(), 1u);
+  grow_old();
+  const std::uint64_t version = catalogue_->find(id).value().value().version;
+  EXPECT_EQ(remove(store_, *catalogue_, id, version - 1).error().code, ErrorCode::kState);
+  EXPECT_TRUE(catalogue_->find(id).value());
+  ASSERT_TRUE(remove(store_, *catalogue_, id, version));
+  EXPECT_EQ(unnamed(), 0u) << "what was removed";
+  grow_old();
+  EXPECT_EQ(unnamed(), 1u);
+  EXPECT_EQ(remove(store_, *catalogue_, id, std::nullopt).error().code, ErrorCode::kState);
+}
+
 TEST_F(Publish, a_damaged_chunk_is_refused_and_no_model_appears) {
   file_.bytes.back() ^= 1;
   const auto id = publish(store_, *catalogue_, file_.bytes, {});
@@ -69,43 +210,6 @@ TEST_F(Publish, a_damaged_chunk_is_refused_and_no_model_appears) {
   EXPECT_EQ(model_count(), 0u);
   EXPECT_EQ(object_count(), 0u);
 }
-
-// As on a disk that is full by then.
-class FullCatalogue final : public Catalogue {
- public:
-  explicit FullCatalogue(Catalogue& before) : before_(before) {}
-
-  Expected<void> add(const ModelRecord&, std::span<const ChunkPlace>) override {
-    return fail(ErrorCode::kIo, "the disk is full; free some space");
-  }
-  Expected<void> set_state(const ModelId& id, ModelState state) override {
-    return before_.set_state(id, state);
-  }
-  Expected<void> update(const ModelRecord& model,
-                        std::optional<std::span<const ChunkPlace>> chunks) override {
-    return before_.update(model, chunks);
-  }
-  Expected<void> remove(const ModelId& id) override { return before_.remove(id); }
-  Expected<std::vector<NamedFile>> files() override { return before_.files(); }
-  Expected<std::vector<TokenRecord>> tokens() override { return before_.tokens(); }
-  Expected<std::optional<ModelRecord>> find(const ModelId& id) override { return before_.find(id); }
-  Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) override {
-    return before_.find_same(model);
-  }
-  Expected<ModelPage> search(const ModelQuery& query) override { return before_.search(query); }
-  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
-    return before_.find_chunk(chunk);
-  }
-  Expected<void> add_token(const TokenRecord& token) override { return before_.add_token(token); }
-  Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
-    return before_.tokens_like(hash);
-  }
-  Expected<void> revoke_token(const ModelId& id) override { return before_.revoke_token(id); }
-  Expected<std::uint64_t> revision() override { return before_.revision(); }
-
- private:
-  Catalogue& before_;
-};
 
 TEST_F(Publish, a_catalogue_that_refuses_leaves_no_object_behind) {
   FullCatalogue full(*catalogue_);

@@ -89,6 +89,20 @@ TEST_F(UploadsTest, a_sweep_takes_what_interrupted_calls_have_left) {
   EXPECT_TRUE(uploads_.find(made.id));
 }
 
+TEST_F(UploadsTest, a_sweep_leaves_what_it_cannot_read) {
+  const Upload made = uploads_.create(token(1), 2, "").value();
+  const fs::path about = folder_.path() / "uploads" / (made.id.to_string() + ".json");
+  fs::rename(about, folder_.path() / "aside");
+  fs::create_directory(about);  // is opened, and refuses to be read
+  EXPECT_EQ(uploads_.find(made.id).error().kind, UploadFault::kIo);
+  EXPECT_EQ(uploads_.open(made.id).error().kind, UploadFault::kIo);
+  EXPECT_EQ(uploads_.sweep({}, kLate).value(), 0u);
+  fs::remove(about);
+  fs::rename(folder_.path() / "aside", about);
+  EXPECT_TRUE(uploads_.find(made.id));
+  EXPECT_EQ(uploads_.sweep({}, kLate).value(), 1u);
+}
+
 TEST_F(UploadsTest, what_is_removed_is_gone) {
   EXPECT_TRUE(uploads_.list().value().empty());
   const Upload made = uploads_.create(token(1), 2, "").value();

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The museum's own server, which is told of the ends of jobs: hears one request at a time.
+#pragma once
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "codec/files/file_descriptor.h"
+
+namespace vitrine::test {
+
+class WebhookListener {
+ public:
+  WebhookListener() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
+    EXPECT_EQ(::listen(socket_.get(), 8), 0);
+    EXPECT_EQ(::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
+    host_ = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  }
+  const std::string& host() const { return host_; }
+
+  // The next request, whose body is a JSON object; nobody answers it before the descriptor is gone.
+  FileDescriptor accept(std::string& request) {
+    FileDescriptor peer(::accept(socket_.get(), nullptr, nullptr));
+    char buffer[1024];
+    while (!request.ends_with("}")) {
+      const ssize_t n = ::read(peer.get(), buffer, sizeof buffer);
+      if (n <= 0) break;
+      request.append(buffer, static_cast<std::size_t>(n));
+    }
+    return peer;
+  }
+
+  std::string hear(const std::string& status) {
+    std::string request;
+    const FileDescriptor peer = accept(request);
+    const std::string answer =
+        "HTTP/1.1 " + status + "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+    EXPECT_EQ(::write(peer.get(), answer.data(), answer.size()),
+              static_cast<ssize_t>(answer.size()));
+    return request;
+  }
+
+ private:
+  FileDescriptor socket_;
+  std::string host_;
+};
+
+}  // namespace vitrine::test
