@@ -63,7 +63,8 @@ class Adaptation {
     while (!course.is_done()) {
       const auto event = peer->next();
       course.take(event);
-      if (dropped != kNever || event.at < start + 1) continue;
+      const bool is_amid = event.at > start + 1 || course.received() > manifest_.file_bytes / 3;
+      if (dropped != kNever || !is_amid) continue;
       link_.shape(to);
       dropped = StreamPeer::now();
     }
@@ -78,7 +79,8 @@ class Adaptation {
       any = true;
     }
     const std::string what = scan_ + ".drop_800_to_100";
-    figures_.add({what, "seconds_to_notice", noticed - dropped, 0, noticed - dropped, 1});
+    const double late = noticed == kNever ? kNever : noticed - dropped;
+    figures_.add({what, "seconds_to_notice", late, 0, late, 1});
     figures_.add({what, "promise_kept", worst.kept - worst.at, worst.promise.seconds,
                   any ? worst.ratio() : kNever, 1.5});
   }
