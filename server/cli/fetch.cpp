@@ -14,6 +14,7 @@
 #include "server/cli/levels.h"
 #include "server/cli/wants.h"
 #include "server/jobs/open_model.h"
+#include "server/stream/message.h"
 
 namespace vitrine::cli {
 namespace {
@@ -26,13 +27,32 @@ struct Order {
   std::optional<MeshFormat> format;  // nothing: the .pmesh itself
 };
 
+// A file with the object that PROTOCOL.md calls `view`.
+tl::expected<Wish, Fault> read_view_file(const std::string& path) {
+  const auto file = InputFile::open(path);
+  if (!file) return failed(file.error());
+  const std::string text(file->bytes().begin(), file->bytes().end());
+  const bool is_json = text.size() <= kMaxMessage && nlohmann::json::accept(text);
+  const auto message =
+      parse_message(is_json ? fmt::format(R"({{"type":"want","view":{}}})", text) : std::string());
+  if (!message)
+    return failed(fmt::format(
+        "{} is no view; give an object of camera (16 numbers), fov, width, height, pixels and, if "
+        "wanted, bytes, as PROTOCOL.md has it",
+        path));
+  return std::get<WantMessage>(*message).wish;
+}
+
 tl::expected<std::optional<Wish>, Fault> read_wish(const Arguments& arguments) {
   const auto want = read_want(arguments);
   if (!want) return tl::unexpected(want.error());
   const auto seconds = arguments.number_between("--seconds", 0.01, kMaxSeconds);
   if (!seconds) return tl::unexpected(seconds.error());
-  if (*seconds && *want)
-    return misused("--seconds goes with none of --triangles, --bytes and --error; give one");
+  if (want->has_value() + seconds->has_value() + arguments.has("--view") > 1)
+    return misused(
+        "--seconds and --view go with none of --level, --triangles, --bytes and --error, nor with "
+        "each other; give one");
+  if (arguments.has("--view")) return read_view_file(arguments.text("--view"));
   if (*seconds) return Wish(WantSeconds{**seconds});
   return *want ? std::optional<Wish>(**want) : std::nullopt;
 }
@@ -212,6 +232,7 @@ constexpr Flag kFetchFlags[] = {
     {"--bytes", "B", "the finest state that at most B bytes of the file hold"},
     {"--error", "E", "the coarsest level off by at most E, in the model's unit"},
     {"--seconds", "S", "as much as the connection brings in S seconds"},
+    {"--view", "FILE.json", "what a camera sees: camera, fov, width, height, pixels, bytes"},
     {"--token", "T", "an access token, for drafts"},
     {"--json", "", "print one JSON object"}};
 

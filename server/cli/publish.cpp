@@ -65,7 +65,8 @@ tl::expected<std::string, Fault> publish_bytes(RemoteVitrine& remote, const Byte
   const auto upload = remote.upload(bytes, bar.report());
   if (!upload) return tl::unexpected(upload.error());
   order["upload"] = *upload;
-  const auto started = remote.ask("POST", "/api/v1/models", order, "Idempotency-Key: " + *upload);
+  const auto started =
+      remote.ask_patiently("POST", "/api/v1/models", order, "Idempotency-Key: " + *upload);
   if (!started) return tl::unexpected(started.error());
   const auto done = remote.await(started->value("job", ""), bar.report());
   if (!done) return tl::unexpected(done.error());

@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kPiece = 16 << 20;  // bytes of one request: proxies have limits
-constexpr int kTries = 6;                 // of one piece, 63 seconds in all
+constexpr int kTries = 6;                 // of one request, 31 seconds in all
 constexpr std::chrono::milliseconds kBetweenLooks{250};  // at a job
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
@@ -40,6 +40,17 @@ bool may_be_better_soon(const RemoteAnswer& answer) {
   return answer.status == 409 || answer.status == 429 || answer.status >= 500;
 }
 
+// Asks again where the line is broken: the server may be starting anew.
+template <class Ask>
+Expected<RemoteAnswer> patiently(const Ask& ask) {
+  for (int tried = 1;; ++tried) {
+    auto answer = ask();
+    const bool is_final = answer && !may_be_better_soon(*answer);
+    if (is_final || tried == kTries) return answer;
+    std::this_thread::sleep_for(std::chrono::seconds(1 << (tried - 1)));
+  }
+}
+
 }  // namespace
 
 tl::expected<RemoteVitrine, Fault> RemoteVitrine::of(const Arguments& arguments) {
@@ -53,8 +64,8 @@ tl::expected<RemoteVitrine, Fault> RemoteVitrine::of(const Arguments& arguments)
   return RemoteVitrine(origin, token);
 }
 
-tl::expected<Json, Fault> RemoteVitrine::ask(const std::string& method, const std::string& path,
-                                             const Json& body, const std::string& field) {
+Expected<RemoteAnswer> RemoteVitrine::send(const std::string& method, const std::string& path,
+                                           const Json& body, const std::string& field) {
   const std::string text = body.is_null() ? "" : body.dump();
   RemoteRequest request{.method = method, .url = origin_ + path, .fields = {bearer_}};
   if (!field.empty()) request.fields.push_back(field);
@@ -62,7 +73,10 @@ tl::expected<Json, Fault> RemoteVitrine::ask(const std::string& method, const st
     request.fields.emplace_back("Content-Type: application/json");
     request.body = bytes_of(text);
   }
-  const auto answer = server_->ask(request);
+  return server_->ask(request);
+}
+
+tl::expected<Json, Fault> RemoteVitrine::json_of(const Expected<RemoteAnswer>& answer) const {
   if (!answer) return failed(answer.error());
   if (answer->status >= 400) return failed(words_of(*answer, origin_));
   if (answer->body.empty()) return Json::object();
@@ -70,6 +84,17 @@ tl::expected<Json, Fault> RemoteVitrine::ask(const std::string& method, const st
   if (json.is_object()) return json;
   return failed(
       fmt::format("{} does not answer with JSON; check that it is a Vitrine server", origin_));
+}
+
+tl::expected<Json, Fault> RemoteVitrine::ask(const std::string& method, const std::string& path,
+                                             const Json& body, const std::string& field) {
+  return json_of(send(method, path, body, field));
+}
+
+tl::expected<Json, Fault> RemoteVitrine::ask_patiently(const std::string& method,
+                                                       const std::string& path, const Json& body,
+                                                       const std::string& field) {
+  return json_of(patiently([&] { return send(method, path, body, field); }));
 }
 
 Expected<RemoteAnswer> RemoteVitrine::ask_tus(const std::string& method, const std::string& path,
@@ -84,21 +109,14 @@ Expected<RemoteAnswer> RemoteVitrine::ask_tus(const std::string& method, const s
                        .on_sent = std::move(on_sent)});
 }
 
-// Asked again where the line is broken: the server may be starting anew.
 tl::expected<std::uint64_t, Fault> RemoteVitrine::offset_of(const std::string& path) {
-  std::string fault;
-  for (int i = 0; i < kTries; ++i) {
-    if (i > 0) std::this_thread::sleep_for(std::chrono::seconds(1 << (i - 1)));
-    const auto answer = ask_tus("HEAD", path, {});
-    fault = answer ? words_of(*answer, origin_) : answer.error().message;
-    if (!answer || may_be_better_soon(*answer)) continue;
-    const std::string text = answer->field("upload-offset");
-    std::uint64_t offset = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), offset);
-    if (answer->status < 300 && error == std::errc{}) return offset;
-    return failed(fault);
-  }
-  return failed(fault);
+  const auto answer = patiently([&] { return ask_tus("HEAD", path, {}); });
+  if (!answer) return failed(answer.error());
+  const std::string text = answer->field("upload-offset");
+  std::uint64_t offset = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), offset);
+  if (answer->status < 300 && error == std::errc{}) return offset;
+  return failed(words_of(*answer, origin_));
 }
 
 tl::expected<std::string, Fault> RemoteVitrine::upload(std::span<const std::uint8_t> bytes,
@@ -138,7 +156,7 @@ tl::expected<std::string, Fault> RemoteVitrine::upload(std::span<const std::uint
 tl::expected<Json, Fault> RemoteVitrine::await(const std::string& job,
                                                const ProgressReport& progress) {
   for (;;) {
-    const auto now = ask("GET", "/api/v1/jobs/" + job);
+    const auto now = ask_patiently("GET", "/api/v1/jobs/" + job);
     if (!now) return now;
     const std::string state = now->value("state", "");
     if (state == "done") return now;

@@ -24,11 +24,19 @@ class RemoteVitrine {
                                           const nlohmann::json& body = nullptr,
                                           const std::string& field = "");
 
+  // The same, again and again for half a minute where the server cannot be reached or says that it
+  // may be better soon: for what may be asked twice.
+  tl::expected<nlohmann::json, Fault> ask_patiently(const std::string& method,
+                                                    const std::string& path,
+                                                    const nlohmann::json& body = nullptr,
+                                                    const std::string& field = "");
+
   // Sends the bytes as a resumable upload, and goes on where the line breaks; its id.
   tl::expected<std::string, Fault> upload(std::span<const std::uint8_t> bytes,
                                           const ProgressReport& progress);
 
-  // Waits for the end of a job; what it is then. A fault where it is not done.
+  // Waits for the end of a job, over restarts of the server, too; what it is then. A fault where it
+  // is not done.
   tl::expected<nlohmann::json, Fault> await(const std::string& job, const ProgressReport& progress);
 
  private:
@@ -37,6 +45,9 @@ class RemoteVitrine {
         bearer_("Authorization: Bearer " + token),
         server_(std::make_unique<RemoteServer>()) {}
 
+  Expected<RemoteAnswer> send(const std::string& method, const std::string& path,
+                              const nlohmann::json& body, const std::string& field);
+  tl::expected<nlohmann::json, Fault> json_of(const Expected<RemoteAnswer>& answer) const;
   Expected<RemoteAnswer> ask_tus(const std::string& method, const std::string& path,
                                  std::vector<std::string> fields,
                                  std::span<const std::uint8_t> body = {},

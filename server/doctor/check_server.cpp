@@ -8,12 +8,41 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "server/doctor/probe.h"
+#include "server/remote/remote_server.h"
 
 namespace vitrine {
 namespace {
 
 using Json = nlohmann::json;
+
+// A visitor of a server, through whatever stands in front of it.
+class Probe {
+ public:
+  // `origin`: "https://museum.example", no slash at its end; a proxy may add a path.
+  explicit Probe(std::string origin) : origin_(std::move(origin)) {}
+
+  Expected<RemoteAnswer> ask(const std::string& target, std::vector<std::string> fields = {},
+                             const std::string& method = "GET") {
+    return server_.ask(request(target, std::move(fields), method));
+  }
+  Expected<std::string> upgrade(const std::string& target, std::vector<std::string> fields) {
+    return server_.upgrade(request(target, std::move(fields), "GET"));
+  }
+
+ private:
+  RemoteRequest request(const std::string& target, std::vector<std::string> fields,
+                        const std::string& method) const {
+    constexpr std::chrono::seconds kPatience{10};
+    return {.method = method,
+            .url = origin_ + target,
+            .fields = std::move(fields),
+            .patience = kPatience,
+            .deadline = kPatience};
+  }
+
+  const std::string origin_;
+  RemoteServer server_;
+};
 
 Finding of_error(std::string check, const Error& error) {
   const std::size_t cut = error.message.rfind("; ");
@@ -26,7 +55,7 @@ bool is_of_this_machine(const std::string& url) {
          url.starts_with("http://[::1]");
 }
 
-Finding check_certificate(const std::string& url, const ProbeAnswer& answer) {
+Finding check_certificate(const std::string& url, const RemoteAnswer& answer) {
   if (!url.starts_with("https://")) {
     if (is_of_this_machine(url))
       return {Verdict::kOk, "certificate", "none needed on this machine", ""};
@@ -41,7 +70,7 @@ Finding check_certificate(const std::string& url, const ProbeAnswer& answer) {
   return {Verdict::kWarn, "certificate", detail, "renew it; what renews it by itself has stopped"};
 }
 
-Finding check_date(const ProbeAnswer& answer) {
+Finding check_date(const RemoteAnswer& answer) {
   constexpr double kApart = 5;  // seconds
   const std::time_t theirs = curl_getdate(answer.field("date").c_str(), nullptr);
   if (theirs < 0)
@@ -135,7 +164,7 @@ Findings check_scanners(Probe& probe, const std::string& token) {
 }
 
 // What only a published model shows.
-void check_model(Probe& probe, const ProbeAnswer& list, Findings& findings) {
+void check_model(Probe& probe, const RemoteAnswer& list, Findings& findings) {
   const Json models = Json::parse(list.body, nullptr, false);
   const bool any = models.is_object() && models.contains("models") && !models["models"].empty();
   if (!any) {

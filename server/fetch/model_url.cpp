@@ -23,15 +23,15 @@ Expected<ModelUrl> parse_model_url(std::string_view url) {
                             "http://host:8080/models/ID",
                             url.substr(0, 200)));
   }
-  if (parts.str(1) == "https") {
-    return fail(ErrorCode::kBadInput,
-                "https is not available in this version; give the server's http:// address");
-  }
+  const bool is_encrypted = parts.str(1) == "https";
   std::string base = parts.str(5);
   if (base.ends_with("/api/v1")) base.resize(base.size() - std::string_view("/api/v1").size());
   return ModelUrl{.host = parts[2].matched ? parts.str(2) : parts.str(3),
-                  .port = parts[4].matched ? parts.str(4) : "80",
-                  .target = fmt::format("{}/api/v1/models/{}/stream", base, parts.str(6))};
+                  .port = parts[4].matched ? parts.str(4)
+                          : is_encrypted   ? "443"
+                                           : "80",
+                  .target = fmt::format("{}/api/v1/models/{}/stream", base, parts.str(6)),
+                  .is_encrypted = is_encrypted};
 }
 
 }  // namespace vitrine

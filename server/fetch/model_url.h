@@ -10,9 +10,10 @@ namespace vitrine {
 
 // Where the stream of a model is.
 struct ModelUrl {
-  std::string host;    // a name or an address, without brackets
-  std::string port;    // decimal
-  std::string target;  // the path of the stream, without a query
+  std::string host;           // a name or an address, without brackets
+  std::string port;           // decimal
+  std::string target;         // the path of the stream, without a query
+  bool is_encrypted = false;  // https
 
   std::string authority() const;  // of the Host field
 };

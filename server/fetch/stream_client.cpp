@@ -8,10 +8,14 @@
 #include <boost/asio/detached.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/ssl/host_name_verification.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/ssl/ssl_stream.hpp>
+#include <boost/beast/websocket/ssl.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
 
@@ -44,9 +48,24 @@ Error refusal(unsigned status) {
           fmt::format("the server refuses the stream with status {}; check the address", status)};
 }
 
+// Why TLS has failed.
+Error no_tls(SSL* tls, const boost::system::error_code& error) {
+  const long fault = ::SSL_get_verify_result(tls);
+  if (fault == X509_V_OK)
+    return {ErrorCode::kState, fmt::format("no TLS: {}; check the address", error.message())};
+  return {ErrorCode::kState,
+          fmt::format("its certificate is not trusted: {}; check the address, or name the "
+                      "certificate of its authority in SSL_CERT_FILE",
+                      ::X509_verify_cert_error_string(fault))};
+}
+
 class Fetching {
  public:
-  Fetching(asio::io_context& io, const FetchOptions& options) : io_(io), options_(options) {}
+  Fetching(asio::io_context& io, const FetchOptions& options) : io_(io), options_(options) {
+    boost::system::error_code ignored;  // then no certificate is trusted
+    tls_.set_default_verify_paths(ignored);
+    tls_.set_verify_mode(asio::ssl::verify_peer);
+  }
 
   asio::awaitable<Expected<Fetched>> run() {
     auto pause = kFirstPause;
@@ -70,7 +89,10 @@ class Fetching {
   }
 
  private:
-  using Socket = websocket::stream<beast::tcp_stream, /*deflate=*/false>;
+  using Tcp = beast::tcp_stream;
+  using Tls = beast::ssl_stream<Tcp>;
+  template <class Stream>
+  using Socket = websocket::stream<Stream, /*deflate=*/false>;
 
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -80,21 +102,25 @@ class Fetching {
   }
 
   asio::awaitable<Expected<End>> connect() {
-    Socket socket(io_);
-    asio::ip::tcp::resolver resolver(io_);
+    if (options_.url.is_encrypted) {
+      Socket<Tls> socket(io_, tls_);
+      co_return co_await connect(socket);
+    }
+    Socket<Tcp> socket(io_);
+    co_return co_await connect(socket);
+  }
+
+  template <class Stream>
+  asio::awaitable<Expected<End>> connect(Socket<Stream>& socket) {
     beast::get_lowest_layer(socket).expires_after(kSilence);
-    const auto [unknown, addresses] =
-        co_await resolver.async_resolve(options_.url.host, options_.url.port, kNoThrow);
-    if (unknown) co_return lost(unknown.message());
-    const auto [refused, endpoint] =
-        co_await beast::get_lowest_layer(socket).async_connect(addresses, kNoThrow);
-    if (refused) co_return lost(refused.message());
-    boost::system::error_code ignored;
-    beast::get_lowest_layer(socket).socket().set_option(asio::ip::tcp::no_delay(true), ignored);
+    const Expected<bool> reached = co_await reach(socket.next_layer());
+    if (!reached) co_return tl::unexpected(reached.error());
+    if (!*reached) co_return End::kLost;
     beast::get_lowest_layer(socket).expires_never();
     configure(socket);
     http::response<http::string_body> answer;
-    const std::string target = options_.url.target + (model_ ? "" : "?head=true");
+    const bool has_head = model_ && model_->manifest();
+    const std::string target = options_.url.target + (has_head ? "" : "?head=true");
     const auto [failed] =
         co_await socket.async_handshake(answer, options_.url.authority(), target, kNoThrow);
     const unsigned status = answer.result_int();
@@ -104,7 +130,38 @@ class Fetching {
     co_return co_await converse(socket);
   }
 
-  void configure(Socket& socket) {
+  // False where the server is not there now; an error where it never will be.
+  asio::awaitable<Expected<bool>> reach(Tcp& stream) {
+    asio::ip::tcp::resolver resolver(io_);
+    const auto [unknown, addresses] =
+        co_await resolver.async_resolve(options_.url.host, options_.url.port, kNoThrow);
+    if (unknown) lost_ = unknown.message();
+    if (unknown) co_return false;
+    const auto [refused, endpoint] = co_await stream.async_connect(addresses, kNoThrow);
+    if (refused) lost_ = refused.message();
+    if (refused) co_return false;
+    boost::system::error_code ignored;
+    stream.socket().set_option(asio::ip::tcp::no_delay(true), ignored);
+    co_return true;
+  }
+
+  asio::awaitable<Expected<bool>> reach(Tls& stream) {
+    const Expected<bool> reached = co_await reach(stream.next_layer());
+    if (!reached || !*reached) co_return reached;
+    const std::string& host = options_.url.host;
+    boost::system::error_code none;
+    if (asio::ip::make_address(host, none); none)  // RFC 6066, 3: names alone
+      SSL_set_tlsext_host_name(stream.native_handle(), host.c_str());
+    stream.set_verify_callback(asio::ssl::host_name_verification(host));
+    const auto [failed] = co_await stream.async_handshake(asio::ssl::stream_base::client, kNoThrow);
+    if (failed.category() == asio::error::get_ssl_category())
+      co_return tl::unexpected(no_tls(stream.native_handle(), failed));
+    if (failed) lost_ = failed.message();
+    co_return !failed;
+  }
+
+  template <class Stream>
+  void configure(Socket<Stream>& socket) {
     websocket::stream_base::timeout timeout;
     timeout.handshake_timeout = kSilence;
     timeout.idle_timeout = kSilence;
@@ -119,7 +176,8 @@ class Fetching {
     }));
   }
 
-  asio::awaitable<Expected<End>> converse(Socket& socket) {
+  template <class Stream>
+  asio::awaitable<Expected<End>> converse(Socket<Stream>& socket) {
     is_asked_ = is_done_ = false;
     beast::flat_buffer buffer;
     while (!is_done_) {
@@ -186,7 +244,8 @@ class Fetching {
   }
 
   // Acknowledges what was taken, and asks once it is known what is there already.
-  asio::awaitable<bool> tell(Socket& socket) {
+  template <class Stream>
+  asio::awaitable<bool> tell(Socket<Stream>& socket) {
     std::vector<ClientMessage> messages;
     if (taken_ > 0) messages.emplace_back(AckMessage{std::exchange(taken_, 0)});
     if (model_ && !std::exchange(is_asked_, true)) {
@@ -214,6 +273,7 @@ class Fetching {
 
   asio::io_context& io_;
   const FetchOptions& options_;
+  asio::ssl::context tls_{asio::ssl::context::tls_client};
   const Clock::time_point start_ = Clock::now();
   std::optional<PartialModel> model_;
   std::string sha256_;

@@ -2,11 +2,14 @@
 #include "server/remote/remote_server.h"
 
 #include <curl/curl.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <mutex>
 
 namespace vitrine {
@@ -98,6 +101,54 @@ void set_body(CURL* curl, Transfer& transfer) {
                    static_cast<curl_off_t>(transfer.request.body.size()));
 }
 
+// "Expire date:Feb  3 12:00:00 2027 GMT", of the server's own certificate, which comes first.
+std::optional<double> days_left(CURL* curl) {
+  curl_certinfo* chain = nullptr;
+  curl_easy_getinfo(curl, CURLINFO_CERTINFO, &chain);
+  if (chain == nullptr || chain->num_of_certs == 0) return std::nullopt;
+  constexpr std::string_view kKey = "Expire date:";
+  for (const curl_slist* line = chain->certinfo[0]; line != nullptr; line = line->next) {
+    const std::string_view text = line->data;
+    if (!text.starts_with(kKey)) continue;
+    const std::time_t end = curl_getdate(line->data + kKey.size(), nullptr);
+    if (end > 0) return std::difftime(end, std::time(nullptr)) / (24 * 3600);
+  }
+  return std::nullopt;
+}
+
+bool wait_for(CURL* curl, short events, std::chrono::seconds patience) {
+  curl_socket_t socket = CURL_SOCKET_BAD;
+  curl_easy_getinfo(curl, CURLINFO_ACTIVESOCKET, &socket);
+  pollfd waiting{socket, events, 0};
+  return ::poll(&waiting, 1, static_cast<int>(std::chrono::milliseconds(patience).count())) == 1;
+}
+
+bool send_all(CURL* curl, std::string_view text, std::chrono::seconds patience) {
+  while (!text.empty()) {
+    std::size_t sent = 0;
+    const CURLcode code = curl_easy_send(curl, text.data(), text.size(), &sent);
+    if (code == CURLE_AGAIN && wait_for(curl, POLLOUT, patience)) continue;
+    if (code != CURLE_OK) return false;
+    text.remove_prefix(sent);
+  }
+  return true;
+}
+
+// Up to the empty line; empty where that does not come.
+std::string receive_head(CURL* curl, std::chrono::seconds patience) {
+  constexpr std::size_t kLongest = 64 * 1024;
+  std::string text;
+  while (text.find("\r\n\r\n") == std::string::npos && text.size() < kLongest) {
+    char bytes[4096];
+    std::size_t taken = 0;
+    const CURLcode code = curl_easy_recv(curl, bytes, sizeof bytes, &taken);
+    if (code == CURLE_AGAIN && wait_for(curl, POLLIN, patience)) continue;
+    if (code != CURLE_OK || taken == 0) return {};
+    text.append(bytes, taken);
+  }
+  return text;
+}
+
 void set_patience(CURL* curl, const RemoteRequest& request) {
   const auto patience = static_cast<long>(request.patience.count());
   curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT, patience);
@@ -115,7 +166,26 @@ void set_patience(CURL* curl, const RemoteRequest& request) {
 
 struct RemoteServer::Handle {
   CURL* curl = curl_easy_init();
+  char fault[CURL_ERROR_SIZE] = "";
   ~Handle() { curl_easy_cleanup(curl); }
+
+  // The connection stays.
+  void prepare(const RemoteRequest& request) {
+    *fault = '\0';
+    curl_easy_reset(curl);
+    set_patience(curl, request);
+    curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
+    curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, fault);
+    curl_easy_setopt(curl, CURLOPT_CERTINFO, 1L);
+    if (const char* const trusted = std::getenv("SSL_CERT_FILE"))
+      curl_easy_setopt(curl, CURLOPT_CAINFO, trusted);
+  }
+  Unexpected failed(const RemoteRequest& request, CURLcode code) const {
+    return fail(
+        ErrorCode::kIo,
+        fmt::format("cannot reach {}: {}; check the address and the network",
+                    origin_of(request.url), *fault != '\0' ? fault : curl_easy_strerror(code)));
+  }
 };
 
 RemoteServer::RemoteServer() {
@@ -128,17 +198,14 @@ RemoteServer::~RemoteServer() = default;
 Expected<RemoteAnswer> RemoteServer::ask(const RemoteRequest& request) {
   CURL* curl = handle_->curl;
   if (curl == nullptr) return fail(ErrorCode::kIo, "out of memory; try again");
-  curl_easy_reset(curl);  // the connection stays
+  handle_->prepare(request);
   RemoteAnswer answer;
   Transfer transfer{request, answer};
-  char fault[CURL_ERROR_SIZE] = "";
   std::vector<std::string> lines = request.fields;
   lines.emplace_back("Expect:");  // what is sent is wanted
   const List fields = list_of(lines);
   set_body(curl, transfer);
-  set_patience(curl, request);
   curl_easy_setopt(curl, CURLOPT_URL, request.url.c_str());
-  curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
   curl_easy_setopt(curl, CURLOPT_CUSTOMREQUEST, request.method.c_str());
   if (request.method == "HEAD") curl_easy_setopt(curl, CURLOPT_NOBODY, 1L);
   curl_easy_setopt(curl, CURLOPT_HTTPHEADER, fields.get());
@@ -147,14 +214,30 @@ Expected<RemoteAnswer> RemoteServer::ask(const RemoteRequest& request) {
   curl_easy_setopt(curl, CURLOPT_WRITEDATA, &transfer);
   curl_easy_setopt(curl, CURLOPT_HEADERFUNCTION, take_field);
   curl_easy_setopt(curl, CURLOPT_HEADERDATA, &transfer);
-  curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, fault);
   const CURLcode code = curl_easy_perform(curl);
   curl_easy_getinfo(curl, CURLINFO_RESPONSE_CODE, &answer.status);
+  answer.certificate_days = days_left(curl);
   // An answer that comes before the body has gone is one all the same.
   if (code == CURLE_OK || (code == CURLE_SEND_ERROR && answer.status >= 400)) return answer;
-  return fail(ErrorCode::kIo, fmt::format("cannot reach {}: {}; check the address and the network",
-                                          origin_of(request.url),
-                                          *fault != '\0' ? fault : curl_easy_strerror(code)));
+  return handle_->failed(request, code);
+}
+
+Expected<std::string> RemoteServer::upgrade(const RemoteRequest& request) {
+  CURL* curl = handle_->curl;
+  if (curl == nullptr) return fail(ErrorCode::kIo, "out of memory; try again");
+  handle_->prepare(request);
+  const std::string origin = origin_of(request.url);
+  curl_easy_setopt(curl, CURLOPT_URL, origin.c_str());
+  curl_easy_setopt(curl, CURLOPT_CONNECT_ONLY, 1L);
+  const CURLcode code = curl_easy_perform(curl);
+  if (code != CURLE_OK) return handle_->failed(request, code);
+  const std::string text = fmt::format(
+      "{} {} HTTP/1.1\r\nHost: {}\r\n{}\r\n\r\n", request.method, request.url.substr(origin.size()),
+      origin.substr(origin.find("//") + 2), fmt::join(request.fields, "\r\n"));
+  std::string head;
+  if (send_all(curl, text, request.patience)) head = receive_head(curl, request.patience);
+  if (!head.empty()) return head;
+  return fail(ErrorCode::kIo, request.url + " does not answer; check the proxy");
 }
 
 std::string origin_of(std::string_view url) {

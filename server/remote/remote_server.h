@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ struct RemoteAnswer {
   long status = 0;
   std::map<std::string, std::string> fields;  // names in lower case
   std::string body;                           // its first kMost bytes
+  std::optional<double> certificate_days;     // until the server's expires; nothing without TLS
 
   static constexpr std::size_t kMost = 4 << 20;
   std::string field(const std::string& name) const {
@@ -39,6 +41,8 @@ struct RemoteAnswer {
   }
 };
 
+// Where the variable SSL_CERT_FILE names certificates of authorities (PEM), it trusts those in
+// place of the system's.
 class RemoteServer {
  public:
   RemoteServer();
@@ -48,6 +52,10 @@ class RemoteServer {
 
   // Any answer is one; redirections are not followed. kIo where there is none.
   Expected<RemoteAnswer> ask(const RemoteRequest& request);
+
+  // The head of the answer to a request without a body whose connection is to become something
+  // else; a connection of its own.
+  Expected<std::string> upgrade(const RemoteRequest& request);
 
  private:
   struct Handle;

@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -44,6 +45,8 @@ void HttpClient::connect(const void* address, std::size_t size) {
   const timeval patience{.tv_sec = 20, .tv_usec = 0};
   socket_ = ::socket(peer->sa_family, SOCK_STREAM, 0);
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const int on = 1;
+  ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   if (::connect(socket_, peer, static_cast<socklen_t>(size)) != 0)
     throw std::runtime_error("cannot connect");
 }
@@ -125,21 +128,7 @@ HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::st
   return HttpClient(port).get(target, fields, method);
 }
 
-WebSocketClient::WebSocketClient(std::unique_ptr<HttpClient> client, const std::string& target,
-                                 const std::string& subprotocol, const std::string& fields)
-    : client_(std::move(client)) {
-  const HttpAnswer answer =
-      client_->get(target,
-                   "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
-                   "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: " +
-                       subprotocol + "\r\n" + fields);
-  if (answer.status != 101 || answer.field("sec-websocket-protocol") != subprotocol) {
-    throw std::runtime_error("no upgrade: " + std::to_string(answer.status) + " " + answer.body);
-  }
-}
-
-// RFC 6455, 5.2: a final frame, masked with zeros.
-void WebSocketClient::send(std::uint8_t first, std::string_view payload) {
+std::string masked_frame(std::uint8_t first, std::string_view payload) {
   std::string frame(1, static_cast<char>(first));
   if (payload.size() < 126) {
     frame += static_cast<char>(0x80 | payload.size());
@@ -153,8 +142,20 @@ void WebSocketClient::send(std::uint8_t first, std::string_view payload) {
       frame += static_cast<char>(payload.size() >> shift);
   }
   frame.append(4, '\0');
-  frame += payload;
-  client_->send(frame);
+  return frame.append(payload);
+}
+
+WebSocketClient::WebSocketClient(std::unique_ptr<HttpClient> client, const std::string& target,
+                                 const std::string& subprotocol, const std::string& fields)
+    : client_(std::move(client)) {
+  const HttpAnswer answer =
+      client_->get(target,
+                   "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                   "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: " +
+                       subprotocol + "\r\n" + fields);
+  if (answer.status != 101 || answer.field("sec-websocket-protocol") != subprotocol) {
+    throw std::runtime_error("no upgrade: " + std::to_string(answer.status) + " " + answer.body);
+  }
 }
 
 WebSocketFrame WebSocketClient::receive() {

@@ -74,6 +74,10 @@ struct WebSocketFrame {
   }
 };
 
+// A client's frame with that first byte (FIN, reserved bits, opcode), masked with zeros (RFC 6455,
+// 5.2).
+std::string masked_frame(std::uint8_t first, std::string_view payload);
+
 class WebSocketClient {
  public:
   // Throws unless the answer is 101 with the subprotocol.
@@ -87,8 +91,9 @@ class WebSocketClient {
   void send_binary(std::string_view bytes) { send(0x82, bytes); }
   WebSocketFrame receive();
   void send_close() { send(0x88, std::string_view("\x03\xe8", 2)); }
-  // A frame with that first byte (FIN, reserved bits, opcode), masked with zeros.
-  void send(std::uint8_t first, std::string_view payload);
+  void send(std::uint8_t first, std::string_view payload) {
+    send_raw(masked_frame(first, payload));
+  }
   void send_raw(std::string_view bytes) { client_->send(bytes); }
   bool is_closed() { return client_->is_closed(); }
 

@@ -1,52 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
 #include "../../server/app/served_folder.h"
+#include "medians.h"
+#include "scans.h"
 #include "sections.h"
-#include "server/jobs/build_model.h"
 #include "shaped_link.h"
+#include "side_view.h"
 #include "stream_peer.h"
 #include "support/daemon.h"
+#include "wish_course.h"
 
 namespace vitrine::bench {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::vector<std::uint8_t> read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// The largest scan that is there: a .pmesh as it is, a mesh built.
-test::TinyPmesh largest_scan() {
-  const char* const set = std::getenv("VITRINE_MODELS");
-  const fs::path folder = set != nullptr ? set : VITRINE_SOURCE_DIR "/tests/models";
-  for (const char* const name :
-       {"ct-skull-2753k.pmesh", "ct-skull-2753k.ply", "ct-skull-529k.ply", "skull.obj"}) {
-    if (!fs::exists(folder / name)) continue;
-    test::TinyPmesh scan{.bytes = read(folder / name)};
-    if (fs::path(name).extension() != ".pmesh")
-      scan.bytes = build_model(scan.bytes, {}, [](std::string_view, double) {}).value().file;
-    scan.manifest = parse_header(scan.bytes).value();
-    return scan;
-  }
-  throw std::runtime_error(folder.string() + " holds no scan; set VITRINE_MODELS");
-}
-
 class Adaptation {
  public:
-  explicit Adaptation(Report& report) : report_(report) {
-    const test::TinyPmesh scan = largest_scan();
-    manifest_ = scan.manifest;
-    id_ = folder_.publish("a scan", scan);
+  Adaptation(Medians& figures, const Scan& scan, std::chrono::milliseconds round_trip)
+      : figures_(figures),
+        scan_(scan.name),
+        manifest_(scan.pmesh.manifest),
+        link_(round_trip),
+        id_(folder_.publish("a scan", scan.pmesh)),
+        late_(round_trip.count() > 0) {
     daemon_.emplace(folder_.path(), std::vector<std::string>{"--listen", "0.0.0.0:0"});
     link_.at_client();
   }
@@ -56,20 +35,21 @@ class Adaptation {
     const auto peer = connect();
     const double start = StreamPeer::now();
     peer->say(WantMessage{.wish = WantSeconds{kSeconds}});
-    std::size_t bytes = 0;
-    double end = 0;
-    while (end == 0) {
-      const auto event = peer->next();
-      bytes += event.bytes;
-      if (event.message && std::holds_alternative<DoneMessage>(*event.message)) end = event.at;
-    }
-    const double took = end - start;
-    const bool is_whole = bytes + 1 > manifest_.file_bytes - manifest_.head_bytes();
+    WishCourse course(manifest_);
+    while (!course.is_done())
+      course.take(peer->next());
+    const double took = course.done() - start, bytes = static_cast<double>(course.received());
+    const bool is_whole = course.level() + 1 == manifest_.levels.size();
     const double off = is_whole && took < kSeconds ? 0 : std::abs(took / kSeconds - 1);
-    const double used = static_cast<double>(bytes) / (rate * (is_whole ? took : kSeconds));
-    report_.add({name("seconds", rate), "off_target", took, kSeconds, off, 0.15});
-    report_.add({name("seconds", rate), "link_used", static_cast<double>(bytes), rate * kSeconds,
-                 used, 0.85, true});
+    const double could = rate * (is_whole ? took : kSeconds);
+    figures_.add({name("seconds", rate), "off_target", took, kSeconds, off, 0.15});
+    figures_.add(
+        {name("seconds", rate), "link_used", bytes, could, bytes / could, 0.85, /*at_least=*/true});
+    const double promised =
+        course.promises().empty() ? kNever : course.promises().back().promise.level;
+    figures_.add({name("seconds", rate), "levels_short", static_cast<double>(course.level()),
+                  promised, std::max(0.0, promised - course.level()), 0});
+    first_guess(course, rate);
   }
 
   // How late promises after the drop come, and how they are kept.
@@ -77,30 +57,32 @@ class Adaptation {
     link_.shape(from);
     const auto peer = connect();
     const double start = StreamPeer::now();
-    double dropped = 0, noticed = 0, end = 0;
-    std::vector<std::pair<double, double>> promises;  // made at, for
+    double dropped = kNever;
     peer->say(WantMessage{.wish = WantSeconds{4}});
-    while (end == 0) {
+    WishCourse course(manifest_);
+    while (!course.is_done()) {
       const auto event = peer->next();
-      if (dropped == 0 && event.at - start > 1) {
-        link_.shape(to);
-        dropped = StreamPeer::now();
-      }
-      if (!event.message) continue;
-      if (std::holds_alternative<DoneMessage>(*event.message)) end = event.at;
-      const auto* promise = std::get_if<PromiseMessage>(&*event.message);
-      if (promise == nullptr || dropped == 0) continue;
-      const bool knows = promise->bytes_per_second < 2 * to;
-      if (noticed == 0 && knows) noticed = event.at;
-      if (noticed > 0 && promise->seconds > kShortest)
-        promises.emplace_back(event.at, promise->seconds);
+      course.take(event);
+      const bool is_amid = event.at > start + 1 || course.received() > manifest_.file_bytes / 3;
+      if (dropped != kNever || !is_amid) continue;
+      link_.shape(to);
+      dropped = StreamPeer::now();
     }
-    double worst = 0;
-    for (const auto& [at, seconds] : promises)
-      worst = std::max(worst, (end - at) / seconds);
-    const double late = noticed > 0 ? noticed - dropped : end - dropped;
-    report_.add({"drop_800_to_100", "seconds_to_notice", late, 0, late, 1});
-    report_.add({"drop_800_to_100", "promise_kept", 0, 0, worst, 1.5});
+    double noticed = kNever;
+    HeardPromise worst{.promise = {}, .at = 0};  // never kept: that none comes is a fault
+    bool any = false;
+    for (const HeardPromise& heard : course.promises()) {
+      if (heard.at < dropped || heard.promise.bytes_per_second >= 2 * to) continue;
+      noticed = std::min(noticed, heard.at);
+      if (heard.promise.seconds < kShortest) continue;
+      if (!any || heard.ratio() > worst.ratio()) worst = heard;
+      any = true;
+    }
+    const std::string what = scan_ + ".drop_800_to_100";
+    const double late = noticed == kNever ? kNever : noticed - dropped;
+    figures_.add({what, "seconds_to_notice", late, 0, late, 1});
+    figures_.add({what, "promise_kept", worst.kept - worst.at, worst.promise.seconds,
+                  any ? worst.ratio() : kNever, 1.5});
   }
 
   // From a new view to its first slice. The answer to a model that is not there
@@ -109,14 +91,16 @@ class Adaptation {
     link_.shape(rate);
     const auto peer = connect();
     const double trip = round_trip(*peer);
-    peer->say(WantMessage{.turn = 1, .wish = Want(view_from(1))});
-    const double start = StreamPeer::now();
-    while (StreamPeer::now() - start < 1.2) {
+    const std::string what = name(late_ ? "view_change_late" : "view_change", rate);
+    peer->say(WantMessage{.turn = 1, .wish = Want(side_view(manifest_, 1))});
+    const double start = StreamPeer::now(), enough = static_cast<double>(manifest_.file_bytes) / 4;
+    for (double bytes = 0; StreamPeer::now() - start < 1.2 && bytes < enough;) {
       const auto event = peer->next();
-      if (event.message && std::holds_alternative<DoneMessage>(*event.message))
-        return;  // too small
+      bytes += static_cast<double>(event.bytes);
+      if (!event.message || !std::holds_alternative<DoneMessage>(*event.message)) continue;
+      return figures_.add({what, "seconds_queued", 0, 0, kNever, 0.15});  // too small to tell
     }
-    peer->say(WantMessage{.turn = 2, .wish = Want(view_from(-1))});
+    peer->say(WantMessage{.turn = 2, .wish = Want(side_view(manifest_, -1))});
     peer->say(OpenMessage{.model = 1, .id = "none"});
     const double asked = StreamPeer::now();
     bool is_new = false;
@@ -126,8 +110,7 @@ class Adaptation {
       is_new = is_new || (event.message && std::holds_alternative<ClosedMessage>(*event.message));
       if (!is_new || (!event.slice && (done == nullptr || done->turn != 2))) continue;
       const double waited = event.at - asked - trip;
-      report_.add({name("view_change", rate), "seconds_queued", waited, 0, waited, 0.15});
-      return;
+      return figures_.add({what, "seconds_queued", waited, trip, waited, 0.15});
     }
   }
 
@@ -135,8 +118,17 @@ class Adaptation {
   static constexpr double kSeconds = 2;
   static constexpr double kShortest = 0.1;  // promises for less than the tools take are not judged
 
-  static std::string name(const char* what, double rate) {
-    return std::string(what) + "_" + std::to_string(static_cast<int>(rate / 1000));
+  std::string name(const char* what, double rate) const {
+    return scan_ + "." + what + "_" + std::to_string(static_cast<int>(rate / 1000));
+  }
+
+  // What is promised before anything is measured says so, and is safe.
+  void first_guess(const WishCourse& course, double rate) {
+    HeardPromise first{.promise = {}, .at = 0};
+    if (!course.promises().empty() && !course.promises()[0].promise.measured)
+      first = course.promises()[0];
+    figures_.add({name("seconds", rate), "first_guess_kept", first.kept - first.at,
+                  first.promise.seconds, first.ratio(), 1});
   }
 
   std::unique_ptr<StreamPeer> connect() {
@@ -154,37 +146,38 @@ class Adaptation {
     return StreamPeer::now() - asked;
   }
 
-  // From beside the model, to the right (1) or left (-1), to a hundredth of a pixel.
-  View view_from(double side) const {
-    const double size = manifest_.lattice.step * std::exp2(manifest_.lattice.bits);
-    const Vec3 box = to_vec3(manifest_.tree.nodes[0].box.low + manifest_.tree.nodes[0].box.high);
-    const Vec3 centre = manifest_.lattice.origin + box * (manifest_.lattice.step / 2);
-    return {.camera = {0, 0, -side, 0, 0, 1, 0, 0, side, 0, 0, 0, centre.x + side * size, centre.y,
-                       centre.z, 1},
-            .field_of_view = 60,
-            .width = 1920,
-            .height = 1080,
-            .pixel_error = 0.01};
-  }
-
-  Report& report_;
+  Medians& figures_;
+  const std::string scan_;
+  const Manifest& manifest_;
   test::ServedFolder folder_;
   ShapedLink link_;
-  Manifest manifest_;
-  std::string id_;
+  const std::string id_;
+  const bool late_;
   std::optional<test::Daemon> daemon_;
 };
 
 }  // namespace
 
 void adaptation(Report& report, const Effort& effort) {
-  Adaptation adaptation(report);
-  for (const double rate : {100'000., 400'000., 800'000.}) {
-    if (effort.quick && rate != 400'000.) continue;
-    adaptation.seconds(rate);
-    adaptation.view_change(rate);
+  const Scan& shown = scan(effort.quick ? "skull" : kLargeScan);
+  const std::vector<double> rates =
+      effort.quick ? std::vector{400'000.} : std::vector{100'000., 400'000., 800'000.};
+  Medians figures;
+  const int runs = effort.quick ? 1 : 5;
+  {
+    Adaptation near(figures, shown, {});
+    for (int run = 0; run < runs; ++run) {
+      for (const double rate : rates) {
+        near.seconds(rate);
+        near.view_change(rate);
+      }
+      near.drop(800'000, 100'000);
+    }
   }
-  adaptation.drop(800'000, 100'000);
+  Adaptation far(figures, shown, kLongWay);
+  for (int run = 0; run < runs; ++run)
+    far.view_change(400'000);
+  figures.report(report);
 }
 
 }  // namespace vitrine::bench

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "connect.h"
+#include "support/loopback.h"
 
 namespace vitrine::bench {
 namespace {
@@ -30,7 +30,7 @@ std::uint64_t content_length(std::string_view head) {
 
 class Visitor {
  public:
-  explicit Visitor(std::uint16_t port) : socket_(connect_to(port)) {}
+  explicit Visitor(std::uint16_t port) : socket_(test::connect_to(port)) {}
 
   int socket() const { return socket_.get(); }
   Clock::time_point asked() const { return asked_; }

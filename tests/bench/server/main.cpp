@@ -18,10 +18,8 @@ struct Section {
   void (*run)(Report& report, const Effort& effort);
 };
 constexpr Section kSections[] = {
-    {"throughput", throughput},
-    {"scale", scale},
-    {"adaptation", adaptation},
-    {"half_open", half_open},
+    {"throughput", throughput}, {"scale", scale},         {"first_triangle", first_triangle},
+    {"adaptation", adaptation}, {"half_open", half_open}, {"soak", soak},
 };
 
 int usage(int code) {

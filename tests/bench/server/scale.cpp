@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/epoll.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "../../server/app/served_folder.h"
+#include "medians.h"
 #include "sections.h"
 #include "server/stream/slice.h"
 #include "support/daemon.h"
+#include "support/descriptor_limit.h"
+#include "support/http_client.h"
+#include "support/loopback.h"
+#include "support/resident_memory.h"
 
 namespace vitrine::bench {
 namespace {
@@ -26,53 +25,25 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kChunk = 64u << 20;  // more than anybody is sent meanwhile
 
-double resident_bytes(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
-  double size = 0, resident = 0;
-  file >> size >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
-
-// A frame of a client, masked with zeros.
-std::string text_frame(const std::string& text) {
-  return std::string{static_cast<char>(0x81), static_cast<char>(0x80 | text.size()), 0, 0, 0, 0} +
-         text;
-}
-
 // One WebSocket that does not block.
 class Viewer {
  public:
-  Viewer(std::uint16_t port, const std::string& model)
-      : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-      throw std::runtime_error("cannot connect");
+  Viewer(std::uint16_t port, const std::string& model) : socket_(test::connect_to(port)) {
     send("GET /api/v1/models/" + model +
          "/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
          "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
          "Sec-WebSocket-Protocol: pmesh.v1\r\n\r\n");
   }
-  Viewer(Viewer&& other) noexcept
-      : socket_(std::exchange(other.socket_, -1)),
-        buffer_(std::move(other.buffer_)),
-        payload_(other.payload_) {}
-  Viewer& operator=(Viewer&&) = delete;
-  ~Viewer() {
-    if (socket_ >= 0) ::close(socket_);
-  }
 
-  int socket() const { return socket_; }
+  int socket() const { return socket_.get(); }
   std::uint64_t payload() const { return payload_; }
 
   void send(const std::string& bytes) {
-    if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) !=
+    if (::send(socket(), bytes.data(), bytes.size(), MSG_NOSIGNAL) !=
         static_cast<ssize_t>(bytes.size()))
       throw std::runtime_error("a viewer was cut");
   }
-  void say(const std::string& text) { send(text_frame(text)); }
+  void say(const std::string& text) { send(test::masked_frame(0x81, text)); }
 
   // Waits for the greeting.
   void greet() {
@@ -97,7 +68,7 @@ class Viewer {
  private:
   void receive(int flags) {
     char bytes[65536];
-    const ssize_t count = ::recv(socket_, bytes, sizeof bytes, flags);
+    const ssize_t count = ::recv(socket(), bytes, sizeof bytes, flags);
     if (count == 0) throw std::runtime_error("a viewer was cut");
     if (count > 0) buffer_.append(bytes, static_cast<std::size_t>(count));
   }
@@ -115,7 +86,7 @@ class Viewer {
     return buffer_.size() < at + header + length ? 0 : header + length;
   }
 
-  int socket_;
+  FileDescriptor socket_;
   std::string buffer_;
   std::uint64_t payload_ = 0;
 };
@@ -126,51 +97,59 @@ class Scale {
       : id_(folder_.publish("a scan", test::tiny_pmesh("a base mesh", std::string(kChunk, 'c')))),
         daemon_(folder_.path(), {"--max-connections", "13000", "--max-connections-per-address", "0",
                                  "--request-rate", "0", "--idle-timeout", "3600"}) {
-    connect(1);
+    connect(1);  // what the first one costs, all share
+    viewers_[0].say(R"({"type":"want","level":1})");
+    while (viewers_[0].payload() == 0)
+      viewers_[0].refine();
     viewers_.clear();
   }
 
   // Resident bytes of the daemon for each of `count` more viewers that look on.
   double idle(std::size_t count) {
-    const double before = resident_bytes(daemon_.pid());
+    const double before = resident();
     connect(count);
-    return (resident_bytes(daemon_.pid()) - before) / static_cast<double>(count);
+    return (resident() - before) / static_cast<double>(count);
   }
 
-  // As many of them refine for that long: the median's bytes over the slowest's.
-  double refine(std::size_t count, std::chrono::milliseconds time) {
-    const int events = ::epoll_create1(EPOLL_CLOEXEC);
+  // As many of them refine for that long: the slowest's bytes, and the median's.
+  std::pair<double, double> refine(std::size_t count, std::chrono::milliseconds time) {
+    const FileDescriptor events(::epoll_create1(EPOLL_CLOEXEC));
+    std::vector<std::uint64_t> before;
     for (std::size_t i = 0; i < count; ++i) {
+      before.push_back(viewers_[i].payload());
       viewers_[i].say(R"({"type":"want","level":1})");
       epoll_event event{.events = EPOLLIN, .data = {.u64 = i}};
-      ::epoll_ctl(events, EPOLL_CTL_ADD, viewers_[i].socket(), &event);
+      ::epoll_ctl(events.get(), EPOLL_CTL_ADD, viewers_[i].socket(), &event);
     }
     std::vector<epoll_event> ready(256);
     for (const auto end = Clock::now() + time; Clock::now() < end;) {
-      const int found = ::epoll_wait(events, ready.data(), static_cast<int>(ready.size()), 100);
+      const int found =
+          ::epoll_wait(events.get(), ready.data(), static_cast<int>(ready.size()), 100);
       for (int i = 0; i < found; ++i)
         viewers_[ready[static_cast<std::size_t>(i)].data.u64].refine();
     }
-    ::close(events);
     std::vector<double> bytes;
     for (std::size_t i = 0; i < count; ++i)
-      bytes.push_back(static_cast<double>(viewers_[i].payload()));
-    std::ranges::sort(bytes);
-    return bytes[0] == 0 ? kNoThreshold : bytes[count / 2] / bytes[0];
+      bytes.push_back(static_cast<double>(viewers_[i].payload() - before[i]));
+    return {*std::ranges::min_element(bytes), median(bytes)};
   }
 
   // Resident bytes for each of `count` viewers that want everything, grant it and read nothing,
-  // beyond an idle one's.
+  // beyond what it is as long as they look on.
   double never_reading(std::size_t count) {
-    viewers_.clear();
     connect(count);
-    const double before = resident_bytes(daemon_.pid());
+    const double before = resident();
     for (Viewer& viewer : viewers_) {
       viewer.say(R"({"type":"ack","bytes":16777216})");
       viewer.say(R"({"type":"want","level":1})");
     }
-    ::poll(nullptr, 0, 2000);  // for buffers to fill: what it takes is no assertion on time
-    return (resident_bytes(daemon_.pid()) - before) / static_cast<double>(count);
+    double now = before, last = 0;
+    while (now > last) {  // buffers fill
+      last = now;
+      ::poll(nullptr, 0, 2000);
+      now = resident();
+    }
+    return (now - before) / static_cast<double>(count);
   }
 
  private:
@@ -187,31 +166,35 @@ class Scale {
     }
   }
 
+  double resident() const { return static_cast<double>(test::resident_bytes(daemon_.pid())); }
+
   test::ServedFolder folder_;
   std::string id_;
   test::Daemon daemon_;
   std::vector<Viewer> viewers_;
 };
 
-void raise_descriptors() {
-  rlimit limit{};
-  ::getrlimit(RLIMIT_NOFILE, &limit);
-  limit.rlim_cur = limit.rlim_max;
-  ::setrlimit(RLIMIT_NOFILE, &limit);
-}
-
 }  // namespace
 
 void scale(Report& report, const Effort& effort) {
-  constexpr double kIdle = 20 * 1024, kOneChunk = 64 * 1024;
-  raise_descriptors();
-  Scale scale;
+  constexpr double kIdle = 20'000, kOneChunk = 64 * 1024;  // bytes each
+  test::raise_descriptor_limit();
   const std::size_t viewers = effort.quick ? 1'000 : 10'000, active = viewers / 5;
-  const double idle = scale.idle(viewers);
-  report.add({"idle_viewer", "ratio_to_20_kb", idle, kIdle, idle / kIdle, 1});
-  const double spread = scale.refine(active, std::chrono::seconds(effort.quick ? 2 : 10));
-  report.add({"refining", "median_ratio_to_slowest", 0, 0, spread, 2});
-  const double stuck = scale.never_reading(viewers / 10);
+  {
+    Scale scale;
+    const double idle = scale.idle(viewers);
+    report.add({"idle_viewer", "ratio_to_20_kb", idle, kIdle, idle / kIdle, 1});
+    Medians figures;
+    for (int run = 0; run < (effort.quick ? 1 : 5); ++run) {
+      const auto [slowest, usual] =
+          scale.refine(active, std::chrono::seconds(effort.quick ? 2 : 5));
+      figures.add({"refining", "median_ratio_to_slowest", usual, slowest,
+                   slowest > 0 ? usual / slowest : kNoThreshold, 2});
+    }
+    figures.report(report);
+  }
+  // A daemon that never had other viewers, whose memory would serve these.
+  const double stuck = Scale().never_reading(viewers / 10);
   report.add({"never_reading", "ratio_to_a_chunk", stuck, kOneChunk, stuck / kOneChunk, 1});
 }
 

@@ -17,6 +17,12 @@ void throughput(Report& report, const Effort& effort);
 // those who read nothing.
 void scale(Report& report, const Effort& effort);
 
+// The first picture at a viewer that is far away: one request, or one handshake. Needs root.
+void first_triangle(Report& report, const Effort& effort);
+
+// Ten minutes (quick: one) of visitors, uploads and bad requests: what memory does meanwhile.
+void soak(Report& report, const Effort& effort);
+
 // Streams over links of 100, 400 and 800 kB/s, a link that becomes slow, and a camera that turns.
 // Needs root, for network namespaces.
 void adaptation(Report& report, const Effort& effort);

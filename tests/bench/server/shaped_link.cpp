@@ -30,13 +30,30 @@ FileDescriptor fresh() {
 
 }  // namespace
 
-ShapedLink::ShapedLink() : before_(here()), server_(fresh()), client_(fresh()) {
-  run("ip link add v0 type veth peer name v1");
-  run("ip link set v1 netns /proc/self/fd/" + std::to_string(server_.get()));
+// Each end has the device v0 (the client's) or v1.
+ShapedLink::ShapedLink(std::chrono::milliseconds round_trip)
+    : before_(here()), server_(fresh()), client_(fresh()) {
+  if (round_trip.count() == 0) {
+    join_at_once();
+  } else {
+    join_late(round_trip);
+  }
+  at_client();
   run("ip addr add 10.99.0.2/24 dev v0 && ip link set v0 up && ip link set lo up");
   at_server();
   run("ip addr add " + std::string(kServer) +
       "/24 dev v1 && ip link set v1 up && ip link set lo up");
+}
+
+void ShapedLink::join_at_once() {
+  run("ip link add v0 type veth peer name v1");
+  run("ip link set v1 netns /proc/self/fd/" + std::to_string(server_.get()));
+}
+
+void ShapedLink::join_late(std::chrono::milliseconds round_trip) {
+  FileDescriptor client = tun_device("v0");
+  at_server();
+  line_.emplace(std::move(client), tun_device("v1"), round_trip / 2);
 }
 
 ShapedLink::~ShapedLink() {

@@ -7,6 +7,7 @@
 #include "../../server/app/served_folder.h"
 #include "cores.h"
 #include "load.h"
+#include "medians.h"
 #include "sections.h"
 #include "support/daemon.h"
 #include "support/http_client.h"
@@ -27,7 +28,8 @@ class Gallery {
         chunk[at] = static_cast<char>(at * (2 * i + 1) >> 3);
       const test::TinyPmesh pmesh = test::tiny_pmesh("base " + std::to_string(i), chunk);
       chunks_.push_back("/api/v1/chunks/" + to_hex(pmesh.manifest.chunks[0].sha256));
-      manifests_.push_back("/api/v1/models/" + folder_.publish("a model", pmesh) + "/manifest");
+      models_.push_back("/api/v1/models/" + folder_.publish("a model", pmesh));
+      manifests_.push_back(models_.back() + "/manifest");
       write(chunks_.back(), chunk);
     }
   }
@@ -36,6 +38,22 @@ class Gallery {
   const std::filesystem::path& files() const { return files_.path(); }
   const std::vector<std::string>& chunks() const { return chunks_; }
   const std::vector<std::string>& manifests() const { return manifests_; }
+
+  // Takes the models back, so that their chunks are for those with a token alone; where they are.
+  std::vector<std::string> close_to_public(std::uint16_t port, const std::string& bearer) const {
+    std::vector<std::string> chunks;
+    for (std::size_t i = 0; i < kModels; ++i) {
+      const std::string body = test::http_get(port, chunks_[i]).body;
+      if (test::http_get(port, models_[i] + "/unpublish", bearer, "POST").status >= 300)
+        throw std::runtime_error("a model stays public");
+      chunks.push_back(models_[i] + chunks_[i].substr(chunks_[i].find("/chunks/")));
+      write(chunks.back(), body);
+    }
+    return chunks;
+  }
+  std::string bearer() {
+    return "Authorization: Bearer " + folder_.token(Role::kOperator) + "\r\n";
+  }
 
   void write(const std::string& target, const std::string& bytes) const {
     const std::filesystem::path file = files_.path().string() + target;
@@ -46,7 +64,7 @@ class Gallery {
  private:
   test::ServedFolder folder_;
   test::TemporaryFolder files_;
-  std::vector<std::string> chunks_, manifests_;
+  std::vector<std::string> models_, chunks_, manifests_;
 };
 
 // As one would set it up for this: the fields of caches, a log line for each request.
@@ -81,11 +99,6 @@ Run measure(const Peer& peer, Load load) {
   run.processor =
       (processor_seconds(peer.process) - before) / static_cast<double>(run.delivery.answers);
   return run;
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
 }
 
 // Interleaved runs of both; every figure is the median of its runs' ratios.
@@ -150,11 +163,12 @@ std::string checked_etag(const Peer& peer, const std::string& target, const std:
 }  // namespace
 
 void throughput(Report& report, const Effort& effort) {
-  const Gallery gallery;
-  Load chunks{.status = 200}, our_manifests{.status = 304}, their_manifests{.status = 304};
+  Gallery gallery;
+  Load chunks{.status = 200}, private_chunks{.status = 200}, our_manifests{.status = 304},
+      their_manifests{.status = 304};
   const test::Daemon daemon = [&] {
     const OnCore server(kServerCore);
-    return test::Daemon(gallery.data(), {"--threads", "1"});
+    return test::Daemon(gallery.data(), {"--threads", "1", "--request-rate", "1000000"});
   }();
   const test::Nginx nginx = [&] {
     const OnCore server(kServerCore);
@@ -180,6 +194,15 @@ void throughput(Report& report, const Effort& effort) {
   report.add(comparison.figure("manifest_304", rate, 1.0, true));
   report.add(comparison.figure("manifest_304_processor", processor, kNoThreshold, false));
   report.add(comparison.figure("manifest_304_p99", p99, 1.5, false));
+  const std::string bearer = gallery.bearer();
+  for (const std::string& chunk : gallery.close_to_public(ours.port, bearer)) {
+    if (test::http_get(ours.port, chunk).status != 404)
+      throw std::runtime_error("served without a token: " + chunk);
+    private_chunks.requests.push_back(request(chunk, bearer));
+  }
+  comparison.run(private_chunks, private_chunks);
+  report.add(comparison.figure("private_chunk_get", rate, 0.95, true));
+  report.add(comparison.figure("private_chunk_get_p99", p99, 1.5, false));
 }
 
 }  // namespace vitrine::bench

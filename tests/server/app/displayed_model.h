@@ -2,8 +2,6 @@
 // The real daemon with a model on display that was really built.
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <stdexcept>
 
 #include "server/jobs/build_model.h"
@@ -12,33 +10,13 @@
 #include "support/daemon.h"
 #include "support/http_client.h"
 #include "support/temporary_folder.h"
+#include "support/wavy_sheet.h"
 
 namespace vitrine::test {
 
-// A wavy sheet of 2 * 59 * 59 = 6962 triangles as OBJ.
-inline std::string wavy_sheet() {
-  constexpr int kSide = 60;
-  std::string text;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      text += "v " + std::to_string(x) + " " + std::to_string(y) + " " +
-              std::to_string(std::sin(0.3 * x) * std::cos(0.2 * y)) + "\n";
-    }
-  }
-  for (int y = 0; y + 1 < kSide; ++y) {
-    for (int x = 0; x + 1 < kSide; ++x) {
-      const int a = y * kSide + x + 1, b = a + 1, c = a + kSide, d = c + 1;
-      for (const auto& [p, q, r] : {std::array{a, b, d}, std::array{a, d, c}}) {
-        text += "f " + std::to_string(p) + " " + std::to_string(q) + " " + std::to_string(r) + "\n";
-      }
-    }
-  }
-  return text;
-}
-
 inline const BuildResult& built_model() {
   static const BuildResult result = [] {
-    const std::string text = wavy_sheet();
+    const std::string text = wavy_sheet(60);  // 6962 triangles
     auto model = build_model({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {},
                              [](std::string_view, double) {});
     if (!model) throw std::runtime_error(model.error().message);

@@ -72,12 +72,6 @@ class Rfc6455Test : public ::testing::Test {
   static std::string code(int number) {
     return {static_cast<char>(number >> 8), static_cast<char>(number)};
   }
-  // A short frame, masked with zeros.
-  static std::string frame(std::uint8_t first, const std::string& payload) {
-    return std::string{
-               static_cast<char>(first), static_cast<char>(0x80 | payload.size()), 0, 0, 0, 0} +
-           payload;
-  }
 
   static inline ServedFolder* folder_;
   static inline Daemon* daemon_;
@@ -94,7 +88,8 @@ TEST_F(Rfc6455Test, TakesPayloadsOfEveryLengthField) {
 
 TEST_F(Rfc6455Test, TakesAFrameByteByByte) {
   Connection client;
-  const std::string text = frame(kFin | kText, message(24)) + frame(kFin | kPing, "p");
+  const std::string text =
+      masked_frame(kFin | kText, message(24)) + masked_frame(kFin | kPing, "p");
   for (const char byte : text)
     client.send_raw({&byte, 1});
   EXPECT_EQ(client.receive().payload, "p");
@@ -141,14 +136,14 @@ TEST_F(Rfc6455Test, IgnoresPongsThatItHasNotAskedFor) {
 
 TEST_F(Rfc6455Test, RefusesReservedBits) {
   for (const int bits : {0x10, 0x20, 0x30, 0x40, 0x50, 0x60, 0x70}) {
-    expect_fault(frame(byte(kFin | bits | kText), message(24)), 1002);
-    expect_fault(frame(byte(kFin | bits | kPing), ""), 1002);
+    expect_fault(masked_frame(byte(kFin | bits | kText), message(24)), 1002);
+    expect_fault(masked_frame(byte(kFin | bits | kPing), ""), 1002);
   }
 }
 
 TEST_F(Rfc6455Test, RefusesReservedOpcodes) {
   for (const int opcode : {3, 4, 5, 6, 7, 11, 12, 13, 14, 15})
-    expect_fault(frame(byte(kFin | opcode), ""), 1002);
+    expect_fault(masked_frame(byte(kFin | opcode), ""), 1002);
 }
 
 TEST_F(Rfc6455Test, JoinsFragmentsAndAnswersPingsInBetween) {
@@ -173,11 +168,12 @@ TEST_F(Rfc6455Test, JoinsAFragmentForEachByte) {
 }
 
 TEST_F(Rfc6455Test, RefusesFragmentsOutOfPlace) {
-  expect_fault(frame(kPing, "half"), 1002);
-  expect_fault(frame(kContinuation, "of nothing"), 1002);
-  expect_fault(frame(kFin | kContinuation, "of nothing"), 1002);
-  expect_fault(frame(kText, "{") + frame(kFin | kText, message(24)), 1002);
-  expect_fault(frame(kFin | kText, message(24)) + frame(kFin | kContinuation, "late"), 1002);
+  expect_fault(masked_frame(kPing, "half"), 1002);
+  expect_fault(masked_frame(kContinuation, "of nothing"), 1002);
+  expect_fault(masked_frame(kFin | kContinuation, "of nothing"), 1002);
+  expect_fault(masked_frame(kText, "{") + masked_frame(kFin | kText, message(24)), 1002);
+  expect_fault(masked_frame(kFin | kText, message(24)) + masked_frame(kFin | kContinuation, "late"),
+               1002);
 }
 
 TEST_F(Rfc6455Test, TakesUtf8AndNothingElse) {
@@ -188,9 +184,9 @@ TEST_F(Rfc6455Test, TakesUtf8AndNothingElse) {
   expect_alive(client);
   for (const char* const bad : {"\xff", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xce",
                                 "\xf8\x88\x80\x80\x80", "\x80", "ok \xe0\x80\xaf"}) {
-    expect_fault(frame(kFin | kText, bad), 1007);
+    expect_fault(masked_frame(kFin | kText, bad), 1007);
   }
-  expect_fault(frame(kText, "\xce") + frame(kFin | kContinuation, "x"), 1007);
+  expect_fault(masked_frame(kText, "\xce") + masked_frame(kFin | kContinuation, "x"), 1007);
 }
 
 TEST_F(Rfc6455Test, AnswersAClose) {
@@ -211,14 +207,14 @@ TEST_F(Rfc6455Test, AnswersACloseWithItsCode) {
 
 TEST_F(Rfc6455Test, IgnoresWhatFollowsAClose) {
   Connection client;
-  client.send_raw(frame(kFin | kClose, code(1000)) + frame(kFin | kPing, "late"));
+  client.send_raw(masked_frame(kFin | kClose, code(1000)) + masked_frame(kFin | kPing, "late"));
   expect_close(client, 1000);
 }
 
 TEST_F(Rfc6455Test, RefusesCloseFramesThatAreNone) {
-  expect_fault(frame(kFin | kClose, "x"), 1002);
+  expect_fault(masked_frame(kFin | kClose, "x"), 1002);
   for (const int number : {0, 999, 1004, 1005, 1006, 1016, 1100, 2000, 2999})
-    expect_fault(frame(kFin | kClose, code(number)), 1002);
+    expect_fault(masked_frame(kFin | kClose, code(number)), 1002);
   Connection client;
   client.send(kFin | kClose, code(1000) + std::string(124, 'r'));
   expect_close(client, 1002);

@@ -193,6 +193,19 @@ TEST_F(DaemonAtRig, stopped_in_the_middle_it_goes_on_at_the_next_start) {
   EXPECT_EQ(end_of(scan)["state"], "done");
 }
 
+TEST_F(DaemonAtRig, the_walkthrough_in_the_readme_ends_with_a_public_model) {
+  const std::string script = VITRINE_SOURCE_DIR "/deploy/examples/scan.sh";
+  const std::string shown = text(script).substr(text(script).find("ask() {"));
+  EXPECT_NE(text(VITRINE_SOURCE_DIR "/README.md").find("```\n" + shown + "```\n"),
+            std::string::npos);
+  const ProgramResult walked = run_program(
+      {"env", "URL=http://127.0.0.1:" + text(path("port")), "T=" + token_, "SCANNER=rig", script});
+  ASSERT_EQ(walked.exit_code, 0) << walked.errors << walked.output;
+  const json models = get("/models")["models"];  // what visitors see
+  ASSERT_EQ(models.size(), 1u) << walked.output;
+  EXPECT_EQ(models[0]["title"], "Bust");
+}
+
 // Each of eight motions takes a second.
 class DaemonAtSlowRig : public DaemonAtRig {
  protected:

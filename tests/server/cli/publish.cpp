@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <future>
+#include <optional>
+
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
 #include "support/daemon.h"
@@ -88,6 +91,22 @@ TEST_F(VitrineCommand, a_damaged_pmesh_is_not_published) {
   const std::string cut = whole.substr(0, whole.size() - 1);
   expect_fault(vitrine({"publish", write("bad.pmesh", cut), "--data", empty_folder("data")}), 1);
   EXPECT_TRUE(std::filesystem::is_empty(path("data")));
+}
+
+TEST_F(VitrineCommand, a_mesh_is_published_over_a_restart_of_the_server) {
+  const std::string data = empty_folder("data"), in = write("in.ply", bumpy_ply(40'000));
+  const std::string by =
+      vitrine_json({"token", "create", "--role", "operator", "--data", data}).value("token", "");
+  std::optional<Daemon> daemon(std::in_place, data);
+  const std::string at = "127.0.0.1:" + std::to_string(daemon->port());
+  auto publishing = std::async(std::launch::async, [&] {
+    return vitrine_json({"publish", in, "--server", "http://" + at, "--token", by});
+  });
+  daemon->wait_for_line("route=/api/v1/models ");
+  daemon.reset();  // killed amid the job
+  daemon.emplace(data, std::vector<std::string>{"--listen", at});
+  const std::string id = publishing.get().value("id", "");
+  EXPECT_EQ(http_get(daemon->port(), "/api/v1/models/" + id).status, 200);
 }
 
 // A daemon, and a token of its installation.

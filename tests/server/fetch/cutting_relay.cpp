@@ -1,29 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cutting_relay.h"
 
-#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <limits>
+
+#include "support/loopback.h"
 
 namespace vitrine::test {
 namespace {
 
-sockaddr_in loopback(std::uint16_t port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
+constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
-// Passes on what is there; how much; 0 at the end.
-std::size_t pass(int from, int to) {
+// Passes on what is there, at most `limit` bytes; how much; 0 at the end.
+std::size_t pass(int from, int to, std::size_t limit) {
   char bytes[4096];
-  const ssize_t count = ::recv(from, bytes, sizeof bytes, 0);
+  const ssize_t count = ::recv(from, bytes, std::min(limit, sizeof bytes), 0);
   if (count <= 0) return 0;
   const auto size = static_cast<std::size_t>(count);
   return ::send(to, bytes, size, MSG_NOSIGNAL) == count ? size : 0;
@@ -52,26 +48,25 @@ void CuttingRelay::run() {
   for (;;) {
     const int client = ::accept(listener_, nullptr, nullptr);
     if (client < 0) return;
-    relay(client, connections_++ == 0 ? bytes_ : std::numeric_limits<std::size_t>::max());
+    relay(client, connections_++ == 0 ? bytes_ : kNoLimit);
     ::close(client);
   }
 }
 
 void CuttingRelay::relay(int client, std::size_t limit) {
-  const int server = ::socket(AF_INET, SOCK_STREAM, 0);
-  const sockaddr_in address = loopback(server_port_);
-  bool open = ::connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  const FileDescriptor connection = connect_to(server_port_);
+  const int server = connection.get();
+  bool open = true;
   std::size_t passed = 0;
   while (open && passed < limit) {
     pollfd ends[] = {{client, POLLIN, 0}, {server, POLLIN, 0}};
     if (::poll(ends, 2, 20'000) <= 0) break;
-    if (ends[0].revents != 0) open = pass(client, server) > 0;
+    if (ends[0].revents != 0) open = pass(client, server, kNoLimit) > 0;
     if (!open || ends[1].revents == 0) continue;
-    const std::size_t count = pass(server, client);
+    const std::size_t count = pass(server, client, limit - passed);
     open = count > 0;
     passed += count;
   }
-  ::close(server);
 }
 
 }  // namespace vitrine::test

@@ -3,19 +3,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "codec/progressive/manifest.h"
 #include "cutting_relay.h"
 #include "server/jobs/build_model.h"
 #include "server/store/installation.h"
 #include "server/store/publish.h"
+#include "support/certificate.h"
 #include "support/daemon.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
+#include "support/wavy_sheet.h"
 
 namespace vitrine::test {
 namespace {
@@ -24,30 +26,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using ::testing::HasSubstr;
 
-// A wavy sheet of 2 * 119 * 119 = 28322 triangles as OBJ.
-std::string wavy_sheet() {
-  constexpr int kSide = 120;
-  std::string text;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      text += "v " + std::to_string(x) + " " + std::to_string(y) + " " +
-              std::to_string(std::sin(0.3 * x) * std::cos(0.2 * y)) + "\n";
-    }
-  }
-  for (int y = 0; y + 1 < kSide; ++y) {
-    for (int x = 0; x + 1 < kSide; ++x) {
-      const int a = y * kSide + x + 1, b = a + 1, c = a + kSide, d = c + 1;
-      for (const auto& [p, q, r] : {std::array{a, b, d}, std::array{a, d, c}}) {
-        text += "f " + std::to_string(p) + " " + std::to_string(q) + " " + std::to_string(r) + "\n";
-      }
-    }
-  }
-  return text;
-}
-
 const std::vector<std::uint8_t>& sheet() {
   static const std::vector<std::uint8_t> file = [] {
-    const std::string text = wavy_sheet();
+    const std::string text = wavy_sheet(120);  // 28322 triangles
     return build_model({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {},
                        [](std::string_view, double) {})
         .value()
@@ -73,9 +54,11 @@ class FetchTest : public ::testing::Test {
   std::string url(std::uint16_t port) const {
     return "http://127.0.0.1:" + std::to_string(port) + "/models/" + id;
   }
+  // `variable`: "NAME=value", of the program's environment.
   ProgramResult fetch(const std::string& from, const std::string& out,
-                      std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {VITRINE_BIN_DIR "/vitrine", "fetch", from, "-o",
+                      std::vector<std::string> more = {},
+                      const std::string& variable = "A=") const {
+    more.insert(more.begin(), {"env", variable, VITRINE_BIN_DIR "/vitrine", "fetch", from, "-o",
                                (results.path() / out).string(), "--json"});
     return run_program(more);
   }
@@ -122,6 +105,28 @@ TEST_F(FetchTest, MeetsWhatIsAskedFor) {
   EXPECT_EQ(files(), 4u);
 }
 
+TEST_F(FetchTest, BringsWhatACameraSees) {
+  const Daemon daemon(data.path());
+  const fs::path file = data.path() / "view.json";
+  const auto bytes_from = [&](double height) {
+    std::ofstream(file) << Json{{"camera", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 60, 60, height, 1}},
+                                {"fov", 60},
+                                {"width", 400},
+                                {"height", 400},
+                                {"pixels", 1}};
+    const auto run = fetch(url(daemon.port()), "seen.ply", {"--view", file});
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    return Json::parse(run.output)["bytes"].get<std::size_t>();
+  };
+  const std::size_t far = bytes_from(10'000), near = bytes_from(100);
+  EXPECT_LT(far, near);
+  EXPECT_LT(near, sheet().size());
+  std::ofstream(file) << R"({"fov":60},"seconds":{)";
+  const auto wrong = fetch(url(daemon.port()), "seen.ply", {"--view", file});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.errors, HasSubstr("is no view; give"));
+}
+
 TEST_F(FetchTest, GoesOnWhereTheConnectionIsCut) {
   const Daemon daemon(data.path());
   const CuttingRelay relay(daemon.port(), sheet().size() / 2);
@@ -131,6 +136,16 @@ TEST_F(FetchTest, GoesOnWhereTheConnectionIsCut) {
   EXPECT_EQ(file_at(results.path() / "sheet.pmesh"), sheet());
   EXPECT_LT(Json::parse(run.output)["received_bytes"], sheet().size() * 3 / 2)
       << "what has come does not come again, but for the chunk that was cut";
+}
+
+TEST_F(FetchTest, GoesOnWhereTheConnectionIsCutAmidTheHead) {
+  const Daemon daemon(data.path());
+  const std::size_t head = parse_header(sheet()).value().head_bytes();
+  const CuttingRelay relay(daemon.port(), head / 2);
+  const auto run = fetch(url(relay.port()), "sheet.pmesh");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(relay.connections(), 2);
+  EXPECT_EQ(file_at(results.path() / "sheet.pmesh"), sheet());
 }
 
 TEST_F(FetchTest, GoesOnWhereAnEarlierRunWasStopped) {
@@ -143,6 +158,25 @@ TEST_F(FetchTest, GoesOnWhereAnEarlierRunWasStopped) {
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_EQ(Json::parse(run.output)["faces"], 28322);
   EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FetchTest, TrustsNoServerButTheOneThatItsCertificateNames) {
+  const fs::path certificate = data.path() / "chain.pem", key = data.path() / "key.pem";
+  write_certificate(make_certificate("Museum"), certificate, key);
+  const Daemon daemon(data.path(), {"--tls-certificate", certificate, "--tls-key", key});
+  const auto at = [&](const std::string& host) {
+    return "https://" + host + ":" + std::to_string(daemon.port()) + "/models/" + id;
+  };
+  const std::string trusting = "SSL_CERT_FILE=" + certificate.string();
+  const auto run = fetch(at("localhost"), "sheet.pmesh", {}, trusting);
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(file_at(results.path() / "sheet.pmesh"), sheet());
+  const auto unknown = fetch(at("localhost"), "a.ply");
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.errors, HasSubstr("not trusted: self-signed certificate; check"));
+  const auto other = fetch(at("127.0.0.1"), "a.ply", {}, trusting);
+  EXPECT_EQ(other.exit_code, 1) << "the certificate is for localhost";
+  EXPECT_THAT(other.errors, HasSubstr("not trusted"));
 }
 
 TEST_F(FetchTest, SaysWhatIsWrongAndWhatToDo) {

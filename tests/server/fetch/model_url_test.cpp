@@ -30,6 +30,14 @@ TEST(ModelUrl, MayLieBelowAPathAndHaveAnAddressForAHost) {
   EXPECT_EQ(v6->authority(), "[::1]:81");
 }
 
+TEST(ModelUrl, MayBeEncrypted) {
+  const auto url = parse_model_url("https://museum.example/models/abc");
+  ASSERT_TRUE(url);
+  EXPECT_TRUE(url->is_encrypted);
+  EXPECT_EQ(url->port, "443");
+  EXPECT_FALSE(parse_model_url("http://museum.example/models/abc")->is_encrypted);
+}
+
 TEST(ModelUrl, IsNothingElse) {
   for (const char* const text :
        {"", "models/abc", "ftp://host/models/abc", "http://host/", "http://host/models/",
