@@ -27,13 +27,16 @@ Workers::Workers(unsigned threads, std::size_t max_exports)
 
 asio::any_io_executor Workers::executor(Place place, std::string_view target) {
   if (place == Place::kDevice) return devices_.executor();
+  if (place == Place::kDisk) return disk_.executor();
   if (place != Place::kExport) return pool_.executor();
   return lanes_[std::hash<std::string_view>{}(target) % kLanes];
 }
 
 std::shared_ptr<const void> Workers::reserve(Place place) {
   if (place == Place::kWorker) return export_seats_;  // bounded by the number of connections
-  const auto& seats = place == Place::kExport ? export_seats_ : device_seats_;
+  const auto& seats = place == Place::kExport   ? export_seats_
+                      : place == Place::kDevice ? device_seats_
+                                                : disk_seats_;
   if (seats->taken.fetch_add(1) >= seats->capacity) {
     seats->taken.fetch_sub(1);
     return nullptr;

@@ -39,11 +39,11 @@ class Workers {
   // is done.
   std::shared_ptr<const void> reserve(Place place);
 
-  // Any thread for Place::kWorker, one of kDeviceThreads for Place::kDevice; for Place::kExport,
-  // equal targets run one after the other.
+  // Any thread for Place::kWorker, one of kDeviceThreads for Place::kDevice, of kDiskThreads for
+  // Place::kDisk; for Place::kExport, equal targets run one after the other.
   asio::any_io_executor executor(Place place, std::string_view target);
-  void stop() { pool_.stop(), exports_.stop(), devices_.stop(); }
-  void join() { pool_.join(), exports_.join(), devices_.join(); }
+  void stop() { pool_.stop(), exports_.stop(), devices_.stop(), disk_.stop(); }
+  void join() { pool_.join(), exports_.join(), devices_.join(), disk_.join(); }
 
  private:
   // Tasks that run or wait at a time. Shared with the seats: connections may outlive the workers.
@@ -53,13 +53,16 @@ class Workers {
     std::atomic<std::size_t> taken{0};
   };
   static constexpr std::size_t kDeviceThreads = 4, kDeviceSeats = 32;
+  static constexpr std::size_t kDiskThreads = 4, kDiskSeats = 64;
 
   asio::thread_pool pool_;
   asio::thread_pool exports_;
   asio::thread_pool devices_{kDeviceThreads};
+  asio::thread_pool disk_{kDiskThreads};
   std::vector<asio::strand<asio::thread_pool::executor_type>> lanes_;
   const std::shared_ptr<Seats> export_seats_;
   const std::shared_ptr<Seats> device_seats_ = std::make_shared<Seats>(kDeviceSeats);
+  const std::shared_ptr<Seats> disk_seats_ = std::make_shared<Seats>(kDiskSeats);
 };
 
 struct HttpOptions {

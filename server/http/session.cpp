@@ -31,6 +31,7 @@ constexpr std::size_t kMaxBuffer = 64 * 1024;  // the extensions of a chunked bo
 constexpr std::size_t kPiece = 64 * 1024;      // of a body that goes to a sink
 constexpr std::size_t kIdleBuffer = 4 * 1024;  // what a connection that waits may keep
 constexpr std::chrono::seconds kLinger{2};
+constexpr unsigned kUnanswered = 499;  // in the logs: the peer has gone, whatever was done by then
 
 std::string_view text(beast::string_view view) {
   return {view.data(), view.size()};
@@ -144,7 +145,11 @@ class Session {
       find_route(parser.get(), exchange);
       if (exchange.route != nullptr) {
         const bool answered = co_await answer(parser, exchange);
-        if (!answered) co_return false;
+        if (!answered) {
+          record(exchange, text(parser.get().method_string()), text(parser.get().target()),
+                 kUnanswered, 0);
+          co_return false;
+        }
       }
     }
     // A body that nobody has read: where the next request would start is unknown.
@@ -241,7 +246,7 @@ class Session {
       while (goes_on && !refusal && !pieces.is_done()) {
         const std::size_t size = co_await read_piece(pieces, piece, goes_on);
         if (size == 0) continue;
-        co_await on_worker(Place::kWorker, target,
+        co_await on_worker(Place::kDisk, target,
                            [&] { refusal = sink->take(std::span(piece).first(size)); });
       }
       exchange.has_poured = pieces.is_done();
@@ -249,7 +254,7 @@ class Session {
       if (refusal) exchange.response = std::move(*refusal);
       if (refusal) co_return true;
     }
-    co_await on_worker(Place::kWorker, target, [&] { exchange.response = sink->finish(); });
+    co_await on_worker(Place::kDisk, target, [&] { exchange.response = sink->finish(); });
     co_return goes_on;
   }
 
@@ -346,6 +351,7 @@ class Session {
 
   // Sets the answer to one who asks too often.
   bool is_beyond_rate(std::string_view who, Exchange& exchange) {
+    if (!exchange.route->limited) return false;
     const auto wait = server_.rate_limit().take(who);
     if (wait.count() == 0) return false;
     exchange.response = problem(429, "too many requests; wait", exchange.id);

@@ -19,14 +19,18 @@ class LocalServer {
  public:
   explicit LocalServer(std::span<const Route> routes,
                        std::chrono::seconds patience = std::chrono::seconds(30),
-                       std::vector<std::unique_ptr<ScannerBackend>> scanners = {})
+                       std::vector<std::unique_ptr<ScannerBackend>> scanners = {},
+                       std::uint32_t request_rate = 0)
       : scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, log_,
                 folder_.path(), VITRINE_BIN_DIR "/vitrined", std::chrono::seconds(10),
                 [this](JobRun& run) { return publishing_.work(run); }},
                std::move(scanners)),
         metrics_(Router(routes).templates()),
         server_(io_, services_, workers_,
-                {.routes = routes, .max_connections = 64, .patience = patience}),
+                {.routes = routes,
+                 .max_connections = 64,
+                 .patience = patience,
+                 .request_rate = request_rate}),
         port_(server_.listen({"127.0.0.1", 0}).value()) {
     server_.start();
     thread_ = std::thread([this] { io_.run(); });
