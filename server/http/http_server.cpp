@@ -54,6 +54,8 @@ HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& worker
       connections_(options_.max_connections, options_.max_connections_per_address,
                    options_.proxies),
       rate_limit_(options_.request_rate),
+      bodies_(std::make_shared<BodiesInFlight>(options_.answer_memory)),
+      patience_(options_.patience),
       strand_(asio::make_strand(io)),
       acceptor_(strand_),
       sweeper_(strand_) {}
@@ -61,6 +63,13 @@ HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& worker
 Expected<std::uint16_t> HttpServer::listen(const Endpoint& endpoint) {
   socket_file_ = endpoint.path;
   return vitrine::listen(acceptor_, endpoint);
+}
+
+void HttpServer::set_limits(std::size_t max_connections, std::chrono::seconds patience,
+                            std::uint64_t answer_memory) {
+  connections_.set_capacity(max_connections);
+  bodies_->set_capacity(answer_memory);
+  patience_ = patience;
 }
 
 void HttpServer::start() {
