@@ -74,7 +74,8 @@ Response list_models(const Request& request, Services& services) {
   if (!page) return internal_error(page.error(), request, services);
   Response response =
       revalidated("application/json", model_page_json(*page, request.caller.has_value()));
-  return request.caller ? for_caller(std::move(response)) : response;
+  if (request.caller) return for_caller(std::move(response));
+  return response;
 }
 
 Response show_model(const Request& request, Services& services) {
