@@ -36,7 +36,8 @@ namespace {
 
 constexpr std::size_t kAdminConnections = 64;
 constexpr std::chrono::minutes kCollectEvery{10};
-constexpr std::size_t kMaxExports = 64;  // each holds a decoded mesh while it runs
+constexpr std::chrono::milliseconds kStaleness{100};  // of what is known of models
+constexpr std::size_t kMaxExports = 64;               // each holds a decoded mesh while it runs
 
 Unexpected of_admin(const Error& error) {
   return fail(error.code, "--admin-listen: " + error.message);
@@ -85,7 +86,8 @@ class Daemon {
         tls_(std::move(tls)),
         installation_(std::move(installation)),
         access_log_(std::move(access_log)),
-        models_(*installation_.store, *installation_.catalogue),
+        models_(*installation_.store, *installation_.catalogue, kStaleness,
+                live_.get()->model_cache_bytes),
         uploads_(live_.get()->data / "uploads", {.bytes = live_.get()->max_upload_bytes,
                                                  .per_token = live_.get()->max_uploads,
                                                  .lifetime = live_.get()->upload_lifetime}),
@@ -151,6 +153,9 @@ class Daemon {
           Severity::kWarning,
           fmt::format("only {} connections fit the limit on open files; raise it", connections_));
     }
+    models_.refresh_by([this](std::function<void()> refresh) {
+      asio::post(workers_.executor(Place::kWorker, ""), std::move(refresh));
+    });
     wait_for_signal();
     wait_for_reload();
     public_.start();
@@ -195,7 +200,8 @@ class Daemon {
                                                : SIZE_MAX,
             .proxies = live_.get()->trusted_proxies,
             .request_rate = live_.get()->request_rate,
-            .min_rate = live_.get()->min_rate};
+            .min_rate = live_.get()->min_rate,
+            .answer_memory = live_.get()->answer_memory_bytes};
   }
 
   HttpOptions admin_options() {
@@ -284,12 +290,21 @@ class Daemon {
     if (auto opened = access_log_.reopen(next->line.settings.access_log); !opened) return opened;
     configuration_.line = std::move(next->line);
     live_.replace(configuration_.line.settings);
-    exports_.set_capacity(live_.get()->export_cache_bytes);
+    apply_limits();
     events_.event(Severity::kInfo, "configuration read again; new: " + list_keys(next->changed));
     if (!next->waiting.empty()) {
       events_.event(Severity::kWarning, "restart to have the new " + list_keys(next->waiting));
     }
     return {};
+  }
+
+  void apply_limits() {
+    const auto now = live_.get();
+    exports_.set_capacity(now->export_cache_bytes);
+    models_.set_capacity(now->model_cache_bytes);
+    public_.set_limits(connections_within_limit(now->max_connections), now->idle_timeout,
+                       now->answer_memory_bytes);
+    admin_.set_limits(kAdminConnections, now->idle_timeout, UINT64_MAX);
   }
 
   void reopen_log(const std::filesystem::path& file) {

@@ -128,6 +128,11 @@ class JobCatalogue {
     Sha256 request{};
   };
   virtual Expected<std::optional<Earlier>> find_once(const std::string& key) = 0;
+
+  // Takes away, in one transaction, the keys of jobs that were added before `keys_before` and the
+  // jobs that ended before `jobs_before`, both in milliseconds since 1970: but for jobs that have
+  // not ended, and those that a scan or a key still names. The number of jobs.
+  virtual Expected<std::size_t> forget(std::int64_t keys_before, std::int64_t jobs_before) = 0;
 };
 
 }  // namespace vitrine

@@ -184,6 +184,25 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
     });
   }
 
+  Expected<std::size_t> forget(std::int64_t keys_before, std::int64_t jobs_before) override {
+    return guarded<std::size_t>([&]() -> Expected<std::size_t> {
+      Transaction transaction(database_);
+      Statement keys(database_,
+                     "DELETE FROM idempotency WHERE job IN "
+                     "(SELECT id FROM job WHERE state >= ? AND created < ?) RETURNING 1");
+      keys.bind(number(JobState::kDone)).bind(keys_before).any();
+      Statement jobs(database_,
+                     "DELETE FROM job WHERE state >= ? AND ended < ? "
+                     "AND id NOT IN (SELECT job FROM scan) "
+                     "AND id NOT IN (SELECT job FROM idempotency) RETURNING 1");
+      std::size_t forgotten = 0;
+      for (jobs.bind(number(JobState::kDone)).bind(jobs_before); jobs.step();)
+        ++forgotten;
+      transaction.commit();
+      return forgotten;
+    });
+  }
+
  private:
   // Oldest first; the condition's ? is the first state in which a job has ended.
   Expected<std::vector<JobRecord>> jobs_where(std::string_view condition) {

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string>
+
+#include "codec/core/parse_number.h"
 
 namespace vitrine {
 namespace {
@@ -46,16 +47,15 @@ Expected<void> Networks::add(std::string_view network) {
   const std::string_view address = network.substr(0, network.find('/'));
   const std::string_view bits = network.substr(std::min(network.size(), address.size() + 1));
   Prefix prefix{};
-  unsigned most = 0, length = 0;
+  unsigned most = 0;
   const bool known = parse_address(address, prefix.address, most);
-  const auto [end, fault] = std::from_chars(bits.data(), bits.data() + bits.size(), length);
   const bool whole = address.size() == network.size();
-  if (!known ||
-      (!whole && (fault != std::errc{} || end != bits.data() + bits.size() || length > most))) {
+  const auto length = whole ? most : parse_number<unsigned>(bits);
+  if (!known || !length || *length > most) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("'{}' is no network; give, for example, 10.0.0.0/8", network));
   }
-  prefix.bits = 128 - most + (whole ? most : length);
+  prefix.bits = 128 - most + *length;
   prefixes_.push_back(prefix);
   return {};
 }
@@ -78,6 +78,21 @@ bool Networks::contain(std::string_view address) const {
          std::ranges::any_of(prefixes_, [&](const Prefix& prefix) {
            return begin_alike(prefix.address, bytes, prefix.bits);
          });
+}
+
+std::string network_of(std::string_view address) {
+  constexpr std::array<std::uint8_t, 12> kMapped = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
+  std::array<std::uint8_t, 16> bytes;
+  const std::string zeroed(address);
+  if (::inet_pton(AF_INET6, zeroed.c_str(), bytes.data()) != 1) return zeroed;
+  char text[INET6_ADDRSTRLEN] = "";
+  if (std::equal(kMapped.begin(), kMapped.end(), bytes.data())) {
+    ::inet_ntop(AF_INET, bytes.data() + kMapped.size(), text, sizeof text);
+    return text;
+  }
+  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+  ::inet_ntop(AF_INET6, bytes.data(), text, sizeof text);
+  return std::string(text) + "/64";
 }
 
 bool is_address(std::string_view text) {

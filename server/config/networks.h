@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,6 +34,11 @@ class Networks {
   std::vector<Prefix> prefixes_;
   bool unix_ = false;
 };
+
+// What limits count as one visitor: an IPv4 address (in either form), and the first 64 bits of an
+// IPv6 address, since all that share them are one subscriber's (RFC 6177). What is no address stays
+// as it is.
+std::string network_of(std::string_view address);
 
 // Whether `text` is an IPv4 or IPv6 address in digits.
 bool is_address(std::string_view text);

@@ -7,20 +7,20 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <limits>
+
+#include "codec/core/parse_number.h"
 
 namespace vitrine {
 namespace {
 
-Expected<std::uint64_t> parse_number(std::string_view text, std::uint64_t min, std::uint64_t max) {
-  std::uint64_t value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc{} || end != text.data() + text.size() || value < min || value > max) {
+Expected<std::uint64_t> parse_within(std::string_view text, std::uint64_t min, std::uint64_t max) {
+  const auto value = parse_number<std::uint64_t>(text);
+  if (!value || *value < min || *value > max) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("'{}' is not a whole number from {} to {}; give one", text, min, max));
   }
-  return value;
+  return *value;
 }
 
 Expected<Endpoint> parse_unix_socket(std::string_view path) {
@@ -48,7 +48,7 @@ Expected<Endpoint> parse_endpoint(std::string_view text) {
         ErrorCode::kBadInput,
         fmt::format("'{}' is not a numeric address; give, for example, 127.0.0.1 or [::1]", host));
   }
-  const auto port = parse_number(text.substr(colon + 1), 0, 65535);
+  const auto port = parse_within(text.substr(colon + 1), 0, 65535);
   if (!port) return Unexpected(port.error());
   return Endpoint{.host = std::string(host), .port = static_cast<std::uint16_t>(*port)};
 }
@@ -124,7 +124,7 @@ Expected<void> data_folder(Settings& settings, std::string_view text) {
 
 template <auto Member, std::uint64_t Min, std::uint64_t Max>
 Expected<void> number(Settings& settings, std::string_view text) {
-  const auto value = parse_number(text, Min, Max);
+  const auto value = parse_within(text, Min, Max);
   if (!value) return Unexpected(value.error());
   using Target = std::remove_reference_t<decltype(settings.*Member)>;
   settings.*Member = static_cast<Target>(*value);
@@ -181,12 +181,15 @@ constexpr std::array kOptions{
     Option{"threads", kCount, "0", "Threads that serve connections. 0 is one per core.", false,
            number<&S::threads, 0, 1024>},
     Option{"max-connections", kCount, "10000", "Connections beyond this number are closed at once.",
-           false, number<&S::max_connections, 1, 1'000'000>},
-    Option{"max-connections-per-address", kCount, "5000",
-           "Likewise of one address that is no trusted proxy's. 0 is no limit.", false,
-           number<&S::max_connections_per_address, 0, 1'000'000>},
+           false, number<&S::max_connections, 1, 1'000'000>, kReloadable},
+    Option{
+        "max-connections-per-address", kCount, "5000",
+        "Likewise of one address, or of one IPv6 network of 64 bits, that is no trusted proxy's; "
+        "streams count for the visitor behind the proxy. 0 is no limit.",
+        false, number<&S::max_connections_per_address, 0, 1'000'000>},
     Option{"request-rate", kCount, "1000",
-           "Requests a second that each address and each token may make beyond what is answered "
+           "Requests a second that each address (of IPv6, each network of 64 bits) and each token "
+           "may make beyond what is answered "
            "from memory, ten seconds' worth at once. 0 is no limit.",
            false, number<&S::request_rate, 0, 1'000'000>},
     Option{"min-rate", kBytes, "256",
@@ -194,7 +197,7 @@ constexpr std::array kOptions{
            number<&S::min_rate, 0, 1'000'000'000>},
     Option{"idle-timeout", kSeconds, "30",
            "How long a connection may take for a request's header, or to accept more bytes.", false,
-           number<&S::idle_timeout, 1, 3600>},
+           number<&S::idle_timeout, 1, 3600>, kReloadable},
     Option{"stop-timeout", kSeconds, "20",
            "After SIGTERM, how long transfers may take to finish before they are cut.", false,
            number<&S::stop_timeout, 0, 3600>, kReloadable},
@@ -202,6 +205,16 @@ constexpr std::array kOptions{
            "Memory for exported files and posters that are kept ready.", false,
            number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
            kReloadable},
+    Option{"model-cache", kBytes, "268435456",
+           "Memory for what is known of the models that are asked for most recently.", false,
+           number<&S::model_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
+           kReloadable},
+    Option{
+        "answer-memory", kBytes, "536870912",
+        "Memory that answers may hold which their readers have not taken yet; beyond it they are "
+        "503. What is sent from a file holds none.",
+        false, number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
+        kReloadable},
     Option{"allowed-origins", kOrigins, "",
            "The sites whose pages may open streams besides this one's. Empty: every site's, but "
            "with a token none's.",

@@ -33,6 +33,8 @@ struct Settings {
   std::chrono::seconds idle_timeout{};  // for a whole request header, and for each write to advance
   std::chrono::seconds stop_timeout{};  // from SIGTERM to the end
   std::uint64_t export_cache_bytes = 0;
+  std::uint64_t model_cache_bytes = 0;
+  std::uint64_t answer_memory_bytes = 0;
   std::vector<std::string> allowed_origins;  // "https://museum.example"
   std::uint64_t max_upload_bytes = 0;
   std::uint32_t max_uploads = 0;                // open at a time, of one token

@@ -55,7 +55,7 @@ constexpr std::string_view kComponents = R"json({
   "from": {"name": "from", "in": "query", "description": "The number of the first point",
     "schema": {"type": "integer", "minimum": 0, "default": 0}},
   "idempotencyKey": {"name": "Idempotency-Key", "in": "header",
-    "description": "Sent again under the same key, a request does not begin anything twice",
+    "description": "Sent again under the same key, for 30 days, a request does not begin anything twice",
     "schema": {"type": "string", "minLength": 1, "maxLength": 200}},
   "ifMatch": {"name": "If-Match", "in": "header", "description": "The ETag of what was read; 412 where the model has changed since",
     "schema": {"type": "string"}},
@@ -174,7 +174,7 @@ constexpr std::string_view kComponents = R"json({
   "RoleName": {"enum": ["viewer", "operator", "admin"]},
   "TokenOrder": {"type": "object", "required": ["role"], "additionalProperties": false, "properties": {
     "role": {"$ref": "#/components/schemas/RoleName"}, "label": {"type": "string", "description": "For people"}}},
-  "TokenList": {"type": "object", "required": ["tokens"], "properties": {"tokens": {"type": "array", "items": {"type": "object",
+  "TokenPage": {"type": "object", "required": ["tokens", "next"], "properties": {"next": {"$ref": "#/components/schemas/Next"}, "tokens": {"type": "array", "items": {"type": "object",
     "required": ["id", "role", "label", "created"], "properties": {
     "id": {"$ref": "#/components/schemas/Id"}, "role": {"$ref": "#/components/schemas/RoleName"}, "label": {"type": "string"},
     "created": {"$ref": "#/components/schemas/Time"}}}}}},

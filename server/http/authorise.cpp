@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "server/auth/role.h"
+#include "server/config/networks.h"
 #include "server/http/problem.h"
 #include "server/http/services.h"
 
@@ -21,7 +22,7 @@ Response unauthorised(std::string_view detail, std::string_view challenge,
 
 Response unknown_token(const Credentials& credentials, Services& services) {
   services.metrics.unknown_tokens.fetch_add(1, std::memory_order_relaxed);
-  const auto wait = services.tokens.throttle().failed(credentials.remote);
+  const auto wait = services.tokens.throttle().failed(network_of(credentials.remote));
   if (wait.count() == 0) {
     return unauthorised("the token is unknown or revoked; ask for a new one",
                         "Bearer error=\"invalid_token\"", credentials.request_id);

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "codec/core/parse_number.h"
 #include "server/http/problem.h"
 
 namespace vitrine {
@@ -21,12 +21,16 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
-// A number of digits alone; nothing where it is none or does not fit.
-std::optional<std::uint64_t> number(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
+// Whether a list of entity tags is "*", or one of them `fits`.
+template <class Fits>
+bool holds(std::string_view list, const Fits& fits) {
+  if (trim(list) == "*") return true;
+  while (!list.empty()) {
+    const std::string_view item = list.substr(0, list.find(','));
+    if (fits(trim(item))) return true;
+    list.remove_prefix(std::min(list.size(), item.size() + 1));
+  }
+  return false;
 }
 
 RangeChoice part(std::uint64_t offset, std::uint64_t length) {
@@ -38,7 +42,7 @@ constexpr RangeChoice kUnsatisfiable{RangeChoice::Kind::kUnsatisfiable};
 
 // "-500": the last 500 bytes.
 RangeChoice choose_suffix(std::string_view text, std::uint64_t size) {
-  const auto length = number(text);
+  const auto length = parse_number<std::uint64_t>(text);
   if (!length) return kWhole;
   if (*length == 0 || size == 0) return kUnsatisfiable;
   const std::uint64_t kept = std::min(*length, size);
@@ -75,15 +79,14 @@ Response partial(Response response, const RangeChoice& range) {
 }  // namespace
 
 bool matches_any(std::string_view list, std::string_view etag) {
-  if (trim(list) == "*") return true;
-  while (!list.empty()) {
-    std::string_view item = trim(list.substr(0, list.find(',')));
-    list.remove_prefix(
-        std::min(list.size(), list.find(',') == list.npos ? list.size() : list.find(',') + 1));
-    if (item.starts_with("W/")) item.remove_prefix(2);
-    if (item == etag) return true;
-  }
-  return false;
+  return holds(list, [etag](std::string_view tag) { return tag == etag; });
+}
+
+bool matches_any_weakly(std::string_view list, std::string_view etag) {
+  return holds(list, [etag](std::string_view tag) {
+    if (tag.starts_with("W/")) tag.remove_prefix(2);
+    return tag == etag;
+  });
 }
 
 RangeChoice choose_range(std::string_view range, std::uint64_t size) {
@@ -93,9 +96,9 @@ RangeChoice choose_range(std::string_view range, std::uint64_t size) {
   const std::size_t dash = range.find('-');
   if (dash == std::string_view::npos) return kWhole;
   if (dash == 0) return choose_suffix(range.substr(1), size);
-  const auto first = number(range.substr(0, dash));
+  const auto first = parse_number<std::uint64_t>(range.substr(0, dash));
   const std::string_view end = range.substr(dash + 1);
-  const auto last = end.empty() ? std::optional(UINT64_MAX) : number(end);
+  const auto last = end.empty() ? std::optional(UINT64_MAX) : parse_number<std::uint64_t>(end);
   if (!first || !last || *last < *first) return kWhole;
   if (*first >= size) return kUnsatisfiable;
   return part(*first, std::min(*last, size - 1) - *first + 1);
@@ -105,7 +108,7 @@ Response apply_conditions(const RequestHeader& request, Response response,
                           std::string_view request_id) {
   if (response.status != 200 || response.etag.empty()) return response;
   const std::string_view none_match = value_of(request, field::if_none_match);
-  if (!none_match.empty() && matches_any(none_match, response.etag)) {
+  if (!none_match.empty() && matches_any_weakly(none_match, response.etag)) {
     return not_modified(std::move(response));
   }
   const std::string_view range = value_of(request, field::range);

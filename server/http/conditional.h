@@ -10,8 +10,12 @@
 
 namespace vitrine {
 
-// If-None-Match: "*", or a list that holds `etag`; weak comparison, as RFC 9110 13.1.2 asks.
+// If-Match: "*", or a list that holds `etag`, which is strong; a weak tag never matches (RFC 9110,
+// 13.1.1).
 bool matches_any(std::string_view list, std::string_view etag);
+
+// If-None-Match: likewise, but weak tags match, too (RFC 9110, 13.1.2).
+bool matches_any_weakly(std::string_view list, std::string_view etag);
 
 struct RangeChoice {
   enum class Kind { kWhole, kPart, kUnsatisfiable } kind = Kind::kWhole;

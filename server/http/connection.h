@@ -20,6 +20,7 @@ struct Connection : std::enable_shared_from_this<Connection> {
 
   ByteStream socket;
   const std::string remote;  // the peer's address, or "unix"
+  std::string counted_as;    // ConnectionSet's: the network whose limit it counts for
   bool idle = false;         // between two requests: may be closed without loss
   bool reads_body = false;   // is told of its deadline before it is cut: it has an answer to give
   bool draining = false;     // the answer under way is the last one

@@ -43,7 +43,8 @@ ConnectionSet::Admission ConnectionSet::add(const std::shared_ptr<Connection>& c
   const bool is_proxy = proxies_.contain(connection->remote);
   const std::scoped_lock lock(mutex_);
   if (draining_ || connections_.size() >= capacity_) return Admission::kFull;
-  std::size_t& count = of_address_[connection->remote];
+  connection->counted_as = network_of(connection->remote);
+  std::size_t& count = of_network_[connection->counted_as];
   if (count >= per_address_ && !is_proxy) return Admission::kAddressFull;
   ++count;
   connections_.emplace(connection.get(), connection);
@@ -55,11 +56,34 @@ void ConnectionSet::remove(const Connection& connection) {
   {
     const std::scoped_lock lock(mutex_);
     connections_.erase(&connection);
-    const auto count = of_address_.find(connection.remote);
-    if (--count->second == 0) of_address_.erase(count);
+    count_less(connection.counted_as);
     if (connections_.empty()) on_empty = std::exchange(on_empty_, nullptr);
   }
   if (on_empty) on_empty();
+}
+
+// With the lock held.
+void ConnectionSet::count_less(const std::string& network) {
+  const auto count = of_network_.find(network);
+  if (--count->second == 0) of_network_.erase(count);
+}
+
+bool ConnectionSet::count_as(Connection& connection, const std::string& visitor) {
+  const bool is_proxy = proxies_.contain(visitor);
+  std::string network = network_of(visitor);
+  const std::scoped_lock lock(mutex_);
+  if (network == connection.counted_as) return true;
+  const auto count = of_network_.find(network);
+  if (count != of_network_.end() && count->second >= per_address_ && !is_proxy) return false;
+  ++of_network_[network];
+  count_less(connection.counted_as);
+  connection.counted_as = std::move(network);
+  return true;
+}
+
+void ConnectionSet::set_capacity(std::size_t capacity) {
+  const std::scoped_lock lock(mutex_);
+  capacity_ = capacity;
 }
 
 std::vector<std::shared_ptr<Connection>> ConnectionSet::alive() {

@@ -15,13 +15,20 @@ namespace vitrine {
 // Thread-safe.
 class ConnectionSet {
  public:
-  // At most `capacity`, and `per_address` of each address but for the trusted proxies'.
+  // At most `capacity`, and `per_address` of each network_of() but for the trusted proxies'.
   ConnectionSet(std::size_t capacity, std::size_t per_address, Networks proxies = {})
-      : capacity_(capacity), per_address_(per_address), proxies_(std::move(proxies)) {}
+      : per_address_(per_address), proxies_(std::move(proxies)), capacity_(capacity) {}
 
   enum class Admission { kAdmitted, kFull, kAddressFull };
   Admission add(const std::shared_ptr<Connection>& connection);
   void remove(const Connection& connection);
+
+  // From now on it counts for `visitor`, who is behind the proxy that it came from, and will keep
+  // it to itself. False where that visitor has as many as it may: then all stays as it was.
+  bool count_as(Connection& connection, const std::string& visitor);
+
+  // Those that are open stay.
+  void set_capacity(std::size_t capacity);
 
   // Closes every connection whose deadline has passed.
   void sweep();
@@ -32,14 +39,16 @@ class ConnectionSet {
 
  private:
   std::vector<std::shared_ptr<Connection>> alive();
+  void count_less(const std::string& network);
 
-  const std::size_t capacity_, per_address_;
+  const std::size_t per_address_;
   const Networks proxies_;
   std::mutex mutex_;  // guards what follows
+  std::size_t capacity_;
   bool draining_ = false;
   std::function<void()> on_empty_;
   std::unordered_map<const Connection*, std::weak_ptr<Connection>> connections_;
-  std::unordered_map<std::string, std::size_t> of_address_;
+  std::unordered_map<std::string, std::size_t> of_network_;
 };
 
 }  // namespace vitrine

@@ -19,6 +19,11 @@ void ExportCache::set_capacity(std::uint64_t max_bytes) {
 
 ExportCache::File ExportCache::find(const std::string& key) {
   const std::scoped_lock lock(mutex_);
+  return find_held(key);
+}
+
+// With the lock held.
+ExportCache::File ExportCache::find_held(const std::string& key) {
   const auto found = by_key_.find(key);
   if (found == by_key_.end()) {
     const auto large = large_.find(key);
@@ -43,9 +48,32 @@ void ExportCache::insert(const std::string& key, File file) {
     drop_oldest();
 }
 
-ExportCache::File ExportCache::keep(const std::string& key, std::vector<std::uint8_t> bytes) {
-  std::string etag = '"' + to_hex(sha256(bytes)) + '"';
-  auto file = std::make_shared<const ExportedFile>(ExportedFile{std::move(bytes), std::move(etag)});
+std::optional<ExportCache::Result> ExportCache::find_or_announce(
+    const std::string& key, std::promise<Expected<File>>& result) {
+  const std::scoped_lock lock(mutex_);
+  if (const auto begun = in_the_making_.find(key); begun != in_the_making_.end())
+    return begun->second;
+  File file = find_held(key);
+  Result future = result.get_future().share();
+  if (!file) {
+    in_the_making_.emplace(key, std::move(future));
+    return std::nullopt;
+  }
+  result.set_value(std::move(file));
+  return future;
+}
+
+Expected<ExportCache::File> ExportCache::finish(const std::string& key) {
+  const std::scoped_lock lock(mutex_);
+  return in_the_making_.extract(key).mapped().get();
+}
+
+Expected<ExportCache::File> ExportCache::keep(const std::string& key,
+                                              Expected<std::vector<std::uint8_t>> bytes) {
+  if (!bytes) return Unexpected(bytes.error());
+  std::string etag = '"' + to_hex(sha256(*bytes)) + '"';
+  auto file =
+      std::make_shared<const ExportedFile>(ExportedFile{std::move(*bytes), std::move(etag)});
   insert(key, file);
   return file;
 }

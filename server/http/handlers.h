@@ -89,8 +89,8 @@ Response append_to_upload(const Request& request, Services& services);
 Response remove_upload(const Request& request, Services& services);
 
 // tokens.cpp
-Response list_tokens(const Request& request, Services& services);
-Response add_token(const Request& request, Services& services);  // {"role": r, "label": l}
+Response list_tokens(const Request& request, Services& services);  // ?limit= &cursor=
+Response add_token(const Request& request, Services& services);    // {"role": r, "label": l}
 Response revoke_token(const Request& request, Services& services);
 
 // pages.cpp

@@ -25,6 +25,15 @@ void append_exports(std::string& text, ExportCache& exports) {
   append_metric(text, "vitrine_export_cache_bytes", "", "gauge", "Held ready.", exports.bytes());
 }
 
+void append_models(std::string& text, PublishedModels& models) {
+  append_metric(text, "vitrine_model_cache_hits_total", "", "counter",
+                "Chunks and models found in memory.", models.hits.load());
+  append_metric(text, "vitrine_model_cache_misses_total", "", "counter",
+                "Models that had to be opened.", models.misses.load());
+  append_metric(text, "vitrine_model_cache_bytes", "", "gauge",
+                "Manifests, their texts and the index of their chunks.", models.bytes());
+}
+
 // Without a catalogue there are no numbers: /readyz says why.
 void append_jobs(std::string& text, JobQueue& jobs) {
   const auto counts = jobs.count();
@@ -64,6 +73,7 @@ Response show_metrics(const Request&, Services& services) {
   append_metric(samples, "vitrine_build_info", "{version=\"" VITRINE_VERSION "\"}", "gauge",
                 "The version that runs.", 1);
   append_exports(samples, services.exports);
+  append_models(samples, services.models);
   append_jobs(samples, services.scans.jobs());
   append_disk(samples, services.settings.get()->data);
   Response response = text(std::move(samples));

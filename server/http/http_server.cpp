@@ -27,13 +27,16 @@ Workers::Workers(unsigned threads, std::size_t max_exports)
 
 asio::any_io_executor Workers::executor(Place place, std::string_view target) {
   if (place == Place::kDevice) return devices_.executor();
+  if (place == Place::kDisk) return disk_.executor();
   if (place != Place::kExport) return pool_.executor();
   return lanes_[std::hash<std::string_view>{}(target) % kLanes];
 }
 
 std::shared_ptr<const void> Workers::reserve(Place place) {
   if (place == Place::kWorker) return export_seats_;  // bounded by the number of connections
-  const auto& seats = place == Place::kExport ? export_seats_ : device_seats_;
+  const auto& seats = place == Place::kExport   ? export_seats_
+                      : place == Place::kDevice ? device_seats_
+                                                : disk_seats_;
   if (seats->taken.fetch_add(1) >= seats->capacity) {
     seats->taken.fetch_sub(1);
     return nullptr;
@@ -51,6 +54,8 @@ HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& worker
       connections_(options_.max_connections, options_.max_connections_per_address,
                    options_.proxies),
       rate_limit_(options_.request_rate),
+      bodies_(std::make_shared<BodiesInFlight>(options_.answer_memory)),
+      patience_(options_.patience),
       strand_(asio::make_strand(io)),
       acceptor_(strand_),
       sweeper_(strand_) {}
@@ -58,6 +63,13 @@ HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& worker
 Expected<std::uint16_t> HttpServer::listen(const Endpoint& endpoint) {
   socket_file_ = endpoint.path;
   return vitrine::listen(acceptor_, endpoint);
+}
+
+void HttpServer::set_limits(std::size_t max_connections, std::chrono::seconds patience,
+                            std::uint64_t answer_memory) {
+  connections_.set_capacity(max_connections);
+  bodies_->set_capacity(answer_memory);
+  patience_ = patience;
 }
 
 void HttpServer::start() {

@@ -11,9 +11,11 @@
 #include "server/auth/rate_limit.h"
 #include "server/config/settings.h"
 #include "server/http/beast.h"
+#include "server/http/bodies_in_flight.h"
 #include "server/http/connection_set.h"
 #include "server/http/listening.h"
 #include "server/http/router.h"
+#include "server/http/send.h"
 #include "server/transport/live_tls.h"
 
 namespace vitrine {
@@ -39,11 +41,11 @@ class Workers {
   // is done.
   std::shared_ptr<const void> reserve(Place place);
 
-  // Any thread for Place::kWorker, one of kDeviceThreads for Place::kDevice; for Place::kExport,
-  // equal targets run one after the other.
+  // Any thread for Place::kWorker, one of kDeviceThreads for Place::kDevice, of kDiskThreads for
+  // Place::kDisk; for Place::kExport, equal targets run one after the other.
   asio::any_io_executor executor(Place place, std::string_view target);
-  void stop() { pool_.stop(), exports_.stop(), devices_.stop(); }
-  void join() { pool_.join(), exports_.join(), devices_.join(); }
+  void stop() { pool_.stop(), exports_.stop(), devices_.stop(), disk_.stop(); }
+  void join() { pool_.join(), exports_.join(), devices_.join(), disk_.join(); }
 
  private:
   // Tasks that run or wait at a time. Shared with the seats: connections may outlive the workers.
@@ -53,13 +55,16 @@ class Workers {
     std::atomic<std::size_t> taken{0};
   };
   static constexpr std::size_t kDeviceThreads = 4, kDeviceSeats = 32;
+  static constexpr std::size_t kDiskThreads = 4, kDiskSeats = 64;
 
   asio::thread_pool pool_;
   asio::thread_pool exports_;
   asio::thread_pool devices_{kDeviceThreads};
+  asio::thread_pool disk_{kDiskThreads};
   std::vector<asio::strand<asio::thread_pool::executor_type>> lanes_;
   const std::shared_ptr<Seats> export_seats_;
   const std::shared_ptr<Seats> device_seats_ = std::make_shared<Seats>(kDeviceSeats);
+  const std::shared_ptr<Seats> disk_seats_ = std::make_shared<Seats>(kDiskSeats);
 };
 
 struct HttpOptions {
@@ -71,8 +76,9 @@ struct HttpOptions {
   std::shared_ptr<LiveTls> tls = {};  // null: without TLS
   std::size_t max_connections_per_address = SIZE_MAX;
   Networks proxies = {};
-  std::uint32_t request_rate = 0;  // RateLimit
-  std::uint32_t min_rate = 0;      // Pace
+  std::uint32_t request_rate = 0;            // RateLimit
+  std::uint32_t min_rate = 0;                // Pace
+  std::uint64_t answer_memory = UINT64_MAX;  // BodiesInFlight
 };
 
 class HttpServer {
@@ -87,6 +93,10 @@ class HttpServer {
   // Accepts nobody any more and ends the connections (ConnectionSet::drain).
   void drain(std::function<void()> on_empty);
 
+  // What may change while it serves.
+  void set_limits(std::size_t max_connections, std::chrono::seconds patience,
+                  std::uint64_t answer_memory);
+
   // What the sessions use.
   const Router& router() const { return router_; }
   const HttpOptions& options() const { return options_; }
@@ -94,6 +104,9 @@ class HttpServer {
   Workers& workers() { return workers_; }
   asio::io_context& io() { return io_; }
   RateLimit& rate_limit() { return rate_limit_; }
+  BodiesInFlight& bodies() { return *bodies_; }
+  ConnectionSet& connections() { return connections_; }
+  Pace pace() const { return {patience_.load(std::memory_order_relaxed), options_.min_rate}; }
 
  private:
   asio::awaitable<void> accept();
@@ -110,6 +123,8 @@ class HttpServer {
   const Router router_;
   ConnectionSet connections_;
   RateLimit rate_limit_;
+  const std::shared_ptr<BodiesInFlight> bodies_;
+  std::atomic<std::chrono::seconds> patience_;
   asio::strand<asio::io_context::executor_type> strand_;  // of the two below
   Acceptor acceptor_;
   std::filesystem::path socket_file_;  // empty but for a Unix socket

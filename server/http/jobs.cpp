@@ -43,7 +43,7 @@ template <class Answer>
 Response with_job(const Request& request, Services& services, Answer&& answer) {
   const auto job = services.scans.jobs().find(request.parameters.id);
   if (!job) return internal_error(job.error(), request, services);
-  if (*job && request.caller) return answer(**job);
+  if (*job && request.caller) return for_caller(answer(**job));
   if (*job && is_public((*job)->record, services)) return answer(without_reasons(**job));
   if (!request.caller) return token_needed(request);  // which jobs there are is nobody's business
   return problem(404, "there is no such job", request.id);

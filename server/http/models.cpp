@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "server/http/handlers.h"
 #include "server/http/job_json.h"
 #include "server/http/model_json.h"
@@ -33,17 +31,11 @@ ModelQuery read_query(const Query& query, Faults& faults) {
     out.text = *text;
     if (text->size() > kMaxText) faults.push_back({"q", fmt::format("at most {} bytes", kMaxText)});
   }
-  if (const auto limit = query.get("limit")) {
-    const auto [end, fault] =
-        std::from_chars(limit->data(), limit->data() + limit->size(), out.limit);
-    if (fault != std::errc{} || end != limit->data() + limit->size() || out.limit < 1 ||
-        out.limit > kMaxPage) {
-      faults.push_back({"limit", fmt::format("a whole number from 1 to {}", kMaxPage)});
-    }
-  }
-  if (const auto cursor = query.get("cursor")) {
-    out.after = ModelId::parse(*cursor);
-    if (!out.after) faults.push_back({"cursor", "the 'next' of the page before"});
+  if (const auto page = read_page(query)) {
+    out.after = page->after;
+    out.limit = page->limit;
+  } else {
+    faults.insert(faults.end(), page.error().begin(), page.error().end());
   }
   if (const auto drafts = query.get("drafts")) {
     out.drafts = *drafts == "true";
@@ -82,7 +74,7 @@ Response list_models(const Request& request, Services& services) {
   if (!page) return internal_error(page.error(), request, services);
   Response response =
       revalidated("application/json", model_page_json(*page, request.caller.has_value()));
-  if (wanted.drafts) response.caching = Caching::kPrivate;
+  if (request.caller) return for_caller(std::move(response));
   return response;
 }
 
@@ -104,7 +96,8 @@ Response show_manifest(const Request& request, Services& services) {
     Response response = revalidated(
         "application/json", manifest_json(*model, asked ? std::optional(*wish) : std::nullopt));
     response.fields = {{"Vary", "Save-Data"}};
-    if (!asked) model->keep_manifest({std::get<std::string>(response.body), response.etag});
+    if (!asked)
+      services.models.keep_manifest(model, {std::get<std::string>(response.body), response.etag});
     return response;
   });
 }

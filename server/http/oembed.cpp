@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "codec/core/html.h"
+#include "codec/core/parse_number.h"
 #include "server/http/handlers.h"
 #include "server/http/posters.h"
 #include "server/http/preview.h"
@@ -26,11 +27,9 @@ std::optional<ParameterFault> read_room(const Query& query, Room& room) {
        {std::pair("maxwidth", &room.width), std::pair("maxheight", &room.height)}) {
     const auto text = query.get(name);
     if (!text) continue;
-    std::uint32_t most = 0;
-    const auto [end, fault] = std::from_chars(text->data(), text->data() + text->size(), most);
-    if (fault != std::errc{} || end != text->data() + text->size() || most == 0)
-      return ParameterFault{name, "a whole number of pixels, 1 or more"};
-    *side = std::min(*side, most);
+    const auto most = parse_number<std::uint32_t>(*text);
+    if (!most || *most == 0) return ParameterFault{name, "a whole number of pixels, 1 or more"};
+    *side = std::min(*side, *most);
   }
   return std::nullopt;
 }

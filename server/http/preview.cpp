@@ -6,32 +6,10 @@
 #include <algorithm>
 #include <cctype>
 
+#include "codec/core/html.h"
 #include "server/http/posters.h"
 
 namespace vitrine {
-
-std::string escape_html(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string escape_query(std::string_view text) {
   std::string out;

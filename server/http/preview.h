@@ -13,9 +13,6 @@ namespace vitrine {
 // `html` with that before the end of its head.
 std::string with_preview(std::string_view html, const ModelRecord& model, std::string_view origin);
 
-// `text` as the content of an element or of a quoted attribute.
-std::string escape_html(std::string_view text);
-
 // `text` as a value in a query (RFC 3986: all but unreserved characters as %XX).
 std::string escape_query(std::string_view text);
 

@@ -48,6 +48,12 @@ Response with_published(const Request& request, Services& services, Answer&& ans
   return with_found(services.models.find(request.parameters.id), request, services, answer);
 }
 
+// As it is told to this caller alone.
+inline Response for_caller(Response response) {
+  response.caching = Caching::kPrivate;
+  return response;
+}
+
 // With that or, where the caller has a token, a draft, or all of a model of which less is public:
 // what is told of those is for nobody to keep.
 template <class Answer>
@@ -56,10 +62,8 @@ Response with_model(const Request& request, Services& services, Answer&& answer)
   const bool is_all = published && *published && !(*published)->record().public_part;
   if (!request.caller || !published || is_all)
     return with_found(published, request, services, answer);
-  Response response =
-      with_found(services.models.open_whole(request.parameters.id), request, services, answer);
-  response.caching = Caching::kPrivate;
-  return response;
+  return for_caller(
+      with_found(services.models.open_whole(request.parameters.id), request, services, answer));
 }
 
 }  // namespace vitrine

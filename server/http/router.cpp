@@ -2,7 +2,8 @@
 #include "server/http/router.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "codec/core/parse_number.h"
 
 namespace vitrine {
 namespace {
@@ -16,10 +17,11 @@ bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= 32 && std::ranges::all_of(text, fits);
 }
 
-bool parse_number(std::string_view text, std::uint32_t& out) {
+bool parse_small(std::string_view text, std::uint32_t& out) {
   if (text.empty() || text.size() > 6 || text.front() == '0') return false;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return fault == std::errc{} && end == text.data() + text.size();
+  const auto number = parse_number<std::uint32_t>(text);
+  if (number) out = *number;
+  return number.has_value();
 }
 
 bool parse_parameter(std::string_view kind, std::string_view text, PathParameters& out) {
@@ -29,7 +31,7 @@ bool parse_parameter(std::string_view kind, std::string_view text, PathParameter
     return id.has_value();
   }
   if (kind == "{sha256}") return from_hex(text, out.sha256);
-  if (kind == "{number}") return parse_number(text, out.number);
+  if (kind == "{number}") return parse_small(text, out.number);
   if (kind == "{name}") {
     out.name = text;
     return is_name(text);

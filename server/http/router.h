@@ -49,7 +49,8 @@ using QuickHandler = std::optional<Response> (*)(const Request& request, Service
 // Where a handler runs.
 enum class Place : std::uint8_t {
   kInline,  // on the connection's own thread: it touches memory and open files only
-  kWorker,  // on a worker thread: it may wait for the catalogue or the disk
+  kWorker,  // on a worker thread: it may wait for the catalogue, and read from the disk
+  kDisk,    // on a thread for what waits until the disk has it, or for the store's lock
   kExport,  // on a worker thread, one at a time per target: it computes for long
   kDevice,  // on a thread for what waits for devices: it may do so for seconds
 };
@@ -66,6 +67,7 @@ struct Route {
   QuickHandler quick = nullptr;  // tried first, on the connection's own thread, for everybody
   bool reads_body = true;        // of a POST or PATCH: JSON; else it does not matter, or goes
                                  // where the answer's sink is
+  bool limited = true;           // by request-rate
 };
 
 // Whether other origins' pages may read the answers.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "codec/core/parse_number.h"
 #include "server/http/handlers.h"
 #include "server/http/job_json.h"
 #include "server/http/published.h"
@@ -17,7 +17,7 @@ template <class Answer>
 Response with_scan(const Request& request, Services& services, Answer&& answer) {
   const auto scan = services.scans.find(request.parameters.id);
   if (!scan) return internal_error(scan.error(), request, services);
-  if (*scan && request.caller) return answer(**scan);
+  if (*scan && request.caller) return for_caller(answer(**scan));
   if (*scan && is_public((*scan)->entry, services))
     return answer(ScanInfo{(*scan)->entry, without_reasons((*scan)->job)});
   if (!request.caller) return token_needed(request);  // which scans there are is nobody's business
@@ -40,12 +40,7 @@ Response state_after(const Expected<void>& done, const ScanId& id, const Request
 }
 
 std::optional<std::size_t> read_from(const Query& query) {
-  const auto text = query.get("from");
-  if (!text) return 0;
-  std::size_t from = 0;
-  const auto [end, fault] = std::from_chars(text->data(), text->data() + text->size(), from);
-  if (fault != std::errc{} || end != text->data() + text->size()) return std::nullopt;
-  return from;
+  return parse_number<std::size_t>(query.get("from").value_or("0"));
 }
 
 // Of a scanner that is not configured any more nothing is known: the job will say so.

@@ -3,9 +3,11 @@
 
 #include <sys/sendfile.h>
 #include <sys/socket.h>
+#include <sys/uio.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 
 namespace vitrine {
 namespace {
@@ -96,6 +98,30 @@ asio::awaitable<std::uint64_t> send_memory(Connection& connection, Bytes bytes, 
   co_return co_await send_all(connection, bytes.size(), pace, write);
 }
 
+iovec part_of(Bytes bytes) {
+  return {const_cast<std::uint8_t*>(bytes.data()), bytes.size()};  // is only read
+}
+
+// `head` and then `body`, as they lie.
+asio::awaitable<std::uint64_t> send_both(Connection& connection, Bytes head, Bytes body,
+                                         Pace pace) {
+  if (connection.socket.is_encrypted()) {
+    const std::uint64_t sent = co_await send_encrypted(connection, head, pace);
+    if (sent < head.size()) co_return sent;
+    co_return sent + co_await send_encrypted(connection, body, pace);
+  }
+  const int socket = connection.socket.native_handle();
+  auto write = [socket, head, body](std::uint64_t sent) {
+    const std::size_t of_head = std::min<std::size_t>(sent, head.size());
+    iovec parts[] = {part_of(head.subspan(of_head)), part_of(body.subspan(sent - of_head))};
+    msghdr message{};
+    message.msg_iov = parts;
+    message.msg_iovlen = std::size(parts);
+    return ::sendmsg(socket, &message, MSG_NOSIGNAL);
+  };
+  co_return co_await send_all(connection, head.size() + body.size(), pace, write);
+}
+
 asio::awaitable<std::uint64_t> send_file(Connection& connection, int file, const StoredBytes& body,
                                          Pace pace) {
   const int socket = connection.socket.native_handle();
@@ -135,17 +161,16 @@ asio::awaitable<std::uint64_t> send_stored(Connection& connection, const StoredB
 asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string head, Body body,
                                              Pace pace) {
   connection.expires_after(pace.patience);
-  const auto* text = std::get_if<std::string>(&body);
-  if (text != nullptr) head += *text;
-  const std::uint64_t text_size = text != nullptr ? text->size() : 0;
-  const int flags = text == nullptr && body_size(body) > 0 ? MSG_MORE : 0;
-  const std::uint64_t sent = co_await send_memory(connection, bytes_of(head), flags, pace);
-  if (text != nullptr) co_return sent - std::min(sent, head.size() - text_size);
-  if (sent < head.size()) co_return 0;
-  if (const auto* shared = std::get_if<SharedBytes>(&body)) {
-    co_return co_await send_memory(connection, shared->bytes, 0, pace);
+  if (const auto* stored = std::get_if<StoredBytes>(&body)) {
+    const int flags = stored->length > 0 ? MSG_MORE : 0;
+    const std::uint64_t sent = co_await send_memory(connection, bytes_of(head), flags, pace);
+    if (sent < head.size()) co_return 0;
+    co_return co_await send_stored(connection, *stored, pace);
   }
-  co_return co_await send_stored(connection, std::get<StoredBytes>(body), pace);
+  const auto* text = std::get_if<std::string>(&body);
+  const Bytes bytes = text != nullptr ? bytes_of(*text) : std::get<SharedBytes>(body).bytes;
+  const std::uint64_t sent = co_await send_both(connection, bytes_of(head), bytes, pace);
+  co_return sent - std::min<std::uint64_t>(sent, head.size());
 }
 
 asio::awaitable<std::uint64_t> send_text(Connection& connection, std::string_view text, Pace pace) {

@@ -31,6 +31,7 @@ constexpr std::size_t kMaxBuffer = 64 * 1024;  // the extensions of a chunked bo
 constexpr std::size_t kPiece = 64 * 1024;      // of a body that goes to a sink
 constexpr std::size_t kIdleBuffer = 4 * 1024;  // what a connection that waits may keep
 constexpr std::chrono::seconds kLinger{2};
+constexpr unsigned kUnanswered = 499;  // in the logs: the peer has gone, whatever was done by then
 
 std::string_view text(beast::string_view view) {
   return {view.data(), view.size()};
@@ -144,22 +145,26 @@ class Session {
       find_route(parser.get(), exchange);
       if (exchange.route != nullptr) {
         const bool answered = co_await answer(parser, exchange);
-        if (!answered) co_return false;
+        if (!answered) {
+          record(exchange, text(parser.get().method_string()), text(parser.get().target()),
+                 kUnanswered, 0);
+          co_return false;
+        }
       }
     }
     // A body that nobody has read: where the next request would start is unknown.
     if (!parser.is_done() && !exchange.has_poured) exchange.keep_alive = false;
-    if (exchange.response.status == 101 && parser.is_done()) {
+    if (exchange.response.status == 101) check_upgrade(parser, exchange);
+    if (exchange.response.status == 101) {
       co_await stream(parser.release(), exchange);
       co_return false;
     }
-    if (exchange.response.status == 101) reject(exchange, 400, "an upgrade has no body");
     const bool sent = co_await send(parser.get(), exchange);
     co_return sent ? exchange.keep_alive : false;
   }
 
   asio::awaitable<ReadResult> read_header(Parser& parser, Exchange& exchange) {
-    connection_->expires_after(server_.options().patience);
+    connection_->expires_after(server_.pace().patience);
     connection_->idle = buffer_.size() == 0;
     if (connection_->idle && buffer_.capacity() > kIdleBuffer) buffer_.shrink_to_fit();
     const auto [error, bytes] =
@@ -180,7 +185,7 @@ class Session {
   // Takes the request's body, where it has one: from callers alone that may send it.
   asio::awaitable<ReadResult> read_body(Parser& parser, Exchange& exchange) {
     if (!parser.is_done()) {
-      connection_->expires_after(server_.options().patience);
+      connection_->expires_after(server_.pace().patience);
       const ReadResult read = co_await receive_body(parser, exchange);
       if (read != ReadResult::kRequest) co_return read;
     }
@@ -222,7 +227,7 @@ class Session {
     }
     constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
     const std::uint64_t sent =
-        co_await send_text(*connection_, kContinue, {.patience = server_.options().patience});
+        co_await send_text(*connection_, kContinue, {.patience = server_.pace().patience});
     co_return sent < kContinue.size() ? ReadResult::kClosed : ReadResult::kRequest;
   }
 
@@ -241,7 +246,7 @@ class Session {
       while (goes_on && !refusal && !pieces.is_done()) {
         const std::size_t size = co_await read_piece(pieces, piece, goes_on);
         if (size == 0) continue;
-        co_await on_worker(Place::kWorker, target,
+        co_await on_worker(Place::kDisk, target,
                            [&] { refusal = sink->take(std::span(piece).first(size)); });
       }
       exchange.has_poured = pieces.is_done();
@@ -249,7 +254,7 @@ class Session {
       if (refusal) exchange.response = std::move(*refusal);
       if (refusal) co_return true;
     }
-    co_await on_worker(Place::kWorker, target, [&] { exchange.response = sink->finish(); });
+    co_await on_worker(Place::kDisk, target, [&] { exchange.response = sink->finish(); });
     co_return goes_on;
   }
 
@@ -259,7 +264,7 @@ class Session {
     auto& body = parser.get().body();
     body.data = piece.data();
     body.size = piece.size();
-    connection_->expires_after(server_.options().patience);
+    connection_->expires_after(server_.pace().patience);
     const auto [error, bytes] =
         co_await beast::http::async_read(connection_->socket, buffer_, parser, kNoThrow);
     const bool is_well = !error || error == beast::http::error::need_buffer;
@@ -328,7 +333,8 @@ class Session {
         co_return true;
       }
     }
-    if (route.place != Place::kInline && is_beyond_rate(exchange.visitor.address, exchange))
+    if (route.place != Place::kInline &&
+        is_beyond_rate(network_of(exchange.visitor.address), exchange))
       co_return true;
     if (needs_authorisation(route, message)) {
       const bool authorised = co_await authorise_caller(message, exchange);
@@ -346,6 +352,7 @@ class Session {
 
   // Sets the answer to one who asks too often.
   bool is_beyond_rate(std::string_view who, Exchange& exchange) {
+    if (!exchange.route->limited) return false;
     const auto wait = server_.rate_limit().take(who);
     if (wait.count() == 0) return false;
     exchange.response = problem(429, "too many requests; wait", exchange.id);
@@ -406,6 +413,14 @@ class Session {
     }
   }
 
+  // A stream keeps its connection to one visitor for long, whoever has opened it.
+  void check_upgrade(const Parser& parser, Exchange& exchange) {
+    if (!parser.is_done()) return reject(exchange, 400, "an upgrade has no body");
+    if (server_.connections().count_as(*connection_, exchange.visitor.address)) return;
+    exchange.response = problem(429, "this address has too many streams", exchange.id);
+    exchange.response.fields = {{"Retry-After", "5"}};
+  }
+
   asio::awaitable<void> stream(Parser::value_type request, Exchange& exchange) {
     const std::string target(request.target());
     connection_->never_expires();
@@ -423,6 +438,9 @@ class Session {
   // False where the peer did not take all of it.
   asio::awaitable<bool> send(const Parser::value_type& request, Exchange& exchange) {
     if (connection_->draining) exchange.keep_alive = false;
+    const bool with_body = request.method() != verb::head;
+    const auto room = with_body ? server_.bodies().admit(exchange.response.body) : nullptr;
+    if (with_body && !room) exchange.response = busy(exchange.id);
     Response& response = exchange.response;
     if (response.events) exchange.keep_alive = false;  // their end is the connection's
     const bool public_read = exchange.public_read && response.caching != Caching::kPrivate;
@@ -430,13 +448,12 @@ class Session {
                               connection_->socket.is_encrypted()};
     std::string head = response_head(response, options);
     const unsigned status = response.status;
-    const bool with_body = request.method() != verb::head;
     Body body = with_body ? std::move(response.body) : Body();
     const std::uint64_t size = body_size(body);
     std::uint64_t sent =
-        co_await send_response(*connection_, std::move(head), std::move(body), pace());
+        co_await send_response(*connection_, std::move(head), std::move(body), server_.pace());
     if (response.events && with_body)
-      sent = co_await send_events(*connection_, *response.events, server_.options().patience);
+      sent = co_await send_events(*connection_, *response.events, server_.pace().patience);
     record(exchange, text(request.method_string()), text(request.target()), status, sent);
     const bool last = !exchange.keep_alive || connection_->draining;
     lingers_ = sent >= size && last;
@@ -492,8 +509,6 @@ class Session {
     }
   }
 
-  Pace pace() const { return {server_.options().patience, server_.options().min_rate}; }
-
   void close() {
     boost::system::error_code ignored;
     connection_->socket.close(ignored);
@@ -511,7 +526,7 @@ asio::awaitable<void> run_session(std::shared_ptr<Connection> connection, HttpSe
   boost::system::error_code ignored;
   connection->socket.set_option(Tcp::no_delay(true), ignored);
   if (const auto& tls = server.options().tls) {
-    connection->expires_after(server.options().patience);
+    connection->expires_after(server.pace().patience);
     const auto error = co_await connection->socket.encrypt(tls->current());
     if (error) co_return;
   }

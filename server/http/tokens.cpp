@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who may call, for administrators.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "server/auth/role.h"
 #include "server/http/handlers.h"
 #include "server/http/job_json.h"
 #include "server/http/published.h"
+#include "server/http/query.h"
 #include "server/http/timestamp.h"
 
 namespace vitrine {
@@ -30,19 +32,30 @@ tl::expected<TokenOrder, FieldFaults> parse_token_order(const nlohmann::json& bo
   return order_or_faults(std::move(order), std::move(faults));
 }
 
+nlohmann::ordered_json token_json(const TokenRecord& token) {
+  return {{"id", token.id.to_string()},
+          {"role", name_of(token.role)},
+          {"label", token.label},
+          {"created", timestamp(token.created)}};
+}
+
 }  // namespace
 
 Response list_tokens(const Request& request, Services& services) {
+  const auto query = Query::parse(request.query);
+  if (!query) return problem(400, "the query is malformed", request.id);
+  const auto page = read_page(*query);
+  if (!page) return problem(400, "a parameter is out of range", request.id, page.error());
   const auto tokens = services.catalogue.tokens();
   if (!tokens) return internal_error(tokens.error(), request, services);
-  auto list = nlohmann::ordered_json::array();
-  for (const TokenRecord& token : *tokens) {
-    list.push_back({{"id", token.id.to_string()},
-                    {"role", name_of(token.role)},
-                    {"label", token.label},
-                    {"created", timestamp(token.created)}});
-  }
-  return json_answer({{"tokens", std::move(list)}});
+  auto first = tokens->begin();
+  if (page->after) first = std::ranges::upper_bound(*tokens, *page->after, {}, &TokenRecord::id);
+  const auto last = std::ranges::next(first, page->limit, tokens->end());
+  nlohmann::ordered_json json = {{"tokens", nlohmann::ordered_json::array()}, {"next", nullptr}};
+  for (auto token = first; token != last; ++token)
+    json["tokens"].push_back(token_json(*token));
+  if (last != tokens->end()) json["next"] = std::prev(last)->id.to_string();
+  return json_answer(json);
 }
 
 Response add_token(const Request& request, Services& services) {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "codec/core/parse_number.h"
 #include "server/http/body_sink.h"
 #include "server/http/handlers.h"
 #include "server/http/job_json.h"
@@ -28,11 +28,7 @@ std::string_view value(const RequestHeader& header, std::string_view name) {
 }
 
 std::optional<std::uint64_t> number(const RequestHeader& header, std::string_view name) {
-  const std::string_view text = value(header, name);
-  std::uint64_t number = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text.empty() || fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return number;
+  return parse_number<std::uint64_t>(value(header, name));
 }
 
 Response tus(Response response) {

@@ -4,21 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+
+#include "codec/core/parse_number.h"
 
 namespace vitrine {
 namespace {
 
 constexpr std::string_view kParameters[] = {"triangles", "error", "bytes",
                                             "level",     "kbps",  "seconds"};
-
-template <class Number>
-std::optional<Number> parse_number(std::string_view text) {
-  Number value{};
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 tl::expected<Want, std::string> parse_level(std::string_view text, std::uint32_t levels) {
   if (text == "lowest") return WantLevel{0};

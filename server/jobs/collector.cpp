@@ -17,12 +17,19 @@ Expected<std::set<UploadId>> Collector::uploads_in_use() {
   return uploads;
 }
 
+Expected<std::size_t> Collector::forget_jobs(std::int64_t now) {
+  const auto before = [now](std::chrono::milliseconds age) { return now - age.count(); };
+  return means_.jobs.forget(before(kKeyAge), before(kJobAge));
+}
+
 // With the store's lock held nobody is between putting an object and naming it.
 Expected<Collector::Collected> Collector::collect(std::int64_t now) {
   const auto in_use = uploads_in_use();
   if (!in_use) return Unexpected(in_use.error());
   const auto uploads = means_.uploads.sweep(*in_use, now);
   if (!uploads) return fail(ErrorCode::kIo, uploads.error().message);
+  const auto jobs = forget_jobs(now);
+  if (!jobs) return Unexpected(jobs.error());
   const auto lock = means_.store.lock();
   if (!lock) return Unexpected(lock.error());
   const auto files = means_.catalogue.files();
@@ -32,7 +39,7 @@ Expected<Collector::Collected> Collector::collect(std::int64_t now) {
     named.insert(file.file);
   const auto objects = means_.store.sweep(named, means_.grace);
   if (!objects) return Unexpected(objects.error());
-  return Collected{*objects, *uploads};
+  return Collected{*objects, *uploads, *jobs};
 }
 
 void Collector::collect_and_tell() {
@@ -43,10 +50,11 @@ void Collector::collect_and_tell() {
     collected = fail(ErrorCode::kIo, std::string("cannot collect: ") + fault.what());
   }
   if (!collected) return means_.events.event(Severity::kError, collected.error().message);
-  if (collected->objects + collected->uploads == 0) return;
-  means_.events.event(Severity::kInfo,
-                      fmt::format("collected {} objects that nothing names and {} old uploads",
-                                  collected->objects, collected->uploads));
+  if (collected->objects + collected->uploads + collected->jobs == 0) return;
+  means_.events.event(
+      Severity::kInfo,
+      fmt::format("collected {} objects that nothing names, {} old uploads and {} old jobs",
+                  collected->objects, collected->uploads, collected->jobs));
 }
 
 void Collector::start(std::chrono::seconds pause) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Garbage collection: what no model, upload or unfinished job names is taken away after a grace.
-// Any number of processes may do so on one data folder at a time.
+// Garbage collection: what no model, upload or unfinished job names is taken away after a grace,
+// and what is of old times after ages. Any number of processes may do so on one data folder at a
+// time.
 #pragma once
 
 #include <chrono>
@@ -30,10 +31,14 @@ struct CollectorMeans {
 
 class Collector {
  public:
+  // How long an Idempotency-Key is known after its job has begun, and a job after it has ended,
+  // unless it is the newest of a scan.
+  static constexpr std::chrono::days kKeyAge{30}, kJobAge{365};
+
   explicit Collector(const CollectorMeans& means) : means_(means) {}
 
   struct Collected {
-    std::size_t objects = 0, uploads = 0;
+    std::size_t objects = 0, uploads = 0, jobs = 0;
   };
   // `now` in milliseconds since 1970. Fails (kIo) where the catalogue or the disk refuses.
   Expected<Collected> collect(std::int64_t now = now_in_milliseconds());
@@ -46,6 +51,7 @@ class Collector {
 
  private:
   Expected<std::set<UploadId>> uploads_in_use();
+  Expected<std::size_t> forget_jobs(std::int64_t now);
   void collect_and_tell();
   void run(const std::stop_token& stop, std::chrono::seconds pause);
 

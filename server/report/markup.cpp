@@ -8,6 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "codec/core/html.h"
+
 namespace vitrine {
 namespace {
 
@@ -19,33 +21,6 @@ std::string utf8(std::string_view bytes) {
   return json::parse(text).get<std::string>();
 }
 
-void add_escaped(std::string& out, char c) {
-  switch (c) {
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '&':
-      out += "&amp;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    case '\'':
-      out += "&#39;";
-      break;
-    default:
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte < 0x20 || byte == 0x7F) {
-        out += kReplacement;
-      } else {
-        out += c;
-      }
-  }
-}
-
 std::string data(const std::string& value, const std::string& text) {
   return fmt::format("<data value=\"{}\">{}</data>", value, text);
 }
@@ -53,10 +28,16 @@ std::string data(const std::string& value, const std::string& text) {
 }  // namespace
 
 std::string escaped(std::string_view bytes) {
-  std::string out;
-  for (const char c : utf8(bytes))
-    add_escaped(out, c);
-  return out;
+  std::string printable;
+  for (const char c : utf8(bytes)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) {
+      printable += kReplacement;
+    } else {
+      printable += c;
+    }
+  }
+  return escape_html(printable);
 }
 
 std::string base64(std::span<const std::uint8_t> bytes) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <mutex>
 
 #include "server/store/change.h"
@@ -28,6 +29,18 @@ Expected<Manifest> read_manifest(const Object& file, const ModelRecord& record) 
     return damaged(record, "its file has another length than its header says");
   }
   return manifest;
+}
+
+// What holding it costs: the manifest, and where each chunk is found.
+std::uint64_t memory_of(const Manifest& manifest) {
+  constexpr std::uint64_t kEntry = sizeof(Sha256) + sizeof(PublishedChunk) + 4 * sizeof(void*);
+  std::uint64_t bytes = sizeof(PublishedModel) + (manifest.chunks.size() + 1) * kEntry +
+                        manifest.chunks.size() * sizeof(ChunkInfo) +
+                        manifest.levels.size() * sizeof(LevelInfo) +
+                        manifest.tree.nodes.size() * sizeof(RegionNode);
+  for (const auto& leaves : manifest.adjacency)
+    bytes += sizeof leaves + leaves.size() * sizeof leaves.front();
+  return bytes;
 }
 
 template <class Value>
@@ -74,25 +87,42 @@ bool PublishedModels::is_fresh(Clock::time_point now, Clock::duration age) const
   return checked_ != Clock::time_point{} && now - checked_ < age;
 }
 
-// One caller in each half of the staleness is sent to the catalogue, so that the many others never
-// have to go there all at once.
+// Asked once in each half of the staleness, so that the many who come never have to wait for the
+// catalogue all at once.
 bool PublishedModels::may_show(Clock::time_point now) {
   if (!is_fresh(now, staleness_)) return false;
   auto due = due_.load(std::memory_order_relaxed);
   const auto next = (now + staleness_ / 2).time_since_epoch().count();
-  return now.time_since_epoch().count() < due || !due_.compare_exchange_strong(due, next);
+  const bool is_due =
+      now.time_since_epoch().count() >= due && due_.compare_exchange_strong(due, next);
+  if (is_due && post_) post_([this] { static_cast<void>(forget_if_changed()); });
+  return !is_due || post_;
+}
+
+void PublishedModels::count_hit(const PublishedModel& model, Clock::time_point now) {
+  model.asked_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
+  hits.fetch_add(1, std::memory_order_relaxed);
 }
 
 Expected<void> PublishedModels::forget_if_changed() {
   const auto now = Clock::now();
-  std::uint64_t refreshed = 0;
+  std::uint64_t refreshed = 0, before = 0;
+  std::vector<Model> held;
   {
     const std::shared_lock lock(mutex_);
     if (is_fresh(now, staleness_ / 2)) return {};
     refreshed = refreshed_;
+    before = revision_;
   }
   const auto revision = catalogue_.revision();
   if (!revision) return tl::unexpected(revision.error());
+  if (*revision != before) {
+    const std::shared_lock lock(mutex_);
+    for (const auto& [id, entry] : models_)
+      held.push_back(entry.model);
+  }
+  const auto kept = unchanged(held);
+  if (!kept) return tl::unexpected(kept.error());
   const std::unique_lock lock(mutex_);
   if (refreshed == refreshed_) {
     checked_ = now;
@@ -100,12 +130,51 @@ Expected<void> PublishedModels::forget_if_changed() {
   }
   if (*revision == revision_) return {};
   revision_ = *revision;
-  models_.clear();
-  chunks_.clear();
+  // What has come since then may be of the time before.
+  for (auto it = models_.begin(); it != models_.end();)
+    it = std::ranges::count(*kept, it->second.model.get()) > 0 ? std::next(it) : drop(it);
   return {};
 }
 
-Expected<std::shared_ptr<const PublishedModel>> PublishedModels::load(const ModelId& id) {
+// Those that are published as they were.
+Expected<std::vector<const PublishedModel*>> PublishedModels::unchanged(
+    const std::vector<Model>& models) {
+  std::vector<const PublishedModel*> kept;
+  for (const Model& model : models) {
+    const auto record = catalogue_.find(model->record().id);
+    if (!record) return tl::unexpected(record.error());
+    if (*record && (*record)->version == model->record().version) kept.push_back(model.get());
+  }
+  return kept;
+}
+
+// One opens it for all who ask meanwhile.
+Expected<PublishedModels::Model> PublishedModels::load(const ModelId& id) {
+  std::shared_ptr<Opening> own, other;
+  {
+    const std::unique_lock lock(mutex_);
+    if (const auto it = models_.find(id); it != models_.end()) return it->second.model;
+    auto& opening = openings_[id];
+    if (opening && opening->revision == revision_ && opening->refreshed == refreshed_) {
+      other = opening;
+    } else {
+      own = opening = std::make_shared<Opening>(Opening{revision_, refreshed_});
+    }
+  }
+  if (other) return other->result.get();
+  misses.fetch_add(1, std::memory_order_relaxed);
+  try {
+    own->promise.set_value(open(id));
+  } catch (...) {  // out of memory: for all of them
+    own->promise.set_exception(std::current_exception());
+  }
+  const std::unique_lock lock(mutex_);
+  const auto it = openings_.find(id);
+  if (it != openings_.end() && it->second == own) openings_.erase(it);
+  return own->result.get();
+}
+
+Expected<PublishedModels::Model> PublishedModels::open(const ModelId& id) {
   const auto before = catalogue_.revision();
   if (!before) return tl::unexpected(before.error());
   auto record = catalogue_.find(id);
@@ -117,27 +186,76 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::load(const Mode
   return model;
 }
 
-void PublishedModels::remember(const std::shared_ptr<const PublishedModel>& model,
-                               std::uint64_t revision) {
+void PublishedModels::remember(const Model& model, std::uint64_t revision) {
+  const Manifest& manifest = model->manifest();
+  const std::uint64_t bytes = memory_of(manifest);
   const std::unique_lock lock(mutex_);
   if (revision != revision_) return;  // what was read may be old by now
-  if (models_.size() >= kMaxOpenModels) {
-    models_.clear();
-    chunks_.clear();
+  if (bytes > max_bytes_ || models_.contains(model->record().id)) return;
+  model->asked_ = Clock::now().time_since_epoch().count();
+  models_[model->record().id] = {model, bytes};
+  bytes_ += bytes;
+  chunks_.insert({manifest.base_sha256, {model, model->base()}});
+  for (std::size_t i = 0; i < manifest.chunks.size(); ++i)
+    chunks_.insert({manifest.chunks[i].sha256, {model, model->chunk(i)}});
+  make_room();
+}
+
+void PublishedModels::keep_manifest(const Model& model, Document document) {
+  const std::uint64_t bytes = sizeof document + document.text.size() + document.etag.size();
+  auto kept = std::make_shared<const Document>(std::move(document));
+  const std::unique_lock lock(mutex_);
+  const auto it = models_.find(model->record().id);
+  const bool is_held = it != models_.end() && it->second.model == model;
+  if (!is_held || model->kept_manifest() || it->second.bytes + bytes > max_bytes_) return;
+  std::atomic_store(&model->told_, std::move(kept));
+  it->second.bytes += bytes;
+  bytes_ += bytes;
+  make_room();
+}
+
+PublishedModels::HeldModels::iterator PublishedModels::drop(HeldModels::iterator held) {
+  const Model model = held->second.model;
+  const auto forget = [&](const Sha256& sha256) {
+    const auto [first, last] = chunks_.equal_range(sha256);
+    const auto own =
+        std::find_if(first, last, [&](const auto& at) { return at.second.model == model; });
+    if (own != last) chunks_.erase(own);
+  };
+  forget(model->manifest().base_sha256);
+  for (const ChunkInfo& chunk : model->manifest().chunks)
+    forget(chunk.sha256);
+  bytes_ -= held->second.bytes;
+  return models_.erase(held);
+}
+
+void PublishedModels::make_room() {
+  while (bytes_ > max_bytes_ || models_.size() > kMaxOpenModels) {
+    drop(std::ranges::min_element(models_, {}, [](const auto& entry) {
+      return entry.second.model->asked_.load(std::memory_order_relaxed);
+    }));
   }
-  const Manifest& manifest = model->manifest();
-  models_[model->record().id] = model;
-  chunks_[manifest.base_sha256] = {model, model->base()};
-  for (std::size_t i = 0; i < manifest.chunks.size(); ++i) {
-    chunks_[manifest.chunks[i].sha256] = {model, model->chunk(i)};
-  }
+}
+
+void PublishedModels::set_capacity(std::uint64_t max_bytes) {
+  const std::unique_lock lock(mutex_);
+  max_bytes_ = max_bytes;
+  make_room();
+}
+
+std::uint64_t PublishedModels::bytes() {
+  const std::shared_lock lock(mutex_);
+  return bytes_;
 }
 
 Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const ModelId& id) {
   if (auto fresh = forget_if_changed(); !fresh) return tl::unexpected(fresh.error());
   {
     const std::shared_lock lock(mutex_);
-    if (const auto it = models_.find(id); it != models_.end()) return it->second;
+    if (const auto it = models_.find(id); it != models_.end()) {
+      count_hit(*it->second.model, Clock::now());
+      return it->second.model;
+    }
   }
   return load(id);
 }
@@ -156,17 +274,23 @@ void PublishedModels::refresh() {
 }
 
 std::shared_ptr<const PublishedModel> PublishedModels::held(const ModelId& id) {
+  const auto now = Clock::now();
   const std::shared_lock lock(mutex_);
-  if (!may_show(Clock::now())) return nullptr;
+  if (!may_show(now)) return nullptr;
   const auto it = models_.find(id);
-  return it == models_.end() ? nullptr : it->second;
+  if (it == models_.end()) return nullptr;
+  count_hit(*it->second.model, now);
+  return it->second.model;
 }
 
 std::optional<PublishedChunk> PublishedModels::held_chunk(const Sha256& sha256) {
+  const auto now = Clock::now();
   const std::shared_lock lock(mutex_);
-  if (!may_show(Clock::now())) return std::nullopt;
+  if (!may_show(now)) return std::nullopt;
   const auto it = chunks_.find(sha256);
-  return it == chunks_.end() ? std::nullopt : std::optional(it->second);
+  if (it == chunks_.end()) return std::nullopt;
+  count_hit(*it->second.model, now);
+  return it->second;
 }
 
 Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {

@@ -6,6 +6,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <future>
 #include <memory>
 #include <shared_mutex>
 #include <unordered_map>
@@ -49,17 +51,16 @@ class PublishedModel {
 
   // Its manifest in the form that the API tells it in. Null before keep_manifest(). Thread-safe.
   std::shared_ptr<const Document> kept_manifest() const { return std::atomic_load(&told_); }
-  void keep_manifest(Document document) const {
-    std::atomic_store(&told_, std::make_shared<const Document>(std::move(document)));
-  }
 
  private:
+  friend class PublishedModels;
   PublishedModel() = default;
 
   ModelRecord record_;
   Manifest manifest_;
   std::unique_ptr<Object> file_;
   mutable std::shared_ptr<const Document> told_;
+  mutable std::atomic<std::chrono::steady_clock::rep> asked_{0};  // when somebody last asked for it
 };
 
 struct PublishedChunk {
@@ -67,13 +68,24 @@ struct PublishedChunk {
   ByteRange range;
 };
 
-// The published models of an installation, opened on first use and kept. Thread-safe. What another
-// process publishes is found at once; what it changes or hides is noticed within `staleness`.
+// The published models of an installation, opened on first use, by one for all who ask, and kept:
+// their manifests, and what has been told of those, in `max_bytes` of memory, the least recently
+// asked for dropped first. Thread-safe. What another process publishes is found at once; what it
+// changes or hides is noticed within `staleness`, and all else is kept.
 class PublishedModels {
  public:
   PublishedModels(const ObjectStore& store, Catalogue& catalogue,
-                  std::chrono::milliseconds staleness = std::chrono::milliseconds(100))
-      : store_(store), catalogue_(catalogue), staleness_(staleness) {}
+                  std::chrono::milliseconds staleness = std::chrono::milliseconds(100),
+                  std::uint64_t max_bytes = UINT64_MAX)
+      : store_(store), catalogue_(catalogue), staleness_(staleness), max_bytes_(max_bytes) {}
+
+  void set_capacity(std::uint64_t max_bytes);
+  std::uint64_t bytes();  // held
+
+  // Has `post` run what asks the catalogue for news, elsewhere and soon. Before that, held() and
+  // held_chunk() send a visitor now and then. Call it before anybody asks for a model.
+  using Post = std::function<void(std::function<void()> task)>;
+  void refresh_by(Post post) { post_ = std::move(post); }
 
   // What is public of it. Null where there is no such model or it is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
@@ -85,14 +97,19 @@ class PublishedModels {
   // What this process has published or hidden is so from the next call on.
   void refresh();
 
+  // Keeps what is told of the model's manifest as long as the model is held.
+  void keep_manifest(const std::shared_ptr<const PublishedModel>& model, Document document);
+
   // The model or the chunk where it is in memory and known to be current. Waits for neither
-  // catalogue nor disk. Now and then nothing though it is there: whoever gets that asks the
-  // catalogue, for all.
+  // catalogue nor disk.
   std::shared_ptr<const PublishedModel> held(const ModelId& id);
   std::optional<PublishedChunk> held_chunk(const Sha256& sha256);
 
   // A chunk or a base mesh of any published model.
   Expected<PublishedChunk> find_chunk(const Sha256& sha256);
+
+  // Answers from memory, and models that had to be opened.
+  std::atomic<std::uint64_t> hits{0}, misses{0};
 
  private:
   struct HashOfHash {
@@ -102,24 +119,45 @@ class PublishedModels {
     std::size_t operator()(const ModelId& id) const noexcept;
   };
   using Clock = std::chrono::steady_clock;
+  using Model = std::shared_ptr<const PublishedModel>;
+  struct Held {
+    Model model;
+    std::uint64_t bytes = 0;
+  };
+  using HeldModels = std::unordered_map<ModelId, Held, HashOfId>;
+  // A model that is being opened; of no use to who knows of a later change.
+  struct Opening {
+    std::uint64_t revision, refreshed;
+    std::promise<Expected<Model>> promise = {};
+    std::shared_future<Expected<Model>> result = promise.get_future().share();
+  };
 
   bool is_fresh(Clock::time_point now, Clock::duration age) const;  // with the lock held
   bool may_show(Clock::time_point now);                             // likewise
+  void count_hit(const PublishedModel& model, Clock::time_point now);
   Expected<void> forget_if_changed();
-  Expected<std::shared_ptr<const PublishedModel>> load(const ModelId& id);
-  void remember(const std::shared_ptr<const PublishedModel>& model, std::uint64_t revision);
+  Expected<std::vector<const PublishedModel*>> unchanged(const std::vector<Model>& models);
+  Expected<Model> load(const ModelId& id);
+  Expected<Model> open(const ModelId& id);
+  void remember(const Model& model, std::uint64_t revision);
+  HeldModels::iterator drop(HeldModels::iterator model);  // with the lock held
+  void make_room();                                       // likewise
 
   const ObjectStore& store_;
   Catalogue& catalogue_;
   const std::chrono::milliseconds staleness_;
+  Post post_;
 
   std::shared_mutex mutex_;  // guards what follows
   std::uint64_t revision_ = 0;
   Clock::time_point checked_{};
   std::atomic<Clock::rep> due_{0};  // when somebody is to ask the catalogue again
   std::uint64_t refreshed_ = 0;     // how often: what was read before is no news
-  std::unordered_map<ModelId, std::shared_ptr<const PublishedModel>, HashOfId> models_;
-  std::unordered_map<Sha256, PublishedChunk, HashOfHash> chunks_;
+  std::uint64_t max_bytes_;
+  std::uint64_t bytes_ = 0;
+  HeldModels models_;
+  std::unordered_multimap<Sha256, PublishedChunk, HashOfHash> chunks_;  // of those, each its own
+  std::unordered_map<ModelId, std::shared_ptr<Opening>, HashOfId> openings_;
 };
 
 }  // namespace vitrine

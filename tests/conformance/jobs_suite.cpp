@@ -136,6 +136,28 @@ TEST_F(JobsSuite, a_key_is_taken_once_and_a_refused_job_leaves_nothing) {
   EXPECT_FALSE(jobs_->find_once("other").value());
 }
 
+TEST_F(JobsSuite, what_is_old_is_forgotten_but_for_what_is_named) {
+  const auto ended = [](std::uint8_t value, JobState state, std::int64_t at) {
+    JobRecord record = job(value, state);
+    record.created = record.ended = at;
+    return record;
+  };
+  add(ended(1, JobState::kDone, 10), {}, OnceKey{"old", Sha256{1}});
+  add(ended(2, JobState::kFailed, 20), {}, OnceKey{"new", Sha256{2}});
+  add(ended(3, JobState::kCancelled, 10), scan(100, 3));
+  add(ended(4, JobState::kPaused, 10), {}, OnceKey{"goes on", Sha256{4}});
+  add(ended(5, JobState::kDone, 99));
+  EXPECT_EQ(jobs_->forget(15, 50).value(), 1u);
+  EXPECT_EQ(jobs_->find_job(id_of(1)).value(), std::nullopt);
+  EXPECT_FALSE(jobs_->find_once("old").value());
+  EXPECT_TRUE(jobs_->find_once("new").value());
+  EXPECT_TRUE(jobs_->find_once("goes on").value());
+  for (const std::uint8_t kept : {2, 3, 4, 5})
+    EXPECT_TRUE(jobs_->find_job(id_of(kept)).value()) << int{kept};
+  EXPECT_EQ(jobs_->forget(50, 50).value(), 1u) << "the one whose key was newer";
+  EXPECT_EQ(jobs_->forget(50, 50).value(), 0u);
+}
+
 TEST_F(JobsSuite, an_id_is_taken_once) {
   add(job(1));
   EXPECT_EQ(jobs_->add(job(1, JobState::kDone), {}, {}).error().code, ErrorCode::kState);

@@ -72,9 +72,23 @@ TEST_F(Reload, AFaultLeavesAllAsItWas) {
 }
 
 TEST_F(Reload, WhatNeedsANewStartSaysSo) {
-  write("public-url = https://two.example\nmax-connections = 5\n");
+  write("public-url = https://two.example\nthreads = 5\n");
   EXPECT_THAT(reload(), HasSubstr("new: public-url"));
-  EXPECT_THAT(daemon->wait_for_line("restart"), HasSubstr("to have the new max-connections"));
+  EXPECT_THAT(daemon->wait_for_line("restart"), HasSubstr("to have the new threads"));
+}
+
+TEST_F(Reload, FewerConnectionsAndLessPatienceHoldAtOnceAndWhoIsThereStays) {
+  HttpClient visitor(daemon->port());
+  EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
+  write("public-url = https://one.example\nmax-connections = 1\n");
+  EXPECT_THAT(reload(), HasSubstr("new: max-connections"));
+  EXPECT_EQ(HttpClient(daemon->port()).receive().status, 503);
+  EXPECT_EQ(visitor.get("/api/v1/models").status, 200);
+  write("public-url = https://one.example\nidle-timeout = 1\n");
+  EXPECT_THAT(reload(), HasSubstr("idle-timeout"));
+  HttpClient slow(daemon->port());
+  slow.send("GET / HTTP/1.1\r\n");
+  EXPECT_TRUE(slow.is_closed());  // else it would wait for longer than the client does
 }
 
 TEST_F(Reload, ARotatedLogIsOpenedAnew) {

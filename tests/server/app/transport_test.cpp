@@ -156,5 +156,46 @@ TEST(Limits, AnAddressHasNoMoreConnectionsThanItsShareUnlessItIsAProxys) {
   }
 }
 
+std::string from(const std::string& address) {
+  return "X-Forwarded-For: " + address + "\r\n";
+}
+
+TEST(Limits, AllOfAnIpv6NetworkShareOnesBudget) {
+  ServedFolder folder;
+  const std::string model = "/api/v1/models/" + folder.publish("A small bust");
+  const Daemon daemon(folder.path(), {"--request-rate", "1", "--trusted-proxies", "127.0.0.1"});
+  HttpClient client(daemon.port());
+  int answered = 0;
+  while (client.get(model, from("2001:db8::" + std::to_string(answered))).status == 200)
+    ++answered;
+  EXPECT_GE(answered, 10);
+  EXPECT_EQ(client.get(model, from("2001:db8:0:1::")).status, 200);
+}
+
+TEST(Limits, AStreamBehindAProxyCountsForItsVisitor) {
+  ServedFolder folder;
+  const std::string stream = "/api/v1/models/" + folder.publish("A small bust") + "/stream";
+  const Daemon daemon(folder.path(),
+                      {"--max-connections-per-address", "1", "--trusted-proxies", "127.0.0.1"});
+  const auto open = [&](const std::string& visitor) {
+    return std::make_unique<WebSocketClient>(daemon.port(), stream, "pmesh.v1", from(visitor));
+  };
+  auto first = open("2001:db8::1");
+  EXPECT_THROW(open("2001:db8::2"), std::runtime_error);
+  EXPECT_NO_THROW(open("2001:db8:0:1::1"));
+  first->receive();
+  first->send_close();
+  while (first->receive().kind != WebSocketFrame::kClose) {
+  }
+  EXPECT_TRUE(first->is_closed());
+  for (bool is_in = false; !is_in;) {  // once the daemon has seen the end of it
+    try {
+      open("2001:db8::3");
+      is_in = true;
+    } catch (const std::runtime_error&) {
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vitrine::test

@@ -27,6 +27,15 @@ TEST(Networks, UnixIsWhoConnectsToAUnixSocket) {
   EXPECT_FALSE(Networks::parse("")->contain("unix"));
 }
 
+TEST(Networks, LimitsCountAnIpv4AddressAndTheFirstHalfOfAnIpv6Address) {
+  EXPECT_EQ(network_of("192.0.2.7"), "192.0.2.7");
+  EXPECT_EQ(network_of("::ffff:192.0.2.7"), "192.0.2.7");
+  EXPECT_EQ(network_of("2001:db8:1:2:3:4:5:6"), "2001:db8:1:2::/64");
+  EXPECT_EQ(network_of("2001:db8:1:2::1"), network_of("2001:db8:1:2:ffff::"));
+  EXPECT_NE(network_of("2001:db8:1:2::1"), network_of("2001:db8:1:3::1"));
+  EXPECT_EQ(network_of("unix"), "unix");
+}
+
 TEST(Networks, WhatIsNoNetworkIsRefusedByName) {
   for (const char* text : {"10.0.0.0/33", "::/129", "10.0.0/8", "10.0.0.0/", "10.0.0.0/8x", "proxy",
                            "10.0.0.1,,10.0.0.2", "10.0.0.0/-1"})

@@ -62,6 +62,17 @@ TEST_F(Drafts, DraftsAreListedForWhoHasATokenAndAsks) {
   EXPECT_EQ(ask("/api/v1/models?drafts=1", viewer_).status, 400);
 }
 
+TEST_F(Drafts, AListForATokenIsForNobodyElseToKeep) {
+  ASSERT_TRUE(server_.catalogue().set_state(ModelId::parse(id_).value(), ModelState::kPublished));
+  const HttpAnswer open = ask("/api/v1/models");
+  EXPECT_EQ(open.field("cache-control"), "no-cache");
+  EXPECT_EQ(open.field("access-control-allow-origin"), "*");
+  const HttpAnswer own = ask("/api/v1/models", viewer_);
+  EXPECT_EQ(json::parse(own.body)["models"].at(0)["id"], id_);
+  EXPECT_EQ(own.field("cache-control"), "private, no-store");
+  EXPECT_EQ(own.field("access-control-allow-origin"), "");
+}
+
 TEST_F(Drafts, AnOperatorPublishesAModelAndTakesItBack) {
   EXPECT_EQ(ask(api_ + "/publish", "", "POST").status, 401);
   EXPECT_EQ(ask(api_ + "/publish", viewer_, "POST").status, 403);

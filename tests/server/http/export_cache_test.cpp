@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <latch>
+#include <thread>
+
 namespace vitrine {
 namespace {
 
@@ -56,6 +59,50 @@ TEST(ExportCache, WhatFailsIsMadeAgain) {
     return fail(ErrorCode::kIo, "the disk");
   };
   EXPECT_FALSE(cache.find_or_make("a", fails));
+  EXPECT_TRUE(cache.find_or_make(
+      "a", [] { return Expected<std::vector<std::uint8_t>>(std::vector<std::uint8_t>(1)); }));
+}
+
+constexpr int kVisitors = 4;
+
+// What each visitor gets who asks while another's file is being made.
+template <class Make>
+std::vector<Expected<ExportCache::File>> all_at_once(ExportCache& cache, const Make& make) {
+  std::latch here(kVisitors);
+  std::vector<Expected<ExportCache::File>> found(kVisitors);
+  std::vector<std::jthread> visitors;
+  for (auto& mine : found) {
+    visitors.emplace_back([&] {
+      here.count_down();
+      mine = cache.find_or_make("a", [&] {
+        here.wait();
+        return make();
+      });
+    });
+  }
+  visitors.clear();
+  return found;
+}
+
+TEST(ExportCache, WhatManyAskForAtOnceIsMadeOnce) {
+  ExportCache cache(10);
+  const auto found = all_at_once(
+      cache, [] { return Expected<std::vector<std::uint8_t>>(std::vector<std::uint8_t>(4)); });
+  EXPECT_EQ(cache.made, 1u);
+  EXPECT_EQ(cache.hits, 3u);
+  for (const auto& file : found)
+    EXPECT_EQ(file.value(), found.front().value());
+}
+
+TEST(ExportCache, AFaultAndAnExceptionReachAllWhoWait) {
+  ExportCache cache(10);
+  const auto found = all_at_once(cache, []() -> Expected<std::vector<std::uint8_t>> {
+    return fail(ErrorCode::kIo, "the disk");
+  });
+  for (const auto& file : found)
+    EXPECT_FALSE(file);
+  const auto throws = []() -> Expected<std::vector<std::uint8_t>> { throw std::bad_alloc(); };
+  EXPECT_THROW(static_cast<void>(cache.find_or_make("a", throws)), std::bad_alloc);
   EXPECT_TRUE(cache.find_or_make(
       "a", [] { return Expected<std::vector<std::uint8_t>>(std::vector<std::uint8_t>(1)); }));
 }

@@ -19,14 +19,14 @@ class LocalServer {
  public:
   explicit LocalServer(std::span<const Route> routes,
                        std::chrono::seconds patience = std::chrono::seconds(30),
-                       std::vector<std::unique_ptr<ScannerBackend>> scanners = {})
+                       std::vector<std::unique_ptr<ScannerBackend>> scanners = {},
+                       HttpOptions options = {})
       : scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, log_,
                 folder_.path(), VITRINE_BIN_DIR "/vitrined", std::chrono::seconds(10),
                 [this](JobRun& run) { return publishing_.work(run); }, &quota_},
                std::move(scanners)),
         metrics_(Router(routes).templates()),
-        server_(io_, services_, workers_,
-                {.routes = routes, .max_connections = 64, .patience = patience}),
+        server_(io_, services_, workers_, with(routes, patience, std::move(options))),
         port_(server_.listen({"127.0.0.1", 0}).value()) {
     server_.start();
     thread_ = std::thread([this] { io_.run(); });
@@ -66,6 +66,14 @@ class LocalServer {
   }
 
  private:
+  static HttpOptions with(std::span<const Route> routes, std::chrono::seconds patience,
+                          HttpOptions options) {
+    options.routes = routes;
+    options.max_connections = 64;
+    options.patience = patience;
+    return options;
+  }
+
   static constexpr WebAsset kPages[] = {{"/model.html", "text/html; charset=utf-8", {}}};
 
   TemporaryFolder folder_;

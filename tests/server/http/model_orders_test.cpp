@@ -380,6 +380,25 @@ TEST_F(ModelOrders, ACollectionLeavesWhatAJobWillNeed) {
   EXPECT_EQ(server_.collector().collect(late).value().uploads, 1u);
 }
 
+TEST_F(ModelOrders, TokensAreListedInPages) {
+  const std::string admin = server_.bearer(Role::kAdmin);
+  std::vector<std::string> made, listed;
+  for (int i = 0; i < 4; ++i)
+    server_.bearer(Role::kViewer);
+  for (const TokenRecord& token : server_.catalogue().tokens().value())
+    made.push_back(token.id.to_string());
+  std::string cursor;
+  do {
+    const json page = json::parse(ask("GET", "/tokens?limit=2" + cursor, admin).body);
+    EXPECT_LE(page["tokens"].size(), 2u);
+    for (const json& token : page["tokens"])
+      listed.push_back(token["id"]);
+    cursor = page["next"].is_null() ? "" : "&cursor=" + page["next"].get<std::string>();
+  } while (!cursor.empty());
+  EXPECT_EQ(listed, made);
+  EXPECT_EQ(ask("GET", "/tokens?limit=0", admin).status, 400);
+}
+
 TEST_F(ModelOrders, TokensAreMadeListedAndRevokedByAdministrators) {
   const std::string admin = server_.bearer(Role::kAdmin);
   const HttpAnswer made = ask("POST", "/tokens", admin, {{"role", "operator"}, {"label", "Anna"}});

@@ -5,6 +5,9 @@
 #include <semaphore>
 
 #include "local_server.h"
+#include "server/http/body_sink.h"
+#include "server/http/routes.h"
+#include "support/fake_backend.h"
 #include "support/http_client.h"
 
 namespace vitrine {
@@ -22,10 +25,47 @@ Response at_once(const Request&, Services&) {
   return {};
 }
 
+// Takes the body on the test's terms.
+class WaitingSink final : public BodySink {
+ public:
+  std::optional<Response> take(std::span<const std::uint8_t>) override { return std::nullopt; }
+  Response finish() override {
+    entered.release();
+    may_end.acquire();
+    return {};
+  }
+};
+
+Response pour_slowly(const Request&, Services&) {
+  Response response;
+  response.sink = std::make_shared<WaitingSink>();
+  return response;
+}
+
+constexpr std::size_t kLarge = 32'000'000;  // far more than two sockets hold
+
+Response large_text(const Request&, Services&) {
+  Response response;
+  response.body = std::string(kLarge, 'a');
+  return response;
+}
+
+Response shared_bytes(const Request&, Services&) {
+  static const auto owner = std::make_shared<std::vector<std::uint8_t>>(kLarge);
+  Response response;
+  response.body = SharedBytes{owner, *owner};
+  return response;
+}
+
 constexpr Route kRoutes[] = {
+    {Method::kGet, "/text", large_text, Place::kInline},
+    {Method::kGet, "/shared", shared_bytes, Place::kInline},
     {Method::kGet, "/slow", wait_for_the_test, Place::kExport},
     {Method::kPost, "/work", wait_for_the_test, Place::kWorker},
     {Method::kPost, "/device", wait_for_the_test, Place::kDevice},
+    {Method::kPost, "/disk", wait_for_the_test, Place::kDisk},
+    {Method::kPost, "/pour", pour_slowly, Place::kDisk, Role::kNone, nullptr,
+     /*reads_body=*/false},
     {Method::kGet, "/quick", at_once, Place::kInline},
     {Method::kPost, "/quick", at_once, Place::kWorker},
 };
@@ -57,18 +97,68 @@ TEST(Overload, ACallThatWaitsHoldsUpNoOtherConnection) {
   }
 }
 
-TEST(Overload, CallsThatWaitForDevicesLeaveTheWorkersToOthers) {
+TEST(Overload, CallsThatWaitForDevicesOrTheDiskLeaveTheWorkersToOthers) {
   const test::LocalServer server(kRoutes);
-  std::vector<std::unique_ptr<test::HttpClient>> waiting;
-  for (int i = 0; i < 4; ++i) {  // as many as there are threads for devices
-    waiting.push_back(std::make_unique<test::HttpClient>(server.port()));
-    waiting.back()->send("POST /device HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
-    entered.acquire();
+  for (const std::string path : {"/device", "/disk", "/pour"}) {
+    std::vector<std::unique_ptr<test::HttpClient>> waiting;
+    for (int i = 0; i < 4; ++i) {  // as many as there are threads for them
+      waiting.push_back(std::make_unique<test::HttpClient>(server.port()));
+      waiting.back()->send("POST " + path + " HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
+      entered.acquire();
+    }
+    EXPECT_EQ(test::http_get(server.port(), "/quick", "Content-Length: 0\r\n", "POST").status, 200);
+    may_end.release(4);
+    for (const auto& client : waiting)
+      EXPECT_EQ(client->receive().status, 200) << path;
   }
-  EXPECT_EQ(test::http_get(server.port(), "/quick", "Content-Length: 0\r\n", "POST").status, 200);
-  may_end.release(4);
-  for (const auto& client : waiting)
-    EXPECT_EQ(client->receive().status, 200);
+}
+
+TEST(Overload, WhatChangesModelsOrUploadsWaitsForTheDiskApart) {
+  for (const Route& route : public_routes()) {
+    const bool writes = route.method != Method::kGet && route.method != Method::kOptions;
+    const bool stores =
+        route.path.starts_with("/api/v1/models") || route.path.starts_with("/api/v1/uploads");
+    if (writes && stores) EXPECT_EQ(route.place, Place::kDisk) << route.path;
+    if (route.path.ends_with("/stop")) EXPECT_EQ(route.place, Place::kWorker);
+  }
+}
+
+TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
+  const test::LocalServer server(kRoutes, std::chrono::seconds(30), {}, {.answer_memory = kLarge});
+  const auto ask = [&](const std::string& path) {
+    auto reader = std::make_unique<test::HttpClient>(server.port());
+    reader->send("GET " + path + " HTTP/1.1\r\nHost: a\r\n\r\n");
+    return reader;
+  };
+  for (const std::string path : {"/text", "/shared"}) {
+    auto first = ask(path);
+    while (first->receive(/*with_body=*/false).status == 503)  // until those before have gone
+      first = ask(path);
+    const test::HttpAnswer refused = test::http_get(server.port(), "/text");
+    EXPECT_EQ(refused.status, 503) << path;
+    EXPECT_EQ(refused.field("retry-after"), "5");
+    EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200);
+    EXPECT_EQ(test::http_get(server.port(), "/text", "", "HEAD").status, 200);
+    if (path == "/shared") {  // of one memory
+      EXPECT_EQ(ask(path)->receive(false).status, 200);
+    }
+    first->read_exactly(kLarge);
+  }
+}
+
+TEST(Overload, AnEmergencyStopGetsThroughHoweverOftenItsCallerHasCalled) {
+  test::FakeScanner world;
+  std::vector<std::unique_ptr<ScannerBackend>> scanners;
+  scanners.push_back(std::make_unique<test::FakeBackend>(world));
+  test::LocalServer server(public_routes(), std::chrono::seconds(30), std::move(scanners),
+                           {.request_rate = 1});
+  ASSERT_TRUE(server.scans().start());
+  const std::string who = server.bearer(Role::kOperator) + "Content-Length: 0\r\n";
+  test::HttpClient client(server.port());
+  while (client.get("/api/v1/scanners/rig", who).status == 200) {
+  }
+  EXPECT_EQ(client.get("/api/v1/scanners/rig/stop", who, "POST").status, 200);
+  EXPECT_TRUE(world.stopped());
 }
 
 }  // namespace

@@ -216,6 +216,10 @@ TEST_F(ScanRoutes, AScanWhoseModelIsHiddenIsHiddenToo) {
       EXPECT_EQ(ask("GET", path, "").status, status) << path;
   };
   expect(200);
+  for (const std::string& path : {scan_path(started), job_path(started)}) {
+    EXPECT_EQ(ask("GET", path, "").field("cache-control"), "no-store");
+    EXPECT_EQ(get(path).field("cache-control"), "private, no-store") << "as its caller sees it";
+  }
   EXPECT_EQ(post(model + "/unpublish").status, 200);
   expect(401);
   EXPECT_EQ(post(model + "/publish").status, 200);

@@ -113,6 +113,25 @@ TEST_F(UploadRoutes, WhatCameBeforeTheLineBrokeIsKept) {
   EXPECT_EQ(stored(path), bytes);
 }
 
+TEST_F(UploadRoutes, ACallWhosePeerHasGoneIsAuditedAndCounted) {
+  const std::string path = created(1'000);
+  const std::string publish = "/api/v1/models/" + ModelId::generate().to_string() + "/publish";
+  for (const std::string& call : {"PATCH " + path, "POST " + publish}) {
+    HttpClient client(server_.port());
+    client.send(call + " HTTP/1.1\r\nHost: a\r\n" + who_ + kTus + kPiece + at(0) +
+                "Content-Length: 1000\r\n\r\nabc");
+  }
+  const auto line = [](const std::string& target) { return "target=" + target + " status=499"; };
+  std::string told;
+  while (told.find(line(path)) == told.npos || told.find(line(publish)) == told.npos) {
+    EXPECT_EQ(head(path).status, 200);  // those after it are served
+    told = server_.events();
+  }
+  head(path);  // by then it is counted, too
+  EXPECT_THAT(server_.metrics().text(),
+              HasSubstr(R"(route="/api/v1/models/{id}/publish",status="4xx"} 1)"));
+}
+
 TEST_F(UploadRoutes, WhoSendsNothingIsCutAndTheRestStays) {
   const std::string path = created(1'000);
   HttpClient client(server_.port());

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/bodies_in_flight.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace vitrine {
+namespace {
+
+constexpr std::uint64_t kSize = BodiesInFlight::kSmall;
+
+Body text(std::uint64_t size = kSize) {
+  return std::string(size, 'a');
+}
+
+Body shared(std::uint64_t size = kSize) {
+  const auto owner = std::make_shared<std::vector<std::uint8_t>>(size);
+  return SharedBytes{owner, *owner};
+}
+
+TEST(BodiesInFlight, AdmitsUntilTheyAreFullAndAgainOnceOneHasGone) {
+  const auto bodies = std::make_shared<BodiesInFlight>(2 * kSize);
+  auto first = bodies->admit(text());
+  const auto second = bodies->admit(shared());
+  EXPECT_TRUE(first && second);
+  EXPECT_FALSE(bodies->admit(text()));
+  EXPECT_FALSE(bodies->admit(shared()));
+  first.reset();
+  EXPECT_TRUE(bodies->admit(text()));
+}
+
+TEST(BodiesInFlight, SharedMemoryCountsOnceWhateverOfItIsSent) {
+  const auto bodies = std::make_shared<BodiesInFlight>(kSize + 1);
+  const Body whole = shared(3 * kSize);
+  auto first = bodies->admit(whole);
+  const auto part = bodies->admit(body_range(whole, kSize, kSize));
+  EXPECT_TRUE(first && part);
+  first.reset();
+  EXPECT_FALSE(bodies->admit(text())) << "a part of it is still being sent";
+}
+
+TEST(BodiesInFlight, WhatIsSmallOrStaticIsAlwaysAdmitted) {
+  static const std::vector<std::uint8_t> bytes(kSize);
+  const auto bodies = std::make_shared<BodiesInFlight>(1);
+  const auto full = bodies->admit(text());
+  EXPECT_FALSE(bodies->admit(text()));
+  EXPECT_TRUE(bodies->admit(text(kSize - 1)));
+  EXPECT_TRUE(bodies->admit(SharedBytes{nullptr, bytes}));
+  EXPECT_TRUE(bodies->admit(StoredBytes{nullptr, 0, 10 * kSize}));
+}
+
+}  // namespace
+}  // namespace vitrine

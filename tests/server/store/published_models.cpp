@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is kept of published models: how much, for how long, and who opens them.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <latch>
+#include <thread>
+
+#include "server/catalogue/sqlite_catalogue.h"
+#include "server/store/file_store.h"
+#include "server/store/publish.h"
+#include "server/store/published_model.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_pmesh.h"
+
+namespace vitrine {
+namespace {
+
+// A file store that counts what is opened, and has it wait.
+class WatchedStore final : public ObjectStore {
+ public:
+  explicit WatchedStore(FileStore store) : store_(std::move(store)) {}
+
+  Expected<void> put(const Sha256& name, std::span<const std::uint8_t> bytes) override {
+    return store_.put(name, bytes);
+  }
+  Expected<std::shared_ptr<const void>> lock() override { return store_.lock(); }
+  Expected<void> remove(const Sha256& name) override { return store_.remove(name); }
+  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) override {
+    return store_.sweep(keep, grace);
+  }
+  Expected<std::unique_ptr<Object>> open(const Sha256& name) const override {
+    ++opened;
+    before_opening();
+    return store_.open(name);
+  }
+
+  mutable std::atomic<int> opened{0};
+  std::function<void()> before_opening = [] {};
+
+ private:
+  FileStore store_;
+};
+
+class PublishedModelsTest : public testing::Test {
+ protected:
+  ModelId add(const std::string& chunk, const std::string& title = "") {
+    const test::TinyPmesh file = test::tiny_pmesh("the base of " + chunk, chunk);
+    return publish(store_, *catalogue_, file.bytes, {.title = title}).value().id;
+  }
+  static Sha256 name_of(const std::string& chunk) { return sha256(test::to_bytes(chunk)); }
+  const PublishedModel* get(const ModelId& id) { return models_.find(id).value().get(); }
+
+  test::TemporaryFolder folder_;
+  WatchedStore store_{FileStore::open(folder_.path() / "objects").value()};
+  std::unique_ptr<Catalogue> catalogue_ =
+      open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
+  PublishedModels models_{store_, *catalogue_, std::chrono::milliseconds(0)};
+};
+
+TEST_F(PublishedModelsTest, a_change_costs_the_model_that_has_changed_alone) {
+  const ModelId one = add("one"), two = add("two"), three = add("three");
+  store_.opened = 0;
+  const auto first = get(one), third = get(three);
+  const auto second = models_.find(two).value();
+  ModelRecord record = catalogue_->find(two).value().value();
+  record.title = "another";
+  ASSERT_TRUE(catalogue_->update(record, std::nullopt));
+  ASSERT_TRUE(catalogue_->remove(three));
+  ASSERT_TRUE(catalogue_->add_token({.id = ModelId::generate(), .role = Role::kAdmin}));
+  EXPECT_EQ(get(one), first);
+  EXPECT_EQ(get(two)->record().title, "another");
+  EXPECT_EQ(get(three), nullptr);
+  EXPECT_NE(third, nullptr);
+  EXPECT_EQ(store_.opened, 4);
+}
+
+TEST_F(PublishedModelsTest, the_least_recently_asked_for_makes_room) {
+  const ModelId one = add("one"), two = add("two"), three = add("three");
+  get(one);
+  models_.set_capacity(models_.bytes() * 2);
+  get(two);
+  get(one);
+  get(three);
+  EXPECT_EQ(models_.misses, 3u);
+  get(one);
+  get(three);
+  EXPECT_EQ(models_.misses, 3u);
+  get(two);
+  EXPECT_EQ(models_.misses, 4u);
+  EXPECT_EQ(models_.hits, 3u);
+}
+
+TEST_F(PublishedModelsTest, a_told_manifest_counts_and_one_without_room_is_not_kept) {
+  const auto model = models_.find(add("one")).value();
+  const std::uint64_t before = models_.bytes();
+  models_.set_capacity(before + 2'000);
+  models_.keep_manifest(model, {std::string(3'000, ' '), ""});
+  EXPECT_FALSE(model->kept_manifest());
+  models_.keep_manifest(model, {std::string(1'000, ' '), ""});
+  EXPECT_TRUE(model->kept_manifest());
+  EXPECT_GE(models_.bytes(), before + 1'000);
+  models_.set_capacity(before);
+  EXPECT_EQ(models_.bytes(), 0u);
+}
+
+TEST_F(PublishedModelsTest, a_model_above_the_capacity_is_served_and_not_kept) {
+  const ModelId id = add("one");
+  models_.set_capacity(10);
+  EXPECT_TRUE(get(id));
+  EXPECT_TRUE(get(id));
+  EXPECT_EQ(models_.misses, 2u);
+  EXPECT_EQ(models_.bytes(), 0u);
+}
+
+TEST_F(PublishedModelsTest, a_chunk_of_two_models_stays_while_one_of_them_does) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  const ModelId one = add("same", "one"), two = add("same", "two");
+  ASSERT_TRUE(lazy.find(one).value());
+  const std::uint64_t bytes = lazy.bytes();
+  ASSERT_TRUE(lazy.find(two).value());
+  lazy.set_capacity(bytes);
+  const auto chunk = lazy.held_chunk(name_of("same"));
+  ASSERT_TRUE(chunk);
+  EXPECT_EQ(chunk->model->record().id, two);
+}
+
+TEST_F(PublishedModelsTest, who_asks_while_a_model_is_opened_waits_for_it) {
+  constexpr int kVisitors = 4;
+  const ModelId id = add("one");
+  std::latch here(kVisitors);
+  store_.opened = 0;
+  store_.before_opening = [&] { here.wait(); };
+  std::vector<std::jthread> visitors;
+  for (int i = 0; i < kVisitors; ++i) {
+    visitors.emplace_back([&] {
+      here.count_down();
+      EXPECT_TRUE(models_.find(id).value());
+    });
+  }
+  visitors.clear();
+  EXPECT_EQ(store_.opened, 1);
+}
+
+TEST_F(PublishedModelsTest, the_catalogue_is_asked_elsewhere_while_visitors_are_answered) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::milliseconds(400));
+  std::vector<std::function<void()>> tasks;
+  lazy.refresh_by([&](std::function<void()> task) { tasks.push_back(std::move(task)); });
+  add("one");
+  std::optional<PublishedChunk> found;
+  while (tasks.empty()) {
+    found = lazy.held_chunk(name_of("one"));
+    if (!found) ASSERT_TRUE(lazy.find_chunk(name_of("one")).value().model);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_TRUE(found) << "who comes when it is due does not wait";
+  lazy.held_chunk(name_of("one"));
+  EXPECT_EQ(tasks.size(), 1u) << "once for all";
+  tasks.front()();
+}
+
+}  // namespace
+}  // namespace vitrine
