@@ -218,6 +218,10 @@ class Daemon {
   void wait_for_reload() {
     reload_signals_.async_wait([this](const boost::system::error_code& error, int signal) {
       if (error) return;
+      if (signal == SIGHUP && at_terminal_ && ::isatty(STDIN_FILENO) == 0) {  // it was closed
+        signals_.cancel();
+        return drain();
+      }
       signal == SIGHUP ? reload() : reopen_log(live_.get()->access_log);
       wait_for_reload();
     });
@@ -286,6 +290,7 @@ class Daemon {
   Configuration configuration_;  // of the thread that handles signals, once they are awaited
   LiveSettings live_;
   const std::shared_ptr<LiveTls> tls_;  // null: without TLS
+  const bool at_terminal_ = ::isatty(STDIN_FILENO) == 1;
   const Installation installation_;
   Log access_log_;
   const Log events_ = Log::to_stderr();
