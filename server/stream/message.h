@@ -63,7 +63,8 @@ using ClientMessage =
 // the caller bounds by kMaxMessage. The error's message fits a WebSocket close frame (123 bytes).
 Expected<ClientMessage> parse_message(std::string_view text);
 
-// As many messages as it takes for ranges that ascend: each is within kMaxHaveRanges and kMaxMessage.
+// As many messages as it takes for ranges that ascend: each is within kMaxHaveRanges and
+// kMaxMessage.
 std::vector<HaveMessage> have_messages(std::uint16_t model, std::span<const ChunkRange> chunks);
 
 // As parse_message() reads it.
