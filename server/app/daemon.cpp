@@ -18,6 +18,7 @@
 #include "server/app/descriptor_limit.h"
 #include "server/app/port_file.h"
 #include "server/app/service_manager.h"
+#include "server/app/streams.h"
 #include "server/config/command_line.h"
 #include "server/config/live_settings.h"
 #include "server/config/reload.h"
@@ -28,7 +29,6 @@
 #include "server/jobs/open_scanners.h"
 #include "server/jobs/publish_jobs.h"
 #include "server/store/installation.h"
-#include "server/stream/websocket.h"
 #include "server/transport/live_tls.h"
 
 namespace vitrine {
@@ -193,7 +193,10 @@ class Daemon {
             .recorded = true,
             .max_connections = connections_,
             .patience = live_.get()->idle_timeout,
-            .stream = [this](StreamCall call) { return stream(std::move(call)); },
+            .stream =
+                [this](StreamCall call) {
+                  return stream(std::move(call), {services_, workers_, public_.rate_limit()});
+                },
             .tls = tls_,
             .max_connections_per_address = live_.get()->max_connections_per_address > 0
                                                ? live_.get()->max_connections_per_address
@@ -222,42 +225,6 @@ class Daemon {
     return {};
   }
 
-  // What a caller may see: with a token drafts, too, and all of a model of which less is public.
-  std::shared_ptr<const PublishedModel> visible(const ModelId& id, bool authorised) {
-    const auto published = models_.find(id);
-    const bool is_all = published && *published && !(*published)->record().public_part;
-    if (!authorised || !published || is_all) return published.value_or(nullptr);
-    return models_.open_whole(id).value_or(nullptr);
-  }
-
-  asio::awaitable<void> stream(StreamCall call) {
-    const auto model = visible(call.model, call.authorised);
-    if (!model) co_return;  // it was there when the request was answered
-    const std::shared_ptr<Connection> connection = call.connection;
-    StreamOptions options;
-    options.patience = live_.get()->idle_timeout;
-    options.head = call.head;
-    options.find = [this, authorised = call.authorised](std::string_view text) {
-      const auto id = ModelId::parse(text);
-      return id ? visible(*id, authorised) : nullptr;
-    };
-    options.waits_for_peer = [&connection = *connection,
-                              patience = live_.get()->idle_timeout](bool waits) {
-      waits ? connection.expires_after(patience) : connection.never_expires();
-    };
-    options.on_drain = [connection](std::function<void()> stop) {
-      if (connection->draining) stop();
-      connection->on_drain = std::move(stop);
-    };
-    options.sent = [this](std::uint64_t bytes) {
-      metrics_.stream_bytes.fetch_add(bytes, std::memory_order_relaxed);
-    };
-    metrics_.streams.fetch_add(1, std::memory_order_relaxed);
-    co_await serve_stream(connection->socket, std::move(call.request), model, std::move(options));
-    metrics_.streams.fetch_sub(1, std::memory_order_relaxed);
-    connection->on_drain = nullptr;
-  }
-
   void wait_for_signal() {
     signals_.async_wait([this](const boost::system::error_code& error, int) {
       if (!error) drain();
@@ -267,6 +234,10 @@ class Daemon {
   void wait_for_reload() {
     reload_signals_.async_wait([this](const boost::system::error_code& error, int signal) {
       if (error) return;
+      if (signal == SIGHUP && at_terminal_ && ::isatty(STDIN_FILENO) == 0) {  // it was closed
+        signals_.cancel();
+        return drain();
+      }
       signal == SIGHUP ? reload() : reopen_log(live_.get()->access_log);
       wait_for_reload();
     });
@@ -344,6 +315,7 @@ class Daemon {
   Configuration configuration_;  // of the thread that handles signals, once they are awaited
   LiveSettings live_;
   const std::shared_ptr<LiveTls> tls_;  // null: without TLS
+  const bool at_terminal_ = ::isatty(STDIN_FILENO) == 1;
   const Installation installation_;
   Log access_log_;
   const Log events_ = Log::to_stderr();

@@ -66,7 +66,7 @@ std::vector<ChunkRange> PartialModel::held_ranges() const {
     if (!held_[i]) continue;
     if (!ranges.empty() && ranges.back().last + 1 == i) {
       ranges.back().last = i;
-    } else if (ranges.size() < kMaxHaveRanges) {
+    } else {
       ranges.push_back({i, i});
     }
   }

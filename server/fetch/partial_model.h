@@ -26,8 +26,8 @@ class PartialModel {
   // Nothing until the head is there.
   const std::optional<Manifest>& manifest() const { return manifest_; }
   bool holds(std::size_t chunk) const { return held_[chunk]; }
-  std::vector<ChunkRange> held_ranges() const;  // at most kMaxHaveRanges: the first
-  std::uint64_t bytes() const;                  // of the head and the chunks held
+  std::vector<ChunkRange> held_ranges() const;
+  std::uint64_t bytes() const;  // of the head and the chunks held
   // The finest level that is there everywhere.
   std::uint32_t level() const;
 

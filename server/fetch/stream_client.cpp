@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -18,6 +20,7 @@
 #include <boost/beast/websocket/ssl.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
+#include <iterator>
 
 namespace vitrine {
 namespace {
@@ -249,8 +252,7 @@ class Fetching {
     std::vector<ClientMessage> messages;
     if (taken_ > 0) messages.emplace_back(AckMessage{std::exchange(taken_, 0)});
     if (model_ && !std::exchange(is_asked_, true)) {
-      if (auto ranges = model_->held_ranges(); !ranges.empty())
-        messages.emplace_back(HaveMessage{.model = 0, .chunks = std::move(ranges)});
+      std::ranges::copy(have_messages(0, model_->held_ranges()), std::back_inserter(messages));
       messages.emplace_back(WantMessage{.model = 0, .turn = 0, .wish = wish()});
     }
     for (const ClientMessage& message : messages) {

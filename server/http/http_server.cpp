@@ -3,6 +3,7 @@
 
 #include <sys/socket.h>
 
+#include "server/http/repeat.h"
 #include "server/http/services.h"
 #include "server/http/session.h"
 
@@ -74,7 +75,12 @@ void HttpServer::set_limits(std::size_t max_connections, std::chrono::seconds pa
 
 void HttpServer::start() {
   asio::co_spawn(strand_, accept(), asio::detached);
-  asio::co_spawn(strand_, sweep(), asio::detached);
+  asio::co_spawn(
+      strand_,
+      repeat(
+          sweeper_, std::chrono::seconds(1), [this] { sweep(); },
+          [this](std::string_view fault) { services_.errors.event(Severity::kError, fault); }),
+      asio::detached);
 }
 
 asio::awaitable<void> HttpServer::accept() {
@@ -124,14 +130,9 @@ asio::awaitable<void> HttpServer::serve(std::shared_ptr<Connection> connection) 
   connections_.remove(*connection);
 }
 
-asio::awaitable<void> HttpServer::sweep() {
-  for (;;) {
-    sweeper_.expires_after(std::chrono::seconds(1));
-    const auto [error] = co_await sweeper_.async_wait(kNoThrow);
-    if (error) co_return;
-    connections_.sweep();
-    refresh_certificate();
-  }
+void HttpServer::sweep() {
+  connections_.sweep();
+  refresh_certificate();
 }
 
 void HttpServer::refresh_certificate() {

@@ -26,8 +26,9 @@ struct StreamCall {
   beast::http::request<beast::http::string_body> request;
   ModelId model;
   std::string request_id;
-  bool authorised = false;  // the caller has a token
-  bool head = false;        // the model's head comes first
+  std::string address;           // the visitor's
+  std::optional<Caller> caller;  // nothing without a token
+  bool head = false;             // the model's head comes first
 };
 using StreamHandler = std::function<asio::awaitable<void>(StreamCall call)>;
 
@@ -114,7 +115,7 @@ class HttpServer {
   void refuse(ByteStream& stream, ConnectionSet::Admission why);
   void refresh_certificate();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
-  asio::awaitable<void> sweep();
+  void sweep();
 
   asio::io_context& io_;
   Services& services_;

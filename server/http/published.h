@@ -54,16 +54,27 @@ inline Response for_caller(Response response) {
   return response;
 }
 
-// With that or, where the caller has a token, a draft, or all of a model of which less is public:
-// what is told of those is for nobody to keep.
+struct VisibleModel {
+  FoundModel model;
+  bool is_private = false;  // what is told of it is for nobody to keep
+};
+
+// The published model or, for those who have a token, a draft, or all of a model of which less is
+// public.
+inline VisibleModel find_visible(const ModelId& id, bool has_token, PublishedModels& models) {
+  FoundModel published = models.find(id);
+  const bool is_all = published && *published && !(*published)->record().public_part;
+  if (!has_token || !published || is_all) return {std::move(published)};
+  return {models.open_whole(id), true};
+}
+
+// With what the caller may see of the request's {id}.
 template <class Answer>
 Response with_model(const Request& request, Services& services, Answer&& answer) {
-  const FoundModel published = services.models.find(request.parameters.id);
-  const bool is_all = published && *published && !(*published)->record().public_part;
-  if (!request.caller || !published || is_all)
-    return with_found(published, request, services, answer);
-  return for_caller(
-      with_found(services.models.open_whole(request.parameters.id), request, services, answer));
+  const VisibleModel visible =
+      find_visible(request.parameters.id, request.caller.has_value(), services.models);
+  Response response = with_found(visible.model, request, services, answer);
+  return visible.is_private ? for_caller(std::move(response)) : response;
 }
 
 }  // namespace vitrine

@@ -428,7 +428,8 @@ class Session {
                     .request = std::move(request),
                     .model = exchange.parameters.id,
                     .request_id = exchange.id,
-                    .authorised = exchange.caller.has_value(),
+                    .address = exchange.visitor.address,
+                    .caller = exchange.caller,
                     .head = asks_for_head(target)};
     buffer_ = beast::flat_buffer();
     co_await server_.options().stream(std::move(call));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/log/line_batch.h"
 
-#include <unistd.h>
+#include "server/log/write_whole.h"
 
 namespace vitrine {
 
@@ -20,8 +20,7 @@ void LineBatch::flush(int descriptor) {
 }
 
 void LineBatch::write(int descriptor) {
-  // A log that cannot be written must not stop the service: the lines are lost.
-  [[maybe_unused]] const auto written = ::write(descriptor, lines_.data(), lines_.size());
+  write_whole(descriptor, lines_);
   lines_.clear();
 }
 

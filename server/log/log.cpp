@@ -4,13 +4,14 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <utility>
+
+#include "server/log/write_whole.h"
 
 namespace vitrine {
 namespace {
@@ -92,8 +93,7 @@ std::string_view name(Severity severity) {
 
 void write_line(int descriptor, Line& line) {
   line.push_back('\n');
-  // A log that cannot be written must not stop the service: the line is lost.
-  [[maybe_unused]] const auto written = ::write(descriptor, line.data(), line.size());
+  write_whole(descriptor, {line.data(), line.size()});
 }
 
 Unexpected refused(const std::filesystem::path& file, int error) {
@@ -179,13 +179,15 @@ void Log::audit(const AuditRecord& record) const {
   write_line(descriptor_, line);
 }
 
-void Log::event(Severity severity, std::string_view message) const {
+// It tells of memory that has run out, too, and nobody could do more if that fails.
+void Log::event(Severity severity, std::string_view message) const try {
   if (silent_.load(std::memory_order_relaxed)) return;
   Line line;
   append_time(line);
   append(line, "event", name(severity));
   append(line, "message", message);
   write_line(descriptor_, line);
+} catch (const std::exception&) {
 }
 
 std::string logfmt_value(std::string_view value) {

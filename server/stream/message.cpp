@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/stream/message.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -229,6 +230,18 @@ Expected<ClientMessage> parse_message(std::string_view text) {
   if (*type == "open") return parse_open(json, *model);
   if (*type == "close") return CloseMessage{*model};
   return malformed("the type is want, have, ack, pause, resume, open or close");
+}
+
+std::vector<HaveMessage> have_messages(std::uint16_t model, std::span<const ChunkRange> chunks) {
+  constexpr std::size_t kMost = kMaxMessage / 32;  // two numbers below 2^32 and what is around them
+  static_assert(kMost <= kMaxHaveRanges);
+  std::vector<HaveMessage> messages;
+  while (!chunks.empty()) {
+    const auto some = chunks.first(std::min(kMost, chunks.size()));
+    messages.push_back({model, {some.begin(), some.end()}});
+    chunks = chunks.subspan(some.size());
+  }
+  return messages;
 }
 
 std::string to_json(const ClientMessage& message) {

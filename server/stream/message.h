@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -61,6 +62,10 @@ using ClientMessage =
 // Parses one client message. Safe on hostile bytes: work and memory are linear in the length, which
 // the caller bounds by kMaxMessage. The error's message fits a WebSocket close frame (123 bytes).
 Expected<ClientMessage> parse_message(std::string_view text);
+
+// As many messages as it takes for ranges that ascend: each is within kMaxHaveRanges and
+// kMaxMessage.
+std::vector<HaveMessage> have_messages(std::uint16_t model, std::span<const ChunkRange> chunks);
 
 // As parse_message() reads it.
 std::string to_json(const ClientMessage& message);

@@ -74,27 +74,29 @@ bool ModelStream::is_in_time(Ends ends, Pacer::Time now) const {
 }
 
 // Sets under_way_. False where nothing is left to send.
-bool ModelStream::choose(const Pacer& pacer, Pacer::Time now) {
+bool ModelStream::choose(const Share& share, Pacer::Time now) {
   const auto chunk = planner().next();
   if (!chunk) return false;
   if (timed_) {
-    const double rate = pacer.hope(now);
-    const double queue = static_cast<double>(pacer.in_flight()) / rate;
-    const Ends ends{queue, queue + static_cast<double>(left_of(*chunk)) / rate};
-    if (!is_in_time(ends, now)) return false;
+    const double rate = share.pacer.hope(now);
+    if (!is_in_time({share.seconds(0, rate), share.seconds(left_of(*chunk), rate)}, now))
+      return false;
   }
   under_way_ = Part{*chunk, manifest_->chunks[*chunk].length - left_of(*chunk)};
   std::erase_if(interrupted_, [&](const Part& part) { return part.chunk == *chunk; });
   return true;
 }
 
-StreamOutput ModelStream::next(std::uint32_t most, const Pacer& pacer, Pacer::Time now) {
-  if (head_) return head_slice(most);
-  if (!is_open_ || is_paused_) return {};
-  if (timed_) {
-    if (auto promise = news(pacer, now)) return *promise;
+StreamOutput ModelStream::next(std::uint32_t most, const Share& share, Pacer::Time now) {
+  if (is_paused_) return {};
+  if (is_open_ && timed_) {
+    if (auto promise = news(share, now)) return *promise;
   }
-  if (!under_way_ && !choose(pacer, now)) {
+  if (head_) return head_slice(most);
+  if (!is_open_) return {};
+  if (!under_way_ && !choose(share, now)) {
+    // A link that is full or silent now may bring more yet.
+    if (most == 0 && timed_ && now < timed_->deadline && planner().next()) return {};
     is_open_ = false;
     return DoneMessage{number_, turn_, planner().bytes_held(), planner().faces_held()};
   }
@@ -137,31 +139,32 @@ StreamOutput ModelStream::chunk_slice(std::uint32_t most) {
 }
 
 // A promise where there is none yet, or the last one no longer fits what is measured.
-std::optional<PromiseMessage> ModelStream::news(const Pacer& pacer, Pacer::Time now) {
+std::optional<PromiseMessage> ModelStream::news(const Share& share, Pacer::Time now) {
   const auto& last = timed_->promise;
   if (last) {
-    const double change = std::abs(pacer.rate(now) / last->bytes_per_second - 1);
-    const bool first_measured = !last->measured && pacer.is_measured();
+    const double rate = share.pacer.rate(now) / static_cast<double>(share.sharers);
+    const double change = std::abs(rate / last->bytes_per_second - 1);
+    const bool first_measured = !last->measured && share.pacer.is_measured();
     if (!first_measured && (change < kNews || now - timed_->promised < kBetweenPromises)) return {};
   }
-  PromiseMessage promise = forecast(pacer, now);
+  PromiseMessage promise = forecast(share, now);
   timed_->promised = now;
   timed_->promise = promise;
   return promise;
 }
 
-// Goes on as next() would at the present rate.
-PromiseMessage ModelStream::forecast(const Pacer& pacer, Pacer::Time now) const {
-  const double rate = pacer.rate(now);
-  double end = static_cast<double>(pacer.in_flight()) / rate;
+// Goes on as next() would at the present rate; promises nothing that might come late.
+PromiseMessage ModelStream::forecast(const Share& share, Pacer::Time now) const {
+  const double rate = share.pacer.rate(now), left = (timed_->deadline - now).count();
+  std::uint64_t bytes = head_ ? manifest_->head_bytes() - head_sent_ : 0;
   Planner then = *planner_;
   auto chunk = under_way_ ? std::optional(under_way_->chunk) : then.next();
   for (; chunk; chunk = then.next()) {
-    const double with = end + static_cast<double>(left_of(*chunk)) / rate;
+    const std::uint64_t with = bytes + left_of(*chunk);
     const bool goes_on = under_way_ && under_way_->chunk == *chunk;
-    if (!goes_on && !is_in_time({end, with}, now)) break;
+    if (!goes_on && share.seconds(with, rate) > left) break;
     then.have(*chunk);
-    end = with;
+    bytes = with;
   }
   const auto missing = chunk ? manifest_->chunks[*chunk].level
                              : static_cast<std::uint32_t>(manifest_->levels.size());
@@ -171,9 +174,9 @@ PromiseMessage ModelStream::forecast(const Pacer& pacer, Pacer::Time now) const 
           .bytes = then.bytes_held(),
           .triangles = then.faces_held(),
           .error = manifest_->levels[missing - 1].max_error,
-          .seconds = end,
-          .bytes_per_second = rate,
-          .measured = pacer.is_measured()};
+          .seconds = share.seconds(bytes, rate),
+          .bytes_per_second = rate / static_cast<double>(share.sharers),
+          .measured = share.pacer.is_measured()};
 }
 
 }  // namespace vitrine

@@ -18,6 +18,19 @@ namespace vitrine {
 
 using StreamOutput = std::variant<std::monostate, Slice, PromiseMessage, DoneMessage>;
 
+// A connection as one of the models on it has it: they get the same number of bytes.
+struct Share {
+  const Pacer& pacer;
+  std::size_t sharers = 1;  // models that have something to send, this one included
+
+  // How long it takes until all that is on its way has arrived, and then `bytes` of this model's.
+  double seconds(std::uint64_t bytes, double rate) const {
+    return (static_cast<double>(pacer.in_flight()) +
+            static_cast<double>(bytes) * static_cast<double>(sharers)) /
+           rate;
+  }
+};
+
 class ModelStream {
  public:
   // The manifest outlives this. Nothing is wanted yet but, where `head` is set, the head.
@@ -33,10 +46,10 @@ class ModelStream {
 
   // A slice of at most `most` bytes (none where that is 0), or what there is to say; nothing
   // until something changes.
-  StreamOutput next(std::uint32_t most, const Pacer& pacer, Pacer::Time now);
+  StreamOutput next(std::uint32_t most, const Share& share, Pacer::Time now);
 
-  // Between the first and the last slice of a chunk.
-  bool is_within_chunk() const { return under_way_ && under_way_->offset > 0; }
+  // next() may have slices.
+  bool is_sending() const { return (head_ || is_open_) && !is_paused_; }
   // A wish for `seconds` is open: next() may have something new to say as time passes.
   bool is_timed() const { return is_open_ && timed_.has_value() && !is_paused_; }
 
@@ -58,11 +71,12 @@ class ModelStream {
 
   Planner& planner();
   void interrupt();
-  bool choose(const Pacer& pacer, Pacer::Time now);
+  bool is_within_chunk() const { return under_way_ && under_way_->offset > 0; }
+  bool choose(const Share& share, Pacer::Time now);
   std::uint64_t left_of(std::size_t chunk) const;
   bool is_in_time(Ends ends, Pacer::Time now) const;
-  std::optional<PromiseMessage> news(const Pacer& pacer, Pacer::Time now);
-  PromiseMessage forecast(const Pacer& pacer, Pacer::Time now) const;
+  std::optional<PromiseMessage> news(const Share& share, Pacer::Time now);
+  PromiseMessage forecast(const Share& share, Pacer::Time now) const;
   StreamOutput head_slice(std::uint32_t most);
   StreamOutput chunk_slice(std::uint32_t most);
 

@@ -20,6 +20,7 @@ void Pacer::sent(std::uint64_t bytes, Time now) {
   advance(now);
   if (samples_.empty()) samples_.push_back({busy_, arrived_});
   progress_ = now;
+  if (in_flight() == 0) heard_ = now;
   sent_ += bytes;
   if (marks_.size() < kMostMarks) marks_.push_back({sent_, now});
 }
@@ -59,11 +60,22 @@ void Pacer::arrived(std::uint64_t bytes, Time now) {
   add_sample();
   is_measured_ = is_measured_ || samples_.back().busy - samples_.front().busy >= kLeastTime ||
                  arrived_ >= kEnough;
+  note_silence(now);
   const Duration delay = measure_delay(now);
   if (delay.count() < 0 || base_ == Duration::max()) return;
   const double fitting = rate(now) * (base_ + kQueue).count();
   const double more = delay - base_ < kShortQueue ? window_ + static_cast<double>(bytes) : 0;
   window_ = std::clamp(std::max(fitting, more), kLeastWindow, kMostWindow);
+}
+
+// A link that falls silent again and again is one that has become slow.
+void Pacer::note_silence(Time now) {
+  const bool was_silent = now - heard_ >= kNudge;
+  if (was_silent) recovered_ = busy_;
+  heard_ = now;
+  if (!is_measured_) return;
+  if (was_silent) steady_ = std::max(rate(now), steady_ / 2);
+  if (busy_ - recovered_ >= kWindow) steady_ = rate(now);
 }
 
 bool Pacer::may_send(Time now) {
@@ -90,7 +102,11 @@ double Pacer::rate(Time now) const {
 
 double Pacer::hope(Time now) const {
   constexpr Duration kSomething{0.05};
-  if (is_measured_) return rate(now);
+  if (is_measured_) {
+    const bool is_silent = in_flight() > 0 && now - heard_ >= kNudge;
+    const bool recovers = busy(now) - recovered_ < kWindow;
+    return is_silent || recovers ? std::max(rate(now), steady_) : rate(now);
+  }
   const double seen = static_cast<double>(arrived_) / std::max(busy(now), kSomething).count();
   return busy(now) < kSomething ? std::max(4 * kFirstGuess, seen) : std::max(kFirstGuess, seen);
 }

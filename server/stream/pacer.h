@@ -33,8 +33,9 @@ class Pacer {
   // arrives.
   double rate(Time now) const;
 
-  // The same, but before it is measured: what it may turn out to be, by what little has been seen.
-  // A client is not left without anything because its connection is not known yet.
+  // What it may turn out to be: before it is measured, by what little has been seen, so that a
+  // client is not left without anything because its connection is not known yet; while it is
+  // silent, and until a silence has left the window: as before, as it may come back.
   double hope(Time now) const;
 
   static constexpr Duration kNudge{0.25};
@@ -65,15 +66,19 @@ class Pacer {
   Duration busy(Time now) const;
   void advance(Time now);
   void add_sample();
+  void note_silence(Time now);
   Duration measure_delay(Time now);
 
   std::uint64_t sent_ = 0, arrived_ = 0;
   Time then_{};              // of the last event
   Duration busy_{0};         // with something on its way, up to then_
-  Time progress_{};          // when something arrived, or was sent after nothing
+  Time progress_{};          // when something arrived or was sent
   std::vector<Mark> marks_;  // of what is on its way, in order
   std::vector<Sample> samples_;
   bool is_measured_ = false;
+  double steady_ = 0;                // the rate, a silence not counted
+  Time heard_{};                     // when something arrived, or was sent after nothing
+  Duration recovered_{0};            // the end of the last silence, as busy_
   Duration base_ = Duration::max();  // the shortest way to the client and back
   Time base_since_{};
   bool drains_ = false;  // until nothing is on its way, so that base_ is seen without a queue

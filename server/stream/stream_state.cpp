@@ -11,14 +11,16 @@ constexpr Pacer::Duration kNewsInterval{0.1};  // promises are looked at
 
 }  // namespace
 
-ModelStream* StreamState::find(std::uint16_t model) {
-  const auto found = std::ranges::find(models_, model, &ModelStream::number);
+StreamState::Sharer* StreamState::find(std::uint16_t model) {
+  const auto found =
+      std::ranges::find(models_, model, [](const Sharer& m) { return m.stream.number(); });
   return found == models_.end() ? nullptr : &*found;
 }
 
 Expected<void> StreamState::open(std::uint16_t model, const Manifest& manifest, bool head) {
   if (find(model) != nullptr) return fail(ErrorCode::kBadInput, "open: the number is taken");
-  models_.emplace_back(model, manifest, head);
+  const std::uint64_t served = models_.empty() ? 0 : models_.front().served;
+  models_.insert(models_.begin(), Sharer{ModelStream(model, manifest, head), served});
   return {};
 }
 
@@ -28,9 +30,9 @@ Expected<void> StreamState::receive(const ClientMessage& message, Time now) {
 
 template <class Do>
 Expected<void> StreamState::with_model(std::uint16_t number, const Do& act) {
-  ModelStream* const model = find(number);
+  Sharer* const model = find(number);
   if (model == nullptr) return fail(ErrorCode::kBadInput, "no model is open under this number");
-  return act(*model);
+  return act(model->stream);
 }
 
 Expected<void> StreamState::receive_one(const OpenMessage&, Time) {
@@ -38,7 +40,7 @@ Expected<void> StreamState::receive_one(const OpenMessage&, Time) {
 }
 
 Expected<void> StreamState::receive_one(const CloseMessage& message, Time) {
-  std::erase_if(models_, [&](const ModelStream& m) { return m.number() == message.model; });
+  std::erase_if(models_, [&](const Sharer& m) { return m.stream.number() == message.model; });
   return {};
 }
 
@@ -81,24 +83,36 @@ std::uint32_t StreamState::room(Time now) {
 
 StreamOutput StreamState::next(Time now) {
   const std::uint32_t most = room(now);
-  for (std::size_t turn = 0; turn < models_.size(); ++turn) {
-    ModelStream& model = models_.front();
-    const StreamOutput output = model.next(most, pacer_, now);
-    if (const auto* slice = std::get_if<Slice>(&output)) {
-      credit_ -= slice->length;
-      sent_ += slice->length;
-      pacer_.sent(slice->length, now);
-    }
-    if (!model.is_within_chunk()) std::rotate(models_.begin(), models_.begin() + 1, models_.end());
-    if (!std::holds_alternative<std::monostate>(output)) return output;
+  const auto is_sending = [](const Sharer& model) { return model.stream.is_sending(); };
+  const auto sharers = static_cast<std::size_t>(std::ranges::count_if(models_, is_sending));
+  for (Sharer& model : models_) {
+    const StreamOutput output = model.stream.next(most, {pacer_, sharers}, now);
+    if (std::holds_alternative<std::monostate>(output)) continue;
+    if (const auto* slice = std::get_if<Slice>(&output)) serve(model, slice->length, now);
+    return output;
   }
   return {};
 }
 
+// Those who want nothing now save up nothing for later.
+void StreamState::serve(Sharer& model, std::uint32_t bytes, Time now) {
+  credit_ -= bytes;
+  sent_ += bytes;
+  pacer_.sent(bytes, now);
+  model.served += bytes;
+  const std::uint64_t served = model.served;
+  for (Sharer& other : models_) {
+    if (!other.stream.is_sending()) other.served = std::max(other.served, served);
+  }
+  std::ranges::stable_sort(models_, {}, &Sharer::served);
+}
+
 std::optional<StreamState::Time> StreamState::wakes(Time now) const {
-  if (pacer_.in_flight() == 0) return std::nullopt;
-  if (is_granted_ahead()) return now + kPoll;
-  if (std::ranges::any_of(models_, &ModelStream::is_timed)) return now + kNewsInterval;
+  const bool is_timed =
+      std::ranges::any_of(models_, [](const Sharer& model) { return model.stream.is_timed(); });
+  if (pacer_.in_flight() == 0 && !is_timed) return std::nullopt;
+  if (is_granted_ahead() && pacer_.in_flight() > 0) return now + kPoll;
+  if (is_timed) return now + kNewsInterval;
   if (is_held_) return now + Pacer::kNudge;
   return std::nullopt;
 }

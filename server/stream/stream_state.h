@@ -26,7 +26,8 @@ class StreamState {
   Expected<void> receive(const ClientMessage& message, Time now);
 
   // What to send now; nothing before a further message or wakes(). A slice is chosen only now and
-  // takes its credit, so a new wish or a `have` counts at once. Models take turns, chunk by chunk.
+  // takes its credit, so a new wish or a `have` counts at once. Models that have something to send
+  // get equal shares, slice by slice.
   StreamOutput next(Time now);
 
   // When next() may have something although no message has come; nothing: never.
@@ -40,7 +41,12 @@ class StreamState {
   std::uint64_t credit() const { return credit_; }
 
  private:
-  ModelStream* find(std::uint16_t model);
+  struct Sharer {
+    ModelStream stream;
+    std::uint64_t served;  // bytes, or as much as those who were sent something while it was idle
+  };
+
+  Sharer* find(std::uint16_t model);
   Expected<void> receive_one(const CloseMessage& message, Time now);
   Expected<void> receive_one(const WantMessage& message, Time now);
   Expected<void> receive_one(const HaveMessage& message, Time now);
@@ -50,8 +56,9 @@ class StreamState {
   template <class Do>
   Expected<void> with_model(std::uint16_t number, const Do& act);
   std::uint32_t room(Time now);
+  void serve(Sharer& model, std::uint32_t bytes, Time now);
 
-  std::vector<ModelStream> models_;  // the first has the next turn
+  std::vector<Sharer> models_;  // who has been served least comes first
   std::uint64_t credit_ = kFirstCredit;
   std::uint64_t granted_ = 0, sent_ = 0;  // by acks; in slices
   bool is_held_ = false;  // by the pace: something is to be sent, and there is credit for it

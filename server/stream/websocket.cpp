@@ -25,7 +25,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using Request = beast::http::request<beast::http::string_body>;
-using Model = std::shared_ptr<const PublishedModel>;
+using Model = StreamedModel;
 
 constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
 constexpr int kMostUnsent = 16 * 1024;  // in the kernel's queue, so that new wishes overtake little
@@ -38,8 +38,11 @@ StreamState::Time now() {
 // A reader that feeds the state and a writer that pulls from it, both on the socket's strand.
 class StreamSession : public std::enable_shared_from_this<StreamSession> {
  public:
-  StreamSession(ByteStream& socket, StreamOptions options)
-      : websocket_(socket), change_(socket.get_executor()), options_(std::move(options)) {}
+  StreamSession(std::shared_ptr<ByteStream> socket, StreamOptions options)
+      : socket_(std::move(socket)),
+        websocket_(*socket_),
+        change_(socket_->get_executor()),
+        options_(std::move(options)) {}
 
   asio::awaitable<bool> accept(Request request) {
     configure();
@@ -53,18 +56,31 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     });
     open({.model = 0, .id = {}, .head = options_.head}, std::move(model));
     asio::co_spawn(websocket_.get_executor(), read(shared_from_this()), asio::detached);
-    co_await write();
-    if (goodbye_) {
-      options_.waits_for_peer(true);
-      co_await websocket_.async_close(*goodbye_, kNoThrow);
-    }
+    co_await guarded(&StreamSession::write);
+    co_await guarded(&StreamSession::say_goodbye);
     boost::system::error_code ignored;
-    websocket_.next_layer().close(ignored);
+    socket_->close(ignored);
     while (!reader_ended_)
       co_await changed({});
   }
 
  private:
+  // What is thrown there ends this connection, and no other.
+  asio::awaitable<void> guarded(asio::awaitable<void> (StreamSession::*work)()) {
+    try {
+      co_await (this->*work)();
+    } catch (const std::exception& fault) {
+      close_with(websocket::close_code::internal_error);
+      options_.failed(fault.what());
+    }
+  }
+
+  asio::awaitable<void> say_goodbye() {
+    if (!goodbye_) co_return;
+    options_.waits_for_peer(true);
+    co_await websocket_.async_close(*goodbye_, kNoThrow);
+  }
+
   void configure() {
     websocket::stream_base::timeout timeout;
     timeout.handshake_timeout = options_.patience;
@@ -78,40 +94,59 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     websocket_.read_message_max(kMaxMessage);
     websocket_.auto_fragment(false);
     const int most = kMostUnsent;
-    ::setsockopt(socket(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most, sizeof most);
+    ::setsockopt(socket_->native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most, sizeof most);
   }
 
-  int socket() { return websocket_.next_layer().native_handle(); }
+  // However the reader ends, run() is told.
+  struct ReaderEnd {
+    StreamSession& session;
+    ~ReaderEnd() {
+      session.reader_ended_ = true;
+      session.change_.cancel();
+    }
+  };
 
   static asio::awaitable<void> read(std::shared_ptr<StreamSession> self) {
-    beast::flat_buffer buffer;
-    while (!self->goodbye_) {
-      const auto [error, bytes] = co_await self->websocket_.async_read(buffer, kNoThrow);
-      if (error) break;
-      self->receive(buffer);
-      buffer = beast::flat_buffer();  // an idle connection holds none
-      self->change_.cancel();
-    }
-    self->reader_ended_ = true;
-    self->change_.cancel();
+    const ReaderEnd end{*self};
+    co_await self->guarded(&StreamSession::receive_all);
   }
 
-  void receive(const beast::flat_buffer& buffer) {
+  asio::awaitable<void> receive_all() {
+    beast::flat_buffer buffer;
+    while (!goodbye_) {
+      const auto [error, bytes] = co_await websocket_.async_read(buffer, kNoThrow);
+      if (error) break;
+      co_await receive(buffer);
+      buffer = beast::flat_buffer();  // an idle connection holds none
+      change_.cancel();
+    }
+  }
+
+  asio::awaitable<void> receive(const beast::flat_buffer& buffer) {
     if (!websocket_.got_text()) {
-      return close_with({websocket::close_code::policy_error, "a message is a text frame"});
+      close_with({websocket::close_code::policy_error, "a message is a text frame"});
+      co_return;
     }
     const auto data = buffer.cdata();
     const auto message = parse_message({static_cast<const char*>(data.data()), data.size()});
-    const auto received = message ? act_on(*message) : Unexpected(message.error());
+    Expected<void> received = {};
+    if (!message) {
+      received = Unexpected(message.error());
+    } else if (const auto* wanted = std::get_if<OpenMessage>(&*message)) {
+      received = co_await find_and_open(*wanted);
+    } else {
+      received = act_on(*message);
+    }
     if (!received) close_with({websocket::close_code::policy_error, received.error().message});
   }
 
+  asio::awaitable<Expected<void>> find_and_open(const OpenMessage& wanted) {
+    auto model = co_await options_.find(wanted.id);
+    co_return model ? open(wanted, std::move(*model))
+                    : answer(ClosedMessage{wanted.model, model.error().message});
+  }
+
   Expected<void> act_on(const ClientMessage& message) {
-    if (const auto* wanted = std::get_if<OpenMessage>(&message)) {
-      auto model = options_.find(wanted->id);
-      if (model) return open(*wanted, std::move(model));
-      return answer(ClosedMessage{wanted->model, "there is no such model"});
-    }
     if (const auto* unwanted = std::get_if<CloseMessage>(&message)) {
       models_.erase(unwanted->model);
       if (auto fits = answer(ClosedMessage{unwanted->model, "as asked"}); !fits) return fits;
@@ -176,7 +211,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
 
   void ask_kernel() {
     int queued = 0;
-    if (::ioctl(socket(), SIOCOUTQ, &queued) == 0 && queued >= 0)
+    if (::ioctl(socket_->native_handle(), SIOCOUTQ, &queued) == 0 && queued >= 0)
       state_.still_queued(static_cast<std::uint64_t>(queued), now());
   }
 
@@ -205,6 +240,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     co_return !error;
   }
 
+  const std::shared_ptr<ByteStream> socket_;  // as long as the reader lives
   websocket::stream<ByteStream&, /*deflate=*/false> websocket_;
   asio::steady_timer change_;
   StreamOptions options_;
@@ -217,10 +253,9 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
 
 }  // namespace
 
-asio::awaitable<void> serve_stream(ByteStream& socket, Request request,
-                                   std::shared_ptr<const PublishedModel> model,
+asio::awaitable<void> serve_stream(std::shared_ptr<ByteStream> socket, Request request, Model model,
                                    StreamOptions options) {
-  auto session = std::make_shared<StreamSession>(socket, std::move(options));
+  auto session = std::make_shared<StreamSession>(std::move(socket), std::move(options));
   const bool accepted = co_await session->accept(std::exchange(request, {}));
   if (accepted) co_await session->run(std::move(model));
 }

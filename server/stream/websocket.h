@@ -15,22 +15,28 @@
 
 namespace vitrine {
 
+using StreamedModel = std::shared_ptr<const PublishedModel>;
+
 struct StreamOptions {
   std::chrono::seconds patience{30};  // for handshakes, and before a silent peer is pinged and cut
   bool head = false;                  // the model's head comes first
-  // A model that this client may see, or null.
-  std::function<std::shared_ptr<const PublishedModel>(std::string_view id)> find;
+  // A model that this client may see; fails with what the client is told. Off the socket's strand.
+  std::function<boost::asio::awaitable<Expected<StreamedModel>>(std::string id)> find;
   // Called once with what to call on the socket's strand when the daemon stops (close 1012).
   std::function<void(std::function<void()> stop)> on_drain;
   std::function<void(std::uint64_t bytes)> sent;  // called with the chunk bytes of each slice
   // Called before (true) and after what the peer has to take within the patience.
   std::function<void(bool waits)> waits_for_peer;
+  // Called with what was thrown (memory has run out): this connection ends with 1011.
+  std::function<void(std::string_view fault)> failed;
 };
 
-// Runs on the socket's strand. `request` is an upgrade that offers pmesh.v1. Memory per connection:
-// the session's state, and the one slice that is being sent.
+// Runs on the socket's strand, and returns when nothing is pending there. `request` is an upgrade
+// that offers pmesh.v1. Memory per connection: the session's state, and the one slice that is being
+// sent.
 boost::asio::awaitable<void> serve_stream(
-    ByteStream& socket, boost::beast::http::request<boost::beast::http::string_body> request,
-    std::shared_ptr<const PublishedModel> model, StreamOptions options);
+    std::shared_ptr<ByteStream> socket,
+    boost::beast::http::request<boost::beast::http::string_body> request, StreamedModel model,
+    StreamOptions options);
 
 }  // namespace vitrine

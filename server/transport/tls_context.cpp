@@ -8,6 +8,7 @@
 #include <openssl/x509.h>
 #include <unistd.h>
 
+#include <boost/asio/ssl/context.hpp>
 #include <cerrno>
 #include <cstring>
 #include <string_view>
@@ -89,12 +90,18 @@ void configure(SSL_CTX* context) {
 
 }  // namespace
 
+TlsContext::TlsContext()
+    : context_(std::make_unique<boost::asio::ssl::context>(boost::asio::ssl::context::tls_server)) {
+}
+
+TlsContext::~TlsContext() = default;
+
 Expected<std::shared_ptr<const TlsContext>> TlsContext::load(const TlsFiles& files) {
   for (const auto& file : {files.certificate, files.key}) {
     if (auto readable = check_readable(file); !readable) return Unexpected(readable.error());
   }
   std::shared_ptr<TlsContext> tls(new TlsContext);
-  SSL_CTX* context = tls->context_.native_handle();
+  SSL_CTX* context = tls->context_->native_handle();
   configure(context);
   if (SSL_CTX_use_certificate_chain_file(context, files.certificate.c_str()) != 1) {
     return bad(files.certificate, "it is no certificate in PEM form",

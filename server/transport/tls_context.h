@@ -2,11 +2,14 @@
 // The certificate and the key that the server shows those who connect with TLS 1.2 or 1.3.
 #pragma once
 
-#include <boost/asio/ssl/context.hpp>
 #include <filesystem>
 #include <memory>
 
 #include "codec/core/expected.h"
+
+namespace boost::asio::ssl {
+class context;
+}
 
 namespace vitrine {
 
@@ -24,13 +27,15 @@ class TlsContext {
   // key is not the certificate's (kBadInput).
   static Expected<std::shared_ptr<const TlsContext>> load(const TlsFiles& files);
 
+  ~TlsContext();
+
   // Connections are made from it; nothing of it is changed.
-  boost::asio::ssl::context& native() const { return context_; }
+  boost::asio::ssl::context& native() const { return *context_; }
 
  private:
-  TlsContext() : context_(boost::asio::ssl::context::tls_server) {}
+  TlsContext();
 
-  mutable boost::asio::ssl::context context_;
+  const std::unique_ptr<boost::asio::ssl::context> context_;
 };
 
 }  // namespace vitrine

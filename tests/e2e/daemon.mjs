@@ -12,6 +12,9 @@ const run = promisify(execFile);
 // The daemon refuses settings that it does not know, such as those of this test.
 const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith("VITRINE_")));
 
+// A line of the daemon's own, or of the runtime under it.
+const kFault = /event=(error|critical)|terminate called|Sanitizer/;
+
 export class Daemon {
   static async start(folderOfBinaries) {
     const bin = resolve(folderOfBinaries);
@@ -27,7 +30,7 @@ export class Daemon {
   }
 
   constructor(bin, folder, data) {
-    Object.assign(this, { bin, folder, data });
+    Object.assign(this, { bin, folder, data, log: "" });
   }
 
   /** Starts the program; rejects when it ends. */
@@ -37,10 +40,9 @@ export class Daemon {
       ["--listen", listen, "--admin-listen", "127.0.0.1:0", "--data", this.data, "--port-file", portFile],
       { cwd: this.folder, env, stdio: ["ignore", "ignore", "pipe"] },
     );
-    let log = "";
-    this.child.stderr.on("data", (text) => (log += text));
-    this.exit = once(this.child, "exit").then(([code, signal]) => code ?? signal);
-    const ended = this.exit.then((code) => Promise.reject(new Error(`vitrined ended with ${code}: ${log}`)));
+    this.child.stderr.on("data", (text) => (this.log += text));
+    this.exit = once(this.child, "close").then(([code, signal]) => code ?? signal);
+    const ended = this.exit.then((code) => Promise.reject(new Error(`vitrined ended with ${code}: ${this.log}`)));
     ended.catch(() => undefined);
     return ended;
   }
@@ -60,12 +62,14 @@ export class Daemon {
     return `${this.url}/models/${JSON.parse(stdout).id}`;
   }
 
-  /** Ends the daemon as an operator would; it must leave cleanly. */
+  /** Ends the daemon as an operator would; it must leave cleanly, and its log with it. */
   async stop() {
     this.child.kill("SIGTERM");
     const code = await this.exit;
     await rm(this.folder, { recursive: true, force: true });
     if (code !== 0) throw new Error(`vitrined ended with ${code}`);
+    const faults = this.log.split("\n").filter((line) => kFault.test(line));
+    if (faults.length > 0) throw new Error(`in the log of vitrined:\n${faults.join("\n")}`);
   }
 }
 

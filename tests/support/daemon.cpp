@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -18,7 +19,7 @@ struct Child {
   int output;
 };
 
-Child start(const std::vector<std::string>& arguments) {
+Child start(const std::vector<std::string>& arguments, const std::string& terminal = "") {
   const std::string program = std::string(VITRINE_BIN_DIR) + "/vitrined";
   std::vector<char*> words = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments)
@@ -28,6 +29,10 @@ Child start(const std::vector<std::string>& arguments) {
   if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   const pid_t id = ::fork();
   if (id == 0) {
+    if (!terminal.empty()) {
+      ::setsid();  // the next terminal that is opened controls it
+      ::dup2(::open(terminal.c_str(), O_RDWR), STDIN_FILENO);
+    }
     ::dup2(ends[1], STDOUT_FILENO);
     ::dup2(ends[1], STDERR_FILENO);
     ::execv(program.c_str(), words.data());
@@ -50,6 +55,13 @@ bool read_some(int descriptor, std::string& text) {
   return count > 0;
 }
 
+// As the daemon itself writes it, or what it runs on.
+bool tells_of_an_error(const std::string& line) {
+  for (const char* const sign : {"event=error", "terminate called", "ERROR: ", "runtime error: "})
+    if (line.find(sign) != std::string::npos) return true;
+  return false;
+}
+
 std::uint16_t port_in(const std::string& line) {
   if (line.find("unix:") != std::string::npos) return 0;
   return static_cast<std::uint16_t>(std::stoi(line.substr(line.rfind(':') + 1)));
@@ -67,13 +79,14 @@ ProgramResult run_vitrined(const std::vector<std::string>& arguments) {
   return result;
 }
 
-Daemon::Daemon(const std::filesystem::path& data, std::vector<std::string> more)
+Daemon::Daemon(const std::filesystem::path& data, std::vector<std::string> more,
+               const std::string& terminal)
     : access_log_(data / "access.log") {
   std::vector<std::string> arguments = {
       "--data",      data.string(),  "--listen",           "127.0.0.1:0", "--admin-listen",
       "127.0.0.1:0", "--access-log", access_log_.string(), "--threads",   "2"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const Child child = start(arguments);
+  const Child child = start(arguments, terminal);
   child_ = child.id;
   pipe_ = child.output;
   for (int listeners = 0; listeners < 2;) {
@@ -100,7 +113,16 @@ std::string Daemon::wait_for_line(std::string_view text) {
   do {
     line = read_line();
   } while (line.find(text) == std::string::npos);
+  awaited_.push_back(line);
   return line;
+}
+
+void Daemon::check_log() const {
+  std::istringstream lines(printed_);
+  for (std::string line; std::getline(lines, line);) {
+    if (tells_of_an_error(line) && std::ranges::find(awaited_, line) == awaited_.end())
+      when_log_is_unclean(line);
+  }
 }
 
 void Daemon::signal(int number) const {
@@ -112,6 +134,7 @@ ProgramResult Daemon::wait() {
   }
   const int exit_code = wait_for(child_);
   child_ = -1;
+  check_log();
   return {exit_code, printed_, {}};
 }
 
@@ -125,6 +148,10 @@ Daemon::~Daemon() {
   if (child_ > 0) {
     signal(SIGKILL);
     wait_for(child_);
+    ::fcntl(pipe_, F_SETFL, O_NONBLOCK);  // children of its own may hold the other end
+    while (read_some(pipe_, printed_)) {
+    }
+    check_log();
   }
   ::close(pipe_);
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <sys/types.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <fstream>
@@ -10,12 +9,13 @@
 
 namespace vitrine::test {
 
-// Of a process, as the kernel counts it now; 0 where there is none. Its children's is not in it.
-inline std::size_t resident_bytes(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
-  std::size_t size = 0, resident = 0;  // pages
-  file >> size >> resident;
-  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+// `which` of proc(5): what a process has now, or at most had ("VmHWM:"); 0 where there is none. Its
+// children's is not in it.
+inline std::size_t resident_bytes(pid_t process, const std::string& which = "VmRSS:") {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(which)) return std::stoul(line.substr(which.size())) * 1024;
+  return 0;
 }
 
 }  // namespace vitrine::test

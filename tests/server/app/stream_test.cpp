@@ -91,6 +91,21 @@ TEST_F(StreamTest, OneSocketBringsSeveralModels) {
   EXPECT_EQ(told(client)["reason"], "there is no such model");
 }
 
+TEST_F(StreamTest, OpeningModelsIsBoundToTheRateOfRequests) {
+  const Daemon strict(folder.path(), {"--request-rate", "1"});
+  WebSocketClient client(strict.port(), url(), "pmesh.v1");
+  told(client);
+  const auto reason = [&] {
+    client.send_text(R"({"type":"open","model":5,"id":"00000000000000000000000001"})");
+    return told(client)["reason"];
+  };
+  EXPECT_EQ(reason(), "there is no such model");
+  for (int i = 0; i < 100; ++i) {  // ten calls may come at once
+    if (reason() == "too many requests; wait") return;
+  }
+  FAIL() << "a hundred calls were answered";
+}
+
 TEST_F(StreamTest, AWishForTimeIsAnsweredByPromises) {
   WebSocketClient client = connect();
   told(client);

@@ -165,5 +165,25 @@ TEST(Message, RefusesEverythingElseWithAReasonThatFitsACloseFrame) {
   }
 }
 
+TEST(Message, ALongHaveIsSaidInSeveral) {
+  std::vector<ChunkRange> ranges;
+  for (std::uint64_t i = 0; i < 10'000; ++i)
+    ranges.push_back({UINT32_MAX - 100'000 + 2 * i, UINT32_MAX - 100'000 + 2 * i});
+  std::vector<std::uint64_t> told;
+  for (const HaveMessage& message : have_messages(3, ranges)) {
+    const std::string text = to_json(message);
+    EXPECT_LE(text.size(), kMaxMessage);
+    const auto parsed = parse_message(text);
+    ASSERT_TRUE(parsed) << parsed.error().message;
+    EXPECT_EQ(std::get<HaveMessage>(*parsed).model, 3);
+    for (const ChunkRange& range : std::get<HaveMessage>(*parsed).chunks)
+      told.push_back(range.first);
+  }
+  ASSERT_EQ(told.size(), ranges.size());
+  EXPECT_EQ(told.front(), ranges.front().first);
+  EXPECT_EQ(told.back(), ranges.back().last);
+  EXPECT_TRUE(have_messages(0, {}).empty());
+}
+
 }  // namespace
 }  // namespace vitrine

@@ -64,6 +64,15 @@ describe("StreamSource", () => {
     expect(asked).toEqual([]);
   });
 
+  test("says what it holds in as many messages as it takes", () => {
+    const held = Array.from({ length: 5000 }, (_, i) => 2 * i + 100_000);
+    new StreamSource("http://host/api/v1", "m1").want({ level: 2 }, held);
+    const haves = FakeSocket.last.sent.filter(({ type }) => type === "have");
+    expect(haves.map(({ chunks }) => (chunks as unknown[]).length <= 4096)).toEqual([true, true, true]);
+    expect(haves.every((message) => JSON.stringify(message).length <= 64 * 1024)).toBe(true);
+    expect(haves.flatMap(({ chunks }) => chunks)).toEqual(pairs(held));
+  });
+
   test("takes the head from the handshake on", async () => {
     const source = new StreamSource("http://host/api/v1", "m1");
     const head = source.head(never);

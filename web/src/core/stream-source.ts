@@ -7,6 +7,7 @@ import type { Want } from "./types.ts";
 
 const kSliceHeader = 16;
 const kMaxChunk = 64 * 1024 * 1024;
+const kMostRanges = 2048; // of one `have`: with them it is short enough for the server
 const kHead = "0/0";
 
 /** A chunk of which slices have come: in order, but others may come in between. */
@@ -49,7 +50,8 @@ export class StreamSource implements Source {
   want(want: Want, have: number[]): void {
     if (!this.#socket || this.#socket.readyState > WebSocket.OPEN) this.#connect();
     this.#busy = true;
-    if (have.length > 0) this.#send({ type: "have", chunks: pairs(have) });
+    const held = pairs(have);
+    for (let at = 0; at < held.length; at += kMostRanges) this.#send({ type: "have", chunks: held.slice(at, at + kMostRanges) });
     this.#send({ type: "want", turn: ++this.#turn, ...want });
   }
 

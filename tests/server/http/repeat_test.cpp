@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/repeat.h"
+
+#include <gtest/gtest.h>
+
+#include <new>
+#include <string>
+#include <vector>
+
+namespace vitrine {
+namespace {
+
+TEST(Repeat, GoesOnAfterATaskThatThrew) {
+  asio::io_context io;
+  asio::steady_timer timer(io);
+  int runs = 0;
+  std::vector<std::string> faults;
+  const auto task = [&] {
+    if (++runs == 1) throw std::bad_alloc();
+    io.stop();
+  };
+  asio::co_spawn(io,
+                 repeat(timer, std::chrono::milliseconds(1), task,
+                        [&](std::string_view fault) { faults.emplace_back(fault); }),
+                 asio::detached);
+  io.run();
+  EXPECT_EQ(runs, 2);
+  EXPECT_EQ(faults, std::vector<std::string>{std::bad_alloc().what()});
+}
+
+}  // namespace
+}  // namespace vitrine
