@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <thread>
 
 namespace vitrine::test {
@@ -152,7 +153,7 @@ TEST_F(JobsSuite, what_is_old_is_forgotten_but_for_what_is_named) {
   EXPECT_FALSE(jobs_->find_once("old").value());
   EXPECT_TRUE(jobs_->find_once("new").value());
   EXPECT_TRUE(jobs_->find_once("goes on").value());
-  for (const std::uint8_t kept : {2, 3, 4, 5})
+  for (const auto kept : std::to_array<std::uint8_t>({2, 3, 4, 5}))
     EXPECT_TRUE(jobs_->find_job(id_of(kept)).value()) << int{kept};
   EXPECT_EQ(jobs_->forget(50, 50).value(), 1u) << "the one whose key was newer";
   EXPECT_EQ(jobs_->forget(50, 50).value(), 0u);

@@ -112,7 +112,7 @@ TEST_F(AttackTest, WhoTakesAStreamAByteAtATimeCostsLittleAndIsCutOff) {
   WebSocketClient client(std::move(http), "/api/v1/models/" + large + "/stream", "pmesh.v1");
   client.receive();
   EXPECT_THAT(streams(), HasSubstr("\nvitrine_streams 1\n"));
-  const std::size_t before = resident_bytes(daemon.pid());
+  [[maybe_unused]] const std::size_t before = resident_bytes(daemon.pid());
   client.send_text(R"({"type":"ack","bytes":16777216})");
   client.send_text(R"({"type":"want","level":1})");
   std::string text;

@@ -45,7 +45,7 @@ class BombTest : public ::testing::Test {
   }
 
   void expect_refused(const std::string& file, const std::string& why) {
-    const std::size_t before = resident_bytes(daemon.pid());
+    [[maybe_unused]] const std::size_t before = resident_bytes(daemon.pid());
     const Json job = made_of(file);
     EXPECT_EQ(job["state"], "failed") << job;
     EXPECT_THAT(job.dump(), HasSubstr(why));
