@@ -72,9 +72,9 @@ TEST_F(Reload, AFaultLeavesAllAsItWas) {
 }
 
 TEST_F(Reload, WhatNeedsANewStartSaysSo) {
-  write("public-url = https://two.example\nthreads = 5\n");
+  write("public-url = https://two.example\nmin-rate = 300\n");
   EXPECT_THAT(reload(), HasSubstr("new: public-url"));
-  EXPECT_THAT(daemon->wait_for_line("restart"), HasSubstr("to have the new threads"));
+  EXPECT_THAT(daemon->wait_for_line("restart"), HasSubstr("to have the new min-rate"));
 }
 
 TEST_F(Reload, FewerConnectionsAndLessPatienceHoldAtOnceAndWhoIsThereStays) {

@@ -385,7 +385,8 @@ TEST_F(ModelOrders, TokensAreListedInPages) {
   std::vector<std::string> made, listed;
   for (int i = 0; i < 4; ++i)
     server_.bearer(Role::kViewer);
-  for (const TokenRecord& token : server_.catalogue().tokens().value())
+  const auto tokens = server_.catalogue().tokens().value();
+  for (const TokenRecord& token : tokens)
     made.push_back(token.id.to_string());
   std::string cursor;
   do {

@@ -134,8 +134,9 @@ TEST_F(Publish, a_chunk_of_a_model_that_is_replaced_meanwhile_is_that_chunk_or_n
   const auto other_chunk = test::tiny_pmesh("the base", "a chink").bytes;
   for (const auto& [next, expected] :
        {std::pair(same_chunk, test::to_bytes("a chunk")), std::pair(other_chunk, Bytes{})}) {
-    HastyCatalogue hasty(*catalogue_,
-                         [&] { ASSERT_TRUE(replace(store_, *catalogue_, next, {}, {.id = id})); });
+    HastyCatalogue hasty(*catalogue_, [&, &next = next] {
+      ASSERT_TRUE(replace(store_, *catalogue_, next, {}, {.id = id}));
+    });
     PublishedModels models(store_, hasty);
     const auto found = models.find_chunk(sha256(test::to_bytes("a chunk"))).value();
     EXPECT_EQ(found.model ? found.model->read(found.range).value() : Bytes{}, expected);

@@ -21,11 +21,12 @@ class WatchedStore final : public ObjectStore {
  public:
   explicit WatchedStore(FileStore store) : store_(std::move(store)) {}
 
-  Expected<void> put(const Sha256& name, std::span<const std::uint8_t> bytes) override {
+  Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override {
     return store_.put(name, bytes);
   }
   Expected<std::shared_ptr<const void>> lock() override { return store_.lock(); }
   Expected<void> remove(const Sha256& name) override { return store_.remove(name); }
+  Expected<void> begin_grace(const Sha256& name) override { return store_.begin_grace(name); }
   Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) override {
     return store_.sweep(keep, grace);
   }
@@ -66,7 +67,7 @@ TEST_F(PublishedModelsTest, a_change_costs_the_model_that_has_changed_alone) {
   ModelRecord record = catalogue_->find(two).value().value();
   record.title = "another";
   ASSERT_TRUE(catalogue_->update(record, std::nullopt));
-  ASSERT_TRUE(catalogue_->remove(three));
+  ASSERT_TRUE(catalogue_->remove(three, std::nullopt));
   ASSERT_TRUE(catalogue_->add_token({.id = ModelId::generate(), .role = Role::kAdmin}));
   EXPECT_EQ(get(one), first);
   EXPECT_EQ(get(two)->record().title, "another");
