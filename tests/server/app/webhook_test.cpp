@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "server/jobs/clock.h"
 #include "server/store/installation.h"
 #include "support/daemon.h"
 #include "support/temporary_folder.h"
@@ -21,6 +22,7 @@ TEST(WebhooksOfADaemon, WhatAnotherHasNotToldIsToldAtTheStart) {
   const JobRecord ended{.id = JobId::generate(),
                         .kind = JobKind::kPublish,
                         .state = JobState::kDone,
+                        .ended = now_in_milliseconds(),
                         .webhook = "http://" + listener.host() + "/told"};
   ASSERT_TRUE(installation.jobs->add(ended, std::nullopt, std::nullopt));
   const Daemon daemon(folder.path(), {"--webhook-hosts", listener.host()});
