@@ -118,8 +118,12 @@ TEST(Overload, WhatChangesModelsOrUploadsWaitsForTheDiskApart) {
     const bool writes = route.method != Method::kGet && route.method != Method::kOptions;
     const bool stores =
         route.path.starts_with("/api/v1/models") || route.path.starts_with("/api/v1/uploads");
-    if (writes && stores) EXPECT_EQ(route.place, Place::kDisk) << route.path;
-    if (route.path.ends_with("/stop")) EXPECT_EQ(route.place, Place::kWorker);
+    if (writes && stores) {
+      EXPECT_EQ(route.place, Place::kDisk) << route.path;
+    }
+    if (route.path.ends_with("/stop")) {
+      EXPECT_EQ(route.place, Place::kWorker);
+    }
   }
 }
 
