@@ -151,7 +151,9 @@ TEST_F(PublishedModelsTest, the_catalogue_is_asked_elsewhere_while_visitors_are_
   std::optional<PublishedChunk> found;
   while (tasks.empty()) {
     found = lazy.held_chunk(name_of("one"));
-    if (!found) ASSERT_TRUE(lazy.find_chunk(name_of("one")).value().model);
+    if (!found) {
+      ASSERT_TRUE(lazy.find_chunk(name_of("one")).value().model);
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   EXPECT_TRUE(found) << "who comes when it is due does not wait";
