@@ -38,8 +38,9 @@ std::uint64_t memory_of(const Manifest& manifest) {
                         manifest.chunks.size() * sizeof(ChunkInfo) +
                         manifest.levels.size() * sizeof(LevelInfo) +
                         manifest.tree.nodes.size() * sizeof(RegionNode);
-  for (const auto& leaves : manifest.adjacency)
-    bytes += sizeof leaves + leaves.size() * sizeof leaves.front();
+  using Leaves = decltype(manifest.adjacency)::value_type;
+  for (const Leaves& leaves : manifest.adjacency)
+    bytes += sizeof(Leaves) + leaves.size() * sizeof(Leaves::value_type);
   return bytes;
 }
 
