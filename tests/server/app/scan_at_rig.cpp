@@ -198,8 +198,9 @@ TEST_F(DaemonAtRig, the_walkthrough_in_the_readme_ends_with_a_public_model) {
   const std::string shown = text(script).substr(text(script).find("ask() {"));
   EXPECT_NE(text(VITRINE_SOURCE_DIR "/README.md").find("```\n" + shown + "```\n"),
             std::string::npos);
-  const ProgramResult walked = run_program(
-      {"env", "URL=http://127.0.0.1:" + text(path("port")), "T=" + token_, "SCANNER=rig", script});
+  const ProgramResult walked =
+      run_program({"env", fmt::format("URL=http://127.0.0.1:{}", std::stoi(text(path("port")))),
+                   "T=" + token_, "SCANNER=rig", script});
   ASSERT_EQ(walked.exit_code, 0) << walked.errors << walked.output;
   const json models = get("/models")["models"];  // what visitors see
   ASSERT_EQ(models.size(), 1u) << walked.output;
