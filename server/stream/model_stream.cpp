@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kMostLate = 0.05;  // of the seconds asked for
 constexpr double kNews = 0.2;       // a rate that differs by this share makes a promise obsolete
+constexpr double kCareful = 0.9;    // of the time that is left: the link may slow down a little
 constexpr Pacer::Duration kBetweenPromises{0.2};
 
 Want all_of(const Manifest& manifest) {
@@ -145,7 +146,9 @@ std::optional<PromiseMessage> ModelStream::news(const Share& share, Pacer::Time 
     const double rate = share.pacer.rate(now) / static_cast<double>(share.sharers);
     const double change = std::abs(rate / last->bytes_per_second - 1);
     const bool first_measured = !last->measured && share.pacer.is_measured();
-    if (!first_measured && (change < kNews || now - timed_->promised < kBetweenPromises)) return {};
+    const bool is_settled =
+        now - timed_->promised >= kBetweenPromises && !share.pacer.is_falling(now);
+    if (!first_measured && (change < kNews || !is_settled)) return {};
   }
   PromiseMessage promise = forecast(share, now);
   timed_->promised = now;
@@ -162,7 +165,7 @@ PromiseMessage ModelStream::forecast(const Share& share, Pacer::Time now) const 
   for (; chunk; chunk = then.next()) {
     const std::uint64_t with = bytes + left_of(*chunk);
     const bool goes_on = under_way_ && under_way_->chunk == *chunk;
-    if (!goes_on && share.seconds(with, rate) > left) break;
+    if (!goes_on && share.seconds(with, rate) > kCareful * left) break;
     then.have(*chunk);
     bytes = with;
   }

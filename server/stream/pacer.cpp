@@ -100,6 +100,19 @@ double Pacer::rate(Time now) const {
   return std::max(1.0, next > 0 ? std::min(seen, possible) : seen);
 }
 
+bool Pacer::is_falling(Time now) const {
+  constexpr double kMuch = 0.9;
+  if (!is_measured_) return false;
+  if (in_flight() > 0 && now - heard_ >= 2 * kSliceTime) return true;
+  const Sample& last = samples_.back();
+  const auto before = std::find_if(samples_.rbegin(), samples_.rend(), [&](const Sample& sample) {
+    return last.busy - sample.busy >= kLeastTime;
+  });
+  if (before == samples_.rend()) return false;
+  const auto arrived = static_cast<double>(last.arrived - before->arrived);
+  return arrived / (last.busy - before->busy).count() < kMuch * rate(now);
+}
+
 double Pacer::hope(Time now) const {
   constexpr Duration kSomething{0.05};
   if (is_measured_) {

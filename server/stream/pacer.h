@@ -32,6 +32,9 @@ class Pacer {
   // Bytes per second over the last kWindow in which something was on its way. Falls while nothing
   // arrives.
   double rate(Time now) const;
+  // A slice is late, or the newer part of that window brought much less than the whole: what rate()
+  // will fall to is not known yet.
+  bool is_falling(Time now) const;
 
   // What it may turn out to be: before it is measured, by what little has been seen, so that a
   // client is not left without anything because its connection is not known yet; while it is

@@ -92,6 +92,20 @@ TEST(Pacer, NoticesWithinASecondThatTheLinkHasBecomeSlow) {
   EXPECT_NEAR(pacer.rate(link.now) / link.rate, 1, 0.15);
 }
 
+TEST(Pacer, ARateThatFallsIsNotKnownYet) {
+  Link link;
+  link.rate = 800'000;
+  Pacer pacer;
+  link.run(pacer, 1);
+  EXPECT_FALSE(pacer.is_falling(link.now));
+  link.rate = 100'000;
+  link.run(pacer, 0.3);
+  EXPECT_TRUE(pacer.is_falling(link.now));
+  for (int i = 0; i < 100 && pacer.is_falling(link.now); ++i)
+    link.run(pacer, 0.01);
+  EXPECT_NEAR(pacer.rate(link.now) / link.rate, 1, 0.15);
+}
+
 TEST(Pacer, NoticesThatNothingArrivesAnyMore) {
   Link link;
   link.rate = 800'000;

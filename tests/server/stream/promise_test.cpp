@@ -78,12 +78,12 @@ class PromiseTest : public ::testing::Test {
   }
 
   // Those that were said from then on, once the connection was measured.
-  void expect_kept(double from) const {
+  void expect_kept(double from, double times = 1.05) const {
     std::size_t checked = 0;
     for (const auto& [at, promise] : said) {
       if (!promise.measured || at < from) continue;
       ++checked;
-      const double by = at + 1.05 * promise.seconds + 0.02;
+      const double by = at + times * promise.seconds + 0.02;
       EXPECT_GE(held(promise.model, by), promise.bytes)
           << "said at " << at << " of model " << promise.model << " for " << promise.seconds;
       const std::uint64_t chunks = promise.level;
@@ -150,6 +150,7 @@ TEST_F(PromiseTest, FollowsADropOfTheRateAndIsKeptFromThenOn) {
   run(7, [](double at) { return at < 1.5 ? 800'000.0 : 100'000.0; });
   EXPECT_LE(said.back().at, 2.5) << "a second after the drop";
   EXPECT_NEAR(said.back().promise.bytes_per_second, 100'000, 20'000);
+  expect_kept(1.5, 1.25);
   expect_kept(said.back().at);
 }
 
