@@ -4,9 +4,10 @@
 #include "acquisition/calibration/report.h"
 
 namespace vitrine {
-namespace {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 Json json_of(const ResidualSummary& r) {
   return {{"rms", r.rms}, {"p95", r.p95}, {"max", r.max}};

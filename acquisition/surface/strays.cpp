@@ -7,8 +7,8 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kSteps = 2;  // further on, so that one picture may be missing
-constexpr std::size_t kReach = 2;  // further on within a strand; on either side in the others
+constexpr std::size_t kStepsOn = 2;  // further on, so that one picture may be missing
+constexpr std::size_t kReach = 2;    // further on within a strand; on either side in the others
 constexpr int kNeighbours = 3;
 
 class Pieces {
@@ -41,7 +41,7 @@ class Neighbours {
 
   template <class Visit>
   void visit(Visit visit) const {
-    const std::size_t steps = std::min(kSteps, (cloud_.step_count() - 1) / 2);
+    const std::size_t steps = std::min(kStepsOn, (cloud_.step_count() - 1) / 2);
     for (std::size_t s = 0; s < cloud_.step_count(); ++s) {
       for (std::size_t k = cloud_.steps[s]; k < cloud_.steps[s + 1]; ++k) {
         within(k, visit);

@@ -22,6 +22,15 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
 endif()
 target_link_options(vitrine_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Werror=odr>)
 
+# Files of a target are compiled as one where the preset says so.
+function(vitrine_unity target)
+  if(VITRINE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    # The compiler takes files that a file includes for headers, coroutines of theirs, too.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 # vitrine_room(codec/core SOURCES a.cpp b.cpp USES codec/other Lib::target)
 function(vitrine_room folder)
   cmake_parse_arguments(room "" "" "SOURCES;USES;PRIVATE" ${ARGN})
@@ -30,11 +39,7 @@ function(vitrine_room folder)
     add_library(${target} STATIC ${room_SOURCES})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE vitrine_flags ${room_PRIVATE})
-    if(VITRINE_UNITY)
-      set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-      # The compiler takes files that a file includes for headers, coroutines of theirs, too.
-      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-    endif()
+    vitrine_unity(${target})
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -44,6 +49,9 @@ function(vitrine_room folder)
   if(room_SOURCES AND folder MATCHES "^codec/" AND CMAKE_BUILD_TYPE STREQUAL "Release")
     # The codec's hot loops cross files: a twentieth of a build's time.
     set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
+    if(VITRINE_TESTS)  # whose links would each optimise the codec anew
+      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-ffat-lto-objects>)
+    endif()
   endif()
   file(MAKE_DIRECTORY ${door}/${parent})
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${door}/${folder} SYMBOLIC)

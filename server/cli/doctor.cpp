@@ -57,7 +57,7 @@ Outcome examine(const Arguments& arguments) {
       fmt::format("{} of {} checks failed; do what their lines say", failures, findings.size()));
 }
 
-constexpr Flag kFlags[] = {
+constexpr Flag kDoctorFlags[] = {
     {"--url", "URL", "the address that visitors use"},
     {"--token", "T", "with --url: looks at the scanners, too; of the role viewer or more"},
     {"--data", "DIR", "a data folder on this machine"},
@@ -68,7 +68,7 @@ constexpr Flag kFlags[] = {
 const Command kDoctor = {"doctor",
                          "Looks for what keeps a server from serving well and says what to do.",
                          {},
-                         kFlags,
+                         kDoctorFlags,
                          examine};
 
 }  // namespace vitrine::cli

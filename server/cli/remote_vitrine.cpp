@@ -16,7 +16,7 @@ constexpr std::size_t kPiece = 16 << 20;  // bytes of one request: proxies have 
 constexpr int kTries = 6;                 // of one request, 31 seconds in all
 constexpr std::chrono::milliseconds kBetweenLooks{250};  // at a job
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
+std::span<const std::uint8_t> body_of(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -71,7 +71,7 @@ Expected<RemoteAnswer> RemoteVitrine::send(const std::string& method, const std:
   if (!field.empty()) request.fields.push_back(field);
   if (!text.empty()) {
     request.fields.emplace_back("Content-Type: application/json");
-    request.body = bytes_of(text);
+    request.body = body_of(text);
   }
   return server_->ask(request);
 }

@@ -77,7 +77,7 @@ Outcome unfinished(const Scan& scan, const ScanStatus& status) {
                             record && !*record ? "start it again" : "go on with --resume"));
 }
 
-Outcome check_usage(const Arguments& arguments) {
+Outcome check_scan_usage(const Arguments& arguments) {
   if (!arguments.has("--config")) return misused("--config is missing; name the scanner's file");
   for (const std::string_view flag : kRequestFlags) {
     if (arguments.has("--resume") && arguments.has(flag)) {
@@ -89,7 +89,7 @@ Outcome check_usage(const Arguments& arguments) {
 }
 
 Outcome run_scan(const Arguments& arguments) {
-  if (auto right = check_usage(arguments); !right) return right;
+  if (auto right = check_scan_usage(arguments); !right) return right;
   const std::string out = arguments.text("-o"), folder = out + ".scan";
   const auto format = scan_output(out);
   if (!format) return tl::unexpected(format.error());

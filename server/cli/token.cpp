@@ -84,7 +84,7 @@ Outcome change_tokens(const Arguments& arguments) {
 }
 
 constexpr std::string_view kOperands[] = {"create|revoke"};
-constexpr Flag kFlags[] = {
+constexpr Flag kTokenFlags[] = {
     {"--data", "DIR", "the daemon's data folder, or an empty one; it may be running"},
     {"--role", "R", "create: viewer, operator or admin"},
     {"--label", "L", "create: whose token it is, for people"},
@@ -97,6 +97,6 @@ constexpr Flag kFlags[] = {
 
 const Command kToken = {"token",
                         "Creates and revokes the tokens with which people call the server.",
-                        kOperands, kFlags, change_tokens};
+                        kOperands, kTokenFlags, change_tokens};
 
 }  // namespace vitrine::cli

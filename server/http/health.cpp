@@ -10,7 +10,7 @@
 namespace vitrine {
 namespace {
 
-Response text(std::string body) {
+Response plain_text(std::string body) {
   Response response;
   response.type = "text/plain; charset=utf-8";
   response.body = std::move(body);
@@ -55,7 +55,7 @@ void append_disk(std::string& text, const std::filesystem::path& data) {
 
 // Alive: this process answers. It stays so while it drains.
 Response show_livez(const Request&, Services&) {
-  return text("alive\n");
+  return plain_text("alive\n");
 }
 
 // Ready: visitors should be sent here. Not while starting or draining, nor without a catalogue.
@@ -65,7 +65,7 @@ Response show_readyz(const Request& request, Services& services) {
     services.errors.event(Severity::kError, revision.error().message);
     return problem(503, "", request.id);
   }
-  return text("ready\n");
+  return plain_text("ready\n");
 }
 
 Response show_metrics(const Request&, Services& services) {
@@ -76,7 +76,7 @@ Response show_metrics(const Request&, Services& services) {
   append_models(samples, services.models);
   append_jobs(samples, services.scans.jobs());
   append_disk(samples, services.settings.get()->data);
-  Response response = text(std::move(samples));
+  Response response = plain_text(std::move(samples));
   response.type = "text/plain; version=0.0.4; charset=utf-8";
   return response;
 }

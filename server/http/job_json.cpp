@@ -38,7 +38,7 @@ std::string_view state_of_scan(const JobRecord& job) {
   return job.stage.empty() ? std::string_view("waiting") : std::string_view(job.stage);
 }
 
-std::span<const std::uint8_t> bytes_of(std::string_view text) {
+std::span<const std::uint8_t> text_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -156,7 +156,7 @@ tl::expected<std::optional<OnceKey>, Response> once_key(const Request& request) 
   }
   const std::string caller = request.caller ? request.caller->token.to_string() : "";
   const std::string about = fmt::format("{}\n{}", request.path, request.body.dump());
-  return OnceKey{fmt::format("{} {}", caller, key), sha256(bytes_of(about))};
+  return OnceKey{fmt::format("{} {}", caller, key), sha256(text_bytes(about))};
 }
 
 tl::expected<PageOf, std::vector<ParameterFault>> read_page(const Query& query) {

@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr double kBuilt = 0.98;  // progress at the end of the child's work
+constexpr double kChildDone = 0.98;  // progress at the end of the child's work
 
 Expected<ModelOrder> order_of(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
@@ -83,7 +83,7 @@ Expected<Publication> PublishJobs::make(JobRun& run, const ModelOrder& order) {
   }
   auto pmesh = build(run, order, *file);
   if (!pmesh) return Unexpected(pmesh.error());
-  run.report("publishing", kBuilt);
+  run.report("publishing", kChildDone);
   // The model has the job's id, so that a job which is interrupted after this makes no second one.
   const PublishAs as{.state = order.publish ? ModelState::kPublished : ModelState::kDraft,
                      .id = order.replace.value_or(run.job().id),
@@ -109,7 +109,7 @@ Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
                        .folder = means_.data,
                        .program = means_.program};
   auto pmesh = child.build(
-      file, how, [&](std::string_view, double done) { run.report(stage, kBuilt * done); });
+      file, how, [&](std::string_view, double done) { run.report(stage, kChildDone * done); });
   return pmesh && is_built ? read_all(file) : std::move(pmesh);
 }
 

@@ -7,7 +7,7 @@
 
 #include "codec/progressive/birth_pass.h"
 #include "codec/progressive/cell.h"
-#include "property/seeds.h"
+#include "support/seeds.h"
 #include "support/random_mesh.h"
 #include "support/stored_model.h"
 

@@ -2,7 +2,7 @@
 // What is coded comes back, for random meshes.
 #include <gtest/gtest.h>
 
-#include "property/seeds.h"
+#include "support/seeds.h"
 #include "support/random_mesh.h"
 #include "support/stored_model.h"
 

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kWidth = 1300, kHeight = 1030;
+constexpr int kColumns = 1300, kRows = 1030;
 
 // Plane seen at 30 degrees, with a little of every cubic term.
 PlanePoint truth(double u, double v) {
@@ -33,7 +33,7 @@ std::vector<Correspondence> grid(double from_u, double to_u, double from_v, doub
 
 TEST(PlaneMap, RecoversTheCubicItWasMadeFrom) {
   for (int degree = 3; degree <= 5; ++degree) {
-    const auto map = PlaneMap::fit(grid(200, 1100, 0, 1029), degree, kWidth, kHeight);
+    const auto map = PlaneMap::fit(grid(200, 1100, 0, 1029), degree, kColumns, kRows);
     ASSERT_TRUE(map) << map.error().message;
     EXPECT_EQ(map->degree(), degree);
     for (const auto& [u, v] : {std::pair{321.25, 517.5}, {200.0, 0.0}, {1099.9, 1028.9}}) {
@@ -46,14 +46,14 @@ TEST(PlaneMap, RecoversTheCubicItWasMadeFrom) {
 }
 
 TEST(PlaneMap, IsFittedInNormalisedCoordinates) {
-  const auto map = PlaneMap::fit(grid(200, 1100, 0, 1029), 3, kWidth, kHeight);
+  const auto map = PlaneMap::fit(grid(200, 1100, 0, 1029), 3, kColumns, kRows);
   ASSERT_TRUE(map);
   EXPECT_GT(map->condition(), 1);
   EXPECT_LT(map->condition(), 12);  // raw pixels: above 1e8
 }
 
 TEST(PlaneMap, RefusesPointsOutsideTheHullOfWhatItSaw) {
-  const auto map = PlaneMap::fit(grid(200, 1100, 100, 900), 3, kWidth, kHeight);
+  const auto map = PlaneMap::fit(grid(200, 1100, 100, 900), 3, kColumns, kRows);
   ASSERT_TRUE(map);
   EXPECT_EQ(map->hull().size(), 8u);
   for (const auto& [u, v] : {std::pair{200.0, 100.0}, {1100.0, 900.0}, {600.0, 900.0}})
@@ -71,7 +71,7 @@ TEST(PlaneMap, RefusesPointsOutsideTheHullOfWhatItSaw) {
 TEST(PlaneMap, SaysWhyItCannotBeFitted) {
   const auto points = grid(200, 1100, 100, 900);
   const auto message = [&](std::span<const Correspondence> from, int degree) {
-    const auto map = PlaneMap::fit(from, degree, kWidth, kHeight);
+    const auto map = PlaneMap::fit(from, degree, kColumns, kRows);
     return map ? "fitted" : map.error().message;
   };
   EXPECT_THAT(message(points, 6), HasSubstr("choose 2 to 5"));

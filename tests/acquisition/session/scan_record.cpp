@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-ScanRecord example() {
+ScanRecord example_record() {
   ScanRecord record;
   record.request = {.steps = 360,
                     .exposure_us = 1234.5,
@@ -27,13 +27,13 @@ ScanRecord example() {
 }
 
 TEST(ScanRecord, what_is_written_is_read_again) {
-  const std::string text = to_json_text(example());
+  const std::string text = to_json_text(example_record());
   const auto record = scan_record_of(text, "scan.json");
   ASSERT_TRUE(record) << record.error().message;
   EXPECT_EQ(to_json_text(*record), text);
-  EXPECT_EQ(record->request.processing.stripe, example().request.processing.stripe);
+  EXPECT_EQ(record->request.processing.stripe, example_record().request.processing.stripe);
   EXPECT_EQ(record->request.processing.surface.largest_hole, 0.1);
-  EXPECT_EQ(record->settings, example().settings);
+  EXPECT_EQ(record->settings, example_record().settings);
   EXPECT_EQ(record->calibration, 17);
   EXPECT_EQ(record->calibration_digest, "0123abcd");
 }

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-json example() {
+json example_config() {
   return json::parse(R"({
     "name": "rig", "camera": {"address": "127.0.0.1"},
     "board": {"dialect": "fabscan", "vendor": "0x2341", "product": "0x0043", "port": "1-2"},
@@ -24,7 +24,7 @@ json example() {
 }
 
 TEST(ScannerConfig, everything_is_read) {
-  const auto config = parse_scanner_config(example().dump(), "/etc/scanner/rig.json");
+  const auto config = parse_scanner_config(example_config().dump(), "/etc/scanner/rig.json");
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->name, "rig");
   EXPECT_EQ(config->camera.address, "127.0.0.1");
@@ -40,7 +40,7 @@ TEST(ScannerConfig, everything_is_read) {
 }
 
 TEST(ScannerConfig, absolute_paths_stay_and_a_real_scanner_has_no_rig) {
-  json object = example();
+  json object = example_config();
   object.erase("rig");
   object["calibrations"] = "/var/calibrations";
   const auto config = parse_scanner_config(object.dump(), "rig.json");
@@ -51,7 +51,7 @@ TEST(ScannerConfig, absolute_paths_stay_and_a_real_scanner_has_no_rig) {
 
 TEST(ScannerConfig, a_fault_names_file_and_key_and_what_is_expected) {
   const auto fault = [](const char* pointer, const json& value) {
-    json object = example();
+    json object = example_config();
     object[json::json_pointer(pointer)] = value;
     const auto config = parse_scanner_config(object.dump(), "rig.json");
     if (config) return std::string("accepted");

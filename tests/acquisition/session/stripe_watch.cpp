@@ -6,7 +6,7 @@
 namespace vitrine::test {
 namespace {
 
-constexpr int kSteps = 80;  // of a turn, of which ten are judged together
+constexpr int kTurn = 80;  // steps, of which ten are judged together
 
 class Watched {
  public:
@@ -21,7 +21,7 @@ class Watched {
   }
 
  private:
-  StripeWatch watch_{kSteps, 0};
+  StripeWatch watch_{kTurn, 0};
   int done_ = 0;
 };
 

@@ -50,7 +50,7 @@ std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& source) {
   return mesh;
 }
 
-std::unique_ptr<draco::Mesh> decode(std::span<const std::uint8_t> bytes) {
+std::unique_ptr<draco::Mesh> decoded_mesh(std::span<const std::uint8_t> bytes) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Decoder decoder;
@@ -73,11 +73,11 @@ Bytes draco_encode(const TriangleMesh& source, int bits) {
 }
 
 std::uint32_t draco_decode(std::span<const std::uint8_t> bytes) {
-  return decode(bytes)->num_faces();
+  return decoded_mesh(bytes)->num_faces();
 }
 
 TriangleMesh draco_mesh(std::span<const std::uint8_t> bytes) {
-  const auto mesh = decode(bytes);
+  const auto mesh = decoded_mesh(bytes);
   const auto& positions = *mesh->GetNamedAttribute(draco::GeometryAttribute::POSITION);
   TriangleMesh out;
   for (draco::PointIndex p(0); p < mesh->num_points(); ++p) {

@@ -13,20 +13,20 @@ namespace vitrine::bench {
 namespace {
 
 template <class T>
-T value_of(Expected<T> result) {
+T checked(Expected<T> result) {
   if (!result) throw std::runtime_error(result.error().message);
   return std::move(*result);
 }
 
 void apply(Refiner& refiner, std::size_t chunk, const ChunkReader& read) {
-  const auto applied = refiner.apply(chunk, value_of(read(chunk)));
+  const auto applied = refiner.apply(chunk, checked(read(chunk)));
   if (!applied) throw std::runtime_error(applied.error().message);
 }
 
 }  // namespace
 
 TriangleMesh read_clean(std::span<const std::uint8_t> file) {
-  return value_of(repair(value_of(read_mesh(file)))).mesh;
+  return checked(repair(checked(read_mesh(file)))).mesh;
 }
 
 Bytes build(std::span<const std::uint8_t> file, int bits, Placement placement,
@@ -35,18 +35,18 @@ Bytes build(std::span<const std::uint8_t> file, int bits, Placement placement,
   options.bits = bits;
   options.placement = placement;
   options.order = order;
-  return value_of(build_model(file, options, {})).file;
+  return checked(build_model(file, options, {})).file;
 }
 
 Bytes build_in_one_region(std::span<const std::uint8_t> file, int bits) {
   BuildOptions options;
   options.bits = bits;
   options.region_vertices = 0;
-  return value_of(build_model(file, options, {})).file;
+  return checked(build_model(file, options, {})).file;
 }
 
 std::uint32_t decode(std::span<const std::uint8_t> pmesh) {
-  Refiner refiner = value_of(open_model(pmesh));
+  Refiner refiner = checked(open_model(pmesh));
   const ChunkReader read = chunks_of(refiner.manifest(), pmesh);
   for (std::size_t i = 0; i < refiner.manifest().chunks.size(); ++i)
     apply(refiner, i, read);
@@ -54,7 +54,7 @@ std::uint32_t decode(std::span<const std::uint8_t> pmesh) {
 }
 
 std::vector<Level> decode_levels(std::span<const std::uint8_t> pmesh) {
-  Refiner refiner = value_of(open_model(pmesh));
+  Refiner refiner = checked(open_model(pmesh));
   const Manifest& manifest = refiner.manifest();
   const ChunkReader read = chunks_of(manifest, pmesh);
   std::vector<Level> levels;

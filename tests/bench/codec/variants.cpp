@@ -11,7 +11,7 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kFewest = 0.01, kMost = 0.5;  // of the default's faces
+constexpr double kSmallest = 0.01, kLargest = 0.5;  // of the default's faces
 constexpr int kSteps = 8;
 
 struct Variant {
@@ -32,9 +32,9 @@ LevelErrors measure_levels(const Model& model, Placement placement, CollapseOrde
 // Geometric mean of the ratio of errors, evenly over the logarithm of faces or bytes, from where
 // both have a level on.
 double mean_ratio(const std::vector<LevelError>& levels, const std::vector<LevelError>& standard) {
-  const double finest = standard.back().x * kMost;
+  const double finest = standard.back().x * kLargest;
   const double coarsest =
-      std::max({standard.back().x * kFewest, standard.front().x, levels.front().x});
+      std::max({standard.back().x * kSmallest, standard.front().x, levels.front().x});
   double log_sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const double x = coarsest * std::pow(finest / coarsest, i / (kSteps - 1.0));

@@ -18,7 +18,7 @@ namespace vitrine::bench {
 namespace {
 
 constexpr double kExtraction = 3, kSurface = 5;  // ms, s
-constexpr double kNoise = 0.03;                  // mm
+constexpr double kStripeNoise = 0.03;            // mm
 // A scan works on one pair of pictures while the camera takes the next, and ends with its mesh.
 constexpr double kOverCamera = 1.25;
 
@@ -41,11 +41,11 @@ void extraction(Report& report, const Object& object) {
 
 void surface(Report& report, const Object& object) {
   auto profiles = cast_profiles(value_of(rig::load({.file = object.file})), 720, 0.08);
-  add_noise(profiles, kNoise);
+  add_noise(profiles, kStripeNoise);
   std::size_t points = 0;
   for (const Profile& profile : profiles)
     points += profile.points.size();
-  const SurfaceOptions options{.noise = kNoise, .sampling = {.noise = kNoise}};
+  const SurfaceOptions options{.noise = kStripeNoise, .sampling = {.noise = kStripeNoise}};
   const double time = seconds([&] { value_of(surface_of(profiles, options)); });
   judge(report, "speed.surface", "seconds_for_700k_points",
         time * 700'000 / static_cast<double>(points), kSurface);

@@ -14,7 +14,7 @@ using vitrine::testing::kNotFinite;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 
-const std::vector<Vec3> kCorners{{0, 0, 0}, {1.5, 0, 0}, {0, -2.25, 0}};
+const std::vector<Vec3> kPlyCorners{{0, 0, 0}, {1.5, 0, 0}, {0, -2.25, 0}};
 
 std::string header(std::string_view format, std::string_view rest) {
   return "ply\nformat " + std::string(format) + " 1.0\n" + std::string(rest) + "end_header\n";
@@ -26,7 +26,7 @@ const std::string kPlain =
 
 TEST(ReadPly, Ascii) {
   const auto result = read_text(header("ascii", kPlain) + "0 0 0\n1.5 0 0\n0 -2.25 0\n3 0 1 2\n");
-  EXPECT_EQ(result.mesh.positions, kCorners);
+  EXPECT_EQ(result.mesh.positions, kPlyCorners);
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
 }
 
@@ -36,7 +36,7 @@ TEST(ReadPly, BothBinaryByteOrders) {
         read_text(header(big ? "binary_big_endian" : "binary_little_endian", kPlain) +
                   bytes_of<float>({0, 0, 0, 1.5, 0, 0, 0, -2.25, 0}, big) + "\x03" +
                   bytes_of<std::int32_t>({0, 1, 2}, big));
-    EXPECT_EQ(result.mesh.positions, kCorners);
+    EXPECT_EQ(result.mesh.positions, kPlyCorners);
     EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
   }
 }
@@ -71,7 +71,7 @@ TEST(ReadPly, WindowsLineEndings) {
   std::string text = header("ascii", kPlain) + "0 0 0\n1.5 0 0\n0 -2.25 0\n3 0 1 2\n";
   for (std::size_t i = 0; (i = text.find('\n', i)) != text.npos; i += 2)
     text.insert(i, "\r");
-  EXPECT_EQ(read_text(text).mesh.positions, kCorners);
+  EXPECT_EQ(read_text(text).mesh.positions, kPlyCorners);
 }
 
 TEST(ReadPly, StepsOverUnknownElementsAndPropertiesAndListsAnywhere) {
@@ -91,7 +91,7 @@ TEST(ReadPly, StepsOverUnknownElementsAndPropertiesAndListsAnywhere) {
       "\x02"
       "ab";
   const auto result = read_text(text);
-  EXPECT_EQ(result.mesh.positions, kCorners);
+  EXPECT_EQ(result.mesh.positions, kPlyCorners);
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}));
 }
 

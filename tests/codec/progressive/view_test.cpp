@@ -21,7 +21,7 @@ using test::StoredModel;
 using Chunks = std::vector<std::size_t>;
 
 // A torus of many regions. Each level has half the error of the one before.
-const StoredModel& torus_model() {
+const StoredModel& torus_of_regions() {
   static const StoredModel model = [] {
     const TriangleMesh torus = test::torus(300, 150);
     StoredModel made = test::store_model(quantise(torus, fit_lattice(torus.positions, 12)),
@@ -77,14 +77,14 @@ std::uint64_t bytes_of(const Manifest& manifest, const Chunks& chunks) {
 }
 
 TEST(View, ACloseUpWhereErrorsHalveByLevelNeedsAThirdOfTheBytes) {
-  const Manifest& m = torus_model().manifest;
+  const Manifest& m = torus_of_regions().manifest;
   const Chunks chunks = plan(m, along_x(m, 1, frame_of(m).size.x / 16));
   EXPECT_GT(chunks.size(), m.levels.size());
   EXPECT_LT(bytes_of(m, chunks), m.file_bytes / 3);
 }
 
 TEST(View, OppositeCamerasGetDifferentBytesInAnotherOrder) {
-  const Manifest& m = torus_model().manifest;
+  const Manifest& m = torus_of_regions().manifest;
   Chunks here = plan(m, along_x(m, 1, frame_of(m).size.x / 16));
   Chunks there = plan(m, along_x(m, -1, frame_of(m).size.x / 16));
   EXPECT_NE(here, there);
@@ -96,7 +96,7 @@ TEST(View, OppositeCamerasGetDifferentBytesInAnotherOrder) {
 }
 
 TEST(View, EveryChunkCanBeAppliedWhenItsTurnComes) {
-  const StoredModel& model = torus_model();
+  const StoredModel& model = torus_of_regions();
   for (const double sense : {1.0, -1.0}) {
     Refiner refiner = test::start_refiner(model);
     for (const std::size_t chunk :
@@ -111,7 +111,7 @@ TEST(View, EveryChunkCanBeAppliedWhenItsTurnComes) {
 }
 
 TEST(View, NoErrorInSightIsAboveOnePixel) {
-  const StoredModel& model = torus_model();
+  const StoredModel& model = torus_of_regions();
   const Manifest& m = model.manifest;
   for (const double distance : {0.1, 1.0, 10.0}) {
     const View view = along_x(m, 1, distance * frame_of(m).size.x);
@@ -166,7 +166,7 @@ TEST(View, ABoxIsAsNearAsWhatIsInSightOfIt) {
   for (int i = 0; i < 300; ++i) {
     const Vec3i low{number(60), number(60), number(60)};
     const LatticeBox box{low, low + Vec3i{1 + number(60), 1 + number(60), 1 + number(60)}};
-    View view = along_x(torus_model().manifest, 1, 1);
+    View view = along_x(torus_of_regions().manifest, 1, 1);
     view.camera[12] = -number(60), view.camera[13] = number(90), view.camera[14] = number(90);
     view.field_of_view = 20 + number(100);
     const double pixels = pixels_of(kSmall, box, {}, view), sampled = least_depth(box, view);
@@ -183,12 +183,12 @@ TEST(View, ABoxIsAsNearAsWhatIsInSightOfIt) {
 }
 
 TEST(View, FromAfarTheBaseIsEnough) {
-  const Manifest& m = torus_model().manifest;
+  const Manifest& m = torus_of_regions().manifest;
   EXPECT_EQ(plan(m, along_x(m, 1, 1e6 * frame_of(m).size.x)), Chunks{});
 }
 
 TEST(View, WhatIsBehindTheCameraIsNotSent) {
-  const Manifest& m = torus_model().manifest;
+  const Manifest& m = torus_of_regions().manifest;
   View view = along_x(m, 1, frame_of(m).size.x);
   for (const std::size_t k : {0, 1, 2, 8, 9, 10})
     view.camera[k] = -view.camera[k];
@@ -196,7 +196,7 @@ TEST(View, WhatIsBehindTheCameraIsNotSent) {
 }
 
 TEST(View, ABudgetIsNeverExceeded) {
-  const Manifest& m = torus_model().manifest;
+  const Manifest& m = torus_of_regions().manifest;
   View view = along_x(m, 1, frame_of(m).size.x / 16);
   const std::uint64_t all = bytes_of(m, plan(m, view)), layers = all - m.head_bytes();
   for (const std::uint64_t budget : {all - layers / 2, all - layers / 4, all - 1}) {
@@ -250,7 +250,7 @@ TEST(View, AHostileHeaderIsPlannedInBoundedSteps) {
 }
 
 TEST(View, ImpossibleCamerasAreTold) {
-  const View good = along_x(torus_model().manifest, 1, 1);
+  const View good = along_x(torus_of_regions().manifest, 1, 1);
   EXPECT_TRUE(is_sane(good));
   const auto bad = [&](auto change) {
     View view = good;

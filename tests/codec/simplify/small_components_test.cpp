@@ -12,7 +12,7 @@
 namespace vitrine::test {
 namespace {
 
-LatticeMesh on_lattice(const TriangleMesh& mesh) {
+LatticeMesh on_12_bits(const TriangleMesh& mesh) {
   return quantise(mesh, fit_lattice(mesh.positions, 12));
 }
 
@@ -32,7 +32,7 @@ std::int32_t width(const std::vector<Vec3i>& positions) {
 }
 
 TEST(SmallComponents, TenThousandSpecksDoNotGrowTheBase) {
-  LatticeMesh scan = on_lattice(shipped_model("demosthenes.obj"));
+  LatticeMesh scan = on_12_bits(shipped_model("demosthenes.obj"));
   const std::size_t without = scan.positions.size();
   add_specks(scan, 10'000, 1);
   for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
@@ -62,7 +62,7 @@ TEST(SmallComponents, OfAModelOfSpecksAloneTheLargestAreTheBase) {
 
 // Seven vertices, each next to each: no torus has fewer, and none has more faces per vertex.
 TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
-  LatticeMesh mesh = on_lattice(sheet(30, 30));
+  LatticeMesh mesh = on_12_bits(sheet(30, 30));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (std::int32_t k = 0; k < 7; ++k)
     mesh.positions.push_back({100 + k, 5 * k % 7, 3 * k % 7});
@@ -76,7 +76,7 @@ TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
 }
 
 TEST(SmallComponents, WhatIsAsLargeAsTheModelStays) {
-  LatticeMesh mesh = on_lattice(torus(40, 24));
+  LatticeMesh mesh = on_12_bits(torus(40, 24));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const auto faces = mesh.faces;
   for (std::uint32_t v = 0; v < first; ++v)

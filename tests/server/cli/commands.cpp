@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <set>
-
 #include "vitrine_command.h"
 
 namespace vitrine::test {
@@ -89,31 +87,6 @@ TEST_F(VitrineCommand, verify_proves_lossless_only_against_the_input) {
   EXPECT_EQ(report["ok"], true);
   EXPECT_EQ(report["lossless"], true);
   EXPECT_EQ(report["faces"], 2'888);
-}
-
-TEST_F(VitrineCommand, open_and_coloured_models_are_lossless_with_both_placements_and_orders) {
-  const std::string in = write("in.ply", bumpy_ply(2'500, true, true));
-  std::set<std::string> files;
-  for (const std::string placement : {"midpoint", "pyramid"}) {
-    for (const std::string order : {"batch", "heap"}) {
-      for (const std::string bits : {"10", "16"}) {
-        vitrine_json({"build", in, "-o", path("out.pmesh"), "--placement", placement, "--order",
-                      order, "--bits", bits});
-        EXPECT_EQ(vitrine_json({"verify", path("out.pmesh"), "--against", in})["lossless"], true)
-            << placement << ' ' << order << ' ' << bits;
-        files.insert(read("out.pmesh"));
-      }
-    }
-  }
-  EXPECT_EQ(files.size(), 8u) << "an option had no effect";
-}
-
-TEST_F(VitrineCommand, a_model_with_regions_is_verified_in_several_orders) {
-  const std::string file = model(130'000);
-  const json report = vitrine_json({"verify", file, "--against", path("model.ply")});
-  EXPECT_EQ(report["lossless"], true);
-  EXPECT_GT(vitrine_json({"info", file})["regions"], 1);
-  EXPECT_GT(report["orders"], 1);
 }
 
 TEST_F(VitrineCommand, verify_tells_a_moved_vertex_and_lost_colours_from_the_input) {

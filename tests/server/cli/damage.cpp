@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Damaged .pmesh files end in one line, whatever is damaged.
 #include "codec/progressive/manifest.h"
+#include "support/seeds.h"
 #include "vitrine_command.h"
 
 namespace vitrine::test {
@@ -40,7 +41,7 @@ TEST_F(VitrineCommand, every_way_to_cut_the_head_is_an_error) {
   model(600);
   const std::string bytes = read("model.pmesh");
   const std::size_t head = parse_header(to_bytes(bytes))->head_bytes();
-  for (std::size_t length = 1; length < head; length += head / 23) {
+  for (std::size_t length = 1; length < head; length += head / seeds(23)) {
     expect_fault(vitrine({"verify", write("cut.pmesh", bytes.substr(0, length))}), 1);
   }
 }
@@ -51,7 +52,7 @@ TEST_F(VitrineCommand, a_hostile_base_mesh_is_an_error_or_a_mesh_but_never_a_cra
   const std::string bytes = read("model.pmesh");
   Manifest manifest = parse_header(to_bytes(bytes)).value();
   const std::uint64_t offset = manifest.base_offset, length = manifest.base_length;
-  for (std::uint64_t at = 0; at < length; at += length / 31 + 1) {
+  for (std::uint64_t at = 0; at < length; at += length / seeds(31) + 1) {
     std::string rest = bytes.substr(offset);
     rest[at] = flipped(rest[at], 0x55);
     manifest.base_sha256 = sha256(to_bytes(rest.substr(0, length)));
@@ -65,7 +66,7 @@ TEST_F(VitrineCommand, a_hostile_base_mesh_is_an_error_or_a_mesh_but_never_a_cra
 TEST_F(VitrineCommand, a_hostile_drc_is_an_error_or_a_mesh_but_never_a_crash) {
   vitrine_json({"decode", model(600), "-o", path("good.drc")});
   const std::string bytes = read("good.drc");
-  for (std::size_t at = 0; at < bytes.size(); at += bytes.size() / 31 + 1) {
+  for (std::size_t at = 0; at < bytes.size(); at += bytes.size() / seeds(31) + 1) {
     std::string damaged = bytes;
     damaged[at] = flipped(damaged[at], 0x55);
     const ProgramResult result =

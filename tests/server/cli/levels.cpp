@@ -22,17 +22,5 @@ TEST(BoundText, leaves_a_short_number_as_it_is) {
   EXPECT_EQ(cli::bound_text(0.10186), "0.10186");
 }
 
-TEST_F(VitrineCommand, the_error_that_a_refusal_names_is_accepted) {
-  static const std::regex kNamed("an error of ([^;]+);");
-  for (const int faces : {500, 700, 1'100, 1'500}) {
-    const std::string file = model(faces);
-    const ProgramResult refused = vitrine({"decode", file, "-o", path("out.ply"), "--error", "0"});
-    std::smatch named;
-    ASSERT_TRUE(std::regex_search(refused.errors, named, kNamed)) << refused.errors;
-    vitrine_json({"decode", file, "-o", path("out.ply"), "--error", named[1]});
-    EXPECT_NE(vitrine({"info", file}).output.find(" " + named[1].str() + " "), std::string::npos);
-  }
-}
-
 }  // namespace
 }  // namespace vitrine::test

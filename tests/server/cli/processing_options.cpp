@@ -6,12 +6,12 @@
 namespace vitrine::cli {
 namespace {
 
-constexpr Flag kFlags[] = {kStripeFlag, kSamplingFlag, kLengthFlag, kLargestAngleFlag,
-                           kLargestHoleFlag};
+constexpr Flag kProcessingFlags[] = {kStripeFlag, kSamplingFlag, kLengthFlag, kLargestAngleFlag,
+                                     kLargestHoleFlag};
 using Words = std::vector<std::string_view>;
 
 tl::expected<Processing, Fault> options(const Words& words, const Processing& otherwise = {}) {
-  return processing_options(*Arguments::parse(words, kFlags, {}), otherwise);
+  return processing_options(*Arguments::parse(words, kProcessingFlags, {}), otherwise);
 }
 
 TEST(ProcessingOptions, each_method_has_its_name) {

@@ -25,7 +25,7 @@ Response tell_caller(const Request& request, Services&) {
   return response;
 }
 
-constexpr Route kRoutes[] = {
+constexpr Route kGuardedRoutes[] = {
     {Method::kGet, "/none", tell_caller, Place::kWorker},
     {Method::kGet, "/viewer", tell_caller, Place::kWorker, Role::kViewer},
     {Method::kGet, "/operator", tell_caller, Place::kInline, Role::kOperator},
@@ -38,7 +38,7 @@ class AuthoriseTest : public ::testing::Test {
   HttpAnswer get(const std::string& path, const std::string& fields = "") const {
     return test::http_get(server_.port(), path, fields);
   }
-  LocalServer server_{kRoutes};
+  LocalServer server_{kGuardedRoutes};
 };
 
 TEST_F(AuthoriseTest, EachRoleMayWhatItIsMeantToAndNoMore) {

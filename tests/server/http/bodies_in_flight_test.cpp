@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kSize = BodiesInFlight::kSmall;
 
-Body text(std::uint64_t size = kSize) {
+Body some_text(std::uint64_t size = kSize) {
   return std::string(size, 'a');
 }
 
@@ -21,13 +21,13 @@ Body shared(std::uint64_t size = kSize) {
 
 TEST(BodiesInFlight, AdmitsUntilTheyAreFullAndAgainOnceOneHasGone) {
   const auto bodies = std::make_shared<BodiesInFlight>(2 * kSize);
-  auto first = bodies->admit(text());
+  auto first = bodies->admit(some_text());
   const auto second = bodies->admit(shared());
   EXPECT_TRUE(first && second);
-  EXPECT_FALSE(bodies->admit(text()));
+  EXPECT_FALSE(bodies->admit(some_text()));
   EXPECT_FALSE(bodies->admit(shared()));
   first.reset();
-  EXPECT_TRUE(bodies->admit(text()));
+  EXPECT_TRUE(bodies->admit(some_text()));
 }
 
 TEST(BodiesInFlight, SharedMemoryCountsOnceWhateverOfItIsSent) {
@@ -37,15 +37,15 @@ TEST(BodiesInFlight, SharedMemoryCountsOnceWhateverOfItIsSent) {
   const auto part = bodies->admit(body_range(whole, kSize, kSize));
   EXPECT_TRUE(first && part);
   first.reset();
-  EXPECT_FALSE(bodies->admit(text())) << "a part of it is still being sent";
+  EXPECT_FALSE(bodies->admit(some_text())) << "a part of it is still being sent";
 }
 
 TEST(BodiesInFlight, WhatIsSmallOrStaticIsAlwaysAdmitted) {
   static const std::vector<std::uint8_t> bytes(kSize);
   const auto bodies = std::make_shared<BodiesInFlight>(1);
-  const auto full = bodies->admit(text());
-  EXPECT_FALSE(bodies->admit(text()));
-  EXPECT_TRUE(bodies->admit(text(kSize - 1)));
+  const auto full = bodies->admit(some_text());
+  EXPECT_FALSE(bodies->admit(some_text()));
+  EXPECT_TRUE(bodies->admit(some_text(kSize - 1)));
   EXPECT_TRUE(bodies->admit(SharedBytes{nullptr, bytes}));
   EXPECT_TRUE(bodies->admit(StoredBytes{nullptr, 0, 10 * kSize}));
 }

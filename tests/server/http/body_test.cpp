@@ -24,7 +24,7 @@ Response upgrade(const Request&, Services&) {
   return {.status = 101};
 }
 
-constexpr Route kRoutes[] = {
+constexpr Route kBodyRoutes[] = {
     {Method::kPost, "/echo", echo, Place::kWorker},
     {Method::kPost, "/private", echo, Place::kWorker, Role::kOperator},
     {Method::kGet, "/read", echo, Place::kInline},
@@ -47,7 +47,7 @@ std::string chunked(const std::string& chunks) {
 
 class BodyTest : public ::testing::Test {
  protected:
-  LocalServer server_{kRoutes};
+  LocalServer server_{kBodyRoutes};
 };
 
 TEST_F(BodyTest, ReachesTheHandlerHoweverItIsFramed) {
@@ -121,7 +121,7 @@ TEST_F(BodyTest, IsAskedForWhereTheClientWaitsForThat) {
 }
 
 TEST(SlowBody, OneThatDoesNotComeInTimeIsAnswered) {
-  const LocalServer server(kRoutes, std::chrono::seconds(1));
+  const LocalServer server(kBodyRoutes, std::chrono::seconds(1));
   HttpClient client(server.port());
   client.send(message("POST /echo", kJson + "Content-Length: 10\r\n", "{\"ha"));
   EXPECT_EQ(client.receive().status, 408);

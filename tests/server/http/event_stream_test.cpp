@@ -66,7 +66,7 @@ class EventStream : public ::testing::Test {
   }
 };
 
-constexpr Route kRoutes[] = {
+constexpr Route kEventRoutes[] = {
     {Method::kGet, "/countdown", events<Countdown>, Place::kWorker},
     {Method::kGet, "/silence", events<Silence>, Place::kWorker},
     {Method::kGet, "/flood", events<Flood>, Place::kWorker},
@@ -77,7 +77,7 @@ std::string get(const std::string& path, const std::string& method = "GET") {
 }
 
 TEST_F(EventStream, SendsWhatTheSourceGivesAndEndsWithIt) {
-  const LocalServer server(kRoutes);
+  const LocalServer server(kEventRoutes);
   HttpClient client(server.port());
   client.send(get("/countdown"));
   const HttpAnswer head = client.receive();
@@ -93,7 +93,7 @@ TEST_F(EventStream, SendsWhatTheSourceGivesAndEndsWithIt) {
 }
 
 TEST_F(EventStream, HeadTellsTheFieldsAlone) {
-  const LocalServer server(kRoutes);
+  const LocalServer server(kEventRoutes);
   HttpClient client(server.port());
   client.send(get("/silence", "HEAD"));
   EXPECT_EQ(client.receive().field("content-type"), "text/event-stream");
@@ -102,7 +102,7 @@ TEST_F(EventStream, HeadTellsTheFieldsAlone) {
 }
 
 TEST_F(EventStream, APeerThatHasLeftIsNoticedThoughThereIsNothingToSend) {
-  const LocalServer server(kRoutes);
+  const LocalServer server(kEventRoutes);
   {
     HttpClient client(server.port());
     client.send(get("/silence"));
@@ -112,14 +112,14 @@ TEST_F(EventStream, APeerThatHasLeftIsNoticedThoughThereIsNothingToSend) {
 }
 
 TEST_F(EventStream, APeerThatTakesNothingIsCut) {
-  const LocalServer server(kRoutes, std::chrono::seconds(1));
+  const LocalServer server(kEventRoutes, std::chrono::seconds(1));
   HttpClient client(server.port());
   client.send(get("/flood"));
   EXPECT_TRUE(released.try_acquire_for(std::chrono::seconds(20)));
 }
 
 TEST_F(EventStream, ManyShareOneThreadWithOthers) {
-  const LocalServer server(kRoutes);
+  const LocalServer server(kEventRoutes);
   HttpClient first(server.port()), second(server.port());
   for (HttpClient* client : {&first, &second}) {
     client->send(get("/silence"));
@@ -129,7 +129,7 @@ TEST_F(EventStream, ManyShareOneThreadWithOthers) {
 }
 
 TEST_F(EventStream, ADaemonThatStopsEndsIt) {
-  LocalServer server(kRoutes);
+  LocalServer server(kEventRoutes);
   HttpClient client(server.port());
   client.send(get("/silence"));
   EXPECT_EQ(client.receive().status, 200);

@@ -24,7 +24,7 @@ bool accepts(const Case& test) {
   return !error && framing_fault(parser.get()).empty();
 }
 
-const Case kCases[] = {
+const Case kFramings[] = {
     {"PlainRequest", "Host: a\r\n", true},
     {"ContentLength", "Host: a\r\nContent-Length: 0\r\n", true},
     {"Chunked", "Host: a\r\nTransfer-Encoding: chunked\r\n", true},
@@ -59,7 +59,7 @@ TEST_P(FramingTest, IsAcceptedOnlyWhereTheEndOfTheRequestIsUnambiguous) {
   EXPECT_EQ(accepts(GetParam()), GetParam().accepted);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, FramingTest, ::testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Table, FramingTest, ::testing::ValuesIn(kFramings),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

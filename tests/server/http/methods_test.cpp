@@ -25,7 +25,7 @@ Response change(const Request&, Services&) {
   return say("changed");
 }
 
-constexpr Route kRoutes[] = {
+constexpr Route kMethodRoutes[] = {
     {Method::kGet, "/public", read, Place::kInline},
     {Method::kPost, "/public", change, Place::kWorker, Role::kOperator},
     {Method::kGet, "/private", read, Place::kWorker, Role::kViewer},
@@ -39,7 +39,7 @@ class MethodsTest : public ::testing::Test {
                   const std::string& fields = "") const {
     return test::http_get(server_.port(), path, fields, method);
   }
-  LocalServer server_{kRoutes};
+  LocalServer server_{kMethodRoutes};
   const std::string operator_ = server_.bearer(Role::kOperator);
 };
 

@@ -17,7 +17,7 @@
 namespace vitrine::test {
 namespace {
 
-constexpr Route kRoutes[] = {{Method::kGet, "/openapi.json", show_openapi, Place::kInline}};
+constexpr Route kOpenapiRoutes[] = {{Method::kGet, "/openapi.json", show_openapi, Place::kInline}};
 
 // OPTIONS is answered everywhere, and nobody is told of it.
 bool is_of_the_interface(const Route& route) {
@@ -26,7 +26,7 @@ bool is_of_the_interface(const Route& route) {
 
 class OpenapiTest : public ::testing::Test {
  protected:
-  LocalServer server{kRoutes};
+  LocalServer server{kOpenapiRoutes};
   const nlohmann::json document =
       nlohmann::json::parse(http_get(server.port(), "/openapi.json").body);
 };

@@ -57,7 +57,7 @@ Response shared_bytes(const Request&, Services&) {
   return response;
 }
 
-constexpr Route kRoutes[] = {
+constexpr Route kCrowdedRoutes[] = {
     {Method::kGet, "/text", large_text, Place::kInline},
     {Method::kGet, "/shared", shared_bytes, Place::kInline},
     {Method::kGet, "/slow", wait_for_the_test, Place::kExport},
@@ -71,7 +71,7 @@ constexpr Route kRoutes[] = {
 };
 
 TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
-  const test::LocalServer server(kRoutes);  // one seat for exports
+  const test::LocalServer server(kCrowdedRoutes);  // one seat for exports
   test::HttpClient first(server.port());
   first.send("GET /slow HTTP/1.1\r\nHost: a\r\n\r\n");
   entered.acquire();
@@ -86,7 +86,7 @@ TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
 }
 
 TEST(Overload, ACallThatWaitsHoldsUpNoOtherConnection) {
-  const test::LocalServer server(kRoutes);  // one thread for connections
+  const test::LocalServer server(kCrowdedRoutes);  // one thread for connections
   for (const std::string path : {"/work", "/device"}) {
     test::HttpClient waiting(server.port());
     waiting.send("POST " + path + " HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
@@ -98,7 +98,7 @@ TEST(Overload, ACallThatWaitsHoldsUpNoOtherConnection) {
 }
 
 TEST(Overload, CallsThatWaitForDevicesOrTheDiskLeaveTheWorkersToOthers) {
-  const test::LocalServer server(kRoutes);
+  const test::LocalServer server(kCrowdedRoutes);
   for (const std::string path : {"/device", "/disk", "/pour"}) {
     std::vector<std::unique_ptr<test::HttpClient>> waiting;
     for (int i = 0; i < 4; ++i) {  // as many as there are threads for them
@@ -128,7 +128,8 @@ TEST(Overload, WhatChangesModelsOrUploadsWaitsForTheDiskApart) {
 }
 
 TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
-  const test::LocalServer server(kRoutes, std::chrono::seconds(30), {}, {.answer_memory = kLarge});
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                 {.answer_memory = kLarge});
   const auto ask = [&](const std::string& path) {
     auto reader = std::make_unique<test::HttpClient>(server.port());
     reader->send("GET " + path + " HTTP/1.1\r\nHost: a\r\n\r\n");

@@ -10,7 +10,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string text(const Response& response) {
+std::string text_of(const Response& response) {
   return std::get<std::string>(response.body);
 }
 
@@ -20,25 +20,25 @@ TEST(Problem, TellsTheClientWhatIsWrong) {
   EXPECT_EQ(response.status, 400u);
   EXPECT_EQ(response.type, "application/problem+json");
   EXPECT_EQ(
-      text(response),
+      text_of(response),
       "{\"type\":\"about:blank\",\"title\":\"Bad Request\",\"status\":400,\"request_id\":\"42\","
       "\"detail\":\"a parameter is out of range\","
       "\"errors\":[{\"parameter\":\"limit\",\"detail\":\"1 to 200\"}]}");
 }
 
 TEST(Problem, KeepsTheReasonOfAServerErrorToItself) {
-  const std::string body = text(problem(500, "cannot read /srv/data/secret", "42"));
+  const std::string body = text_of(problem(500, "cannot read /srv/data/secret", "42"));
   EXPECT_THAT(body, HasSubstr("\"request_id\":\"42\""));
   EXPECT_THAT(body, Not(HasSubstr("secret")));
 }
 
 TEST(Problem, SaysWhatThereIsNoRoomFor) {
-  EXPECT_THAT(text(problem(507, "7 of 9 bytes are taken", "42")),
+  EXPECT_THAT(text_of(problem(507, "7 of 9 bytes are taken", "42")),
               HasSubstr("\"detail\":\"7 of 9 bytes are taken\""));
 }
 
 TEST(Problem, IsValidJsonWhateverBytesTheDetailHolds) {
-  EXPECT_THAT(text(problem(400, "\xff\"\n", "42")), HasSubstr("\xEF\xBF\xBD\\\"\\n"));
+  EXPECT_THAT(text_of(problem(400, "\xff\"\n", "42")), HasSubstr("\xEF\xBF\xBD\\\"\\n"));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ Response nothing(const Request&, Services&) {
   return {};
 }
 
-constexpr Route kRoutes[] = {
+constexpr Route kRoutedPaths[] = {
     {Method::kGet, "/x/{name}/at/{number}", nothing, Place::kInline},
     {Method::kGet, "/x/{name}", nothing, Place::kInline, Role::kViewer},
     {Method::kPost, "/x/{name}/stop", nothing, Place::kInline, Role::kOperator},
@@ -73,7 +73,7 @@ constexpr Route kRoutes[] = {
 constexpr std::size_t kCatchAll = 4;
 
 TEST(Router, ParsesNamesAndNumbers) {
-  const Router router(kRoutes);
+  const Router router(kRoutedPaths);
   const std::string path = "/x/rig-2/at/999999";
   const auto match = router.match(path);
   ASSERT_TRUE(match);
@@ -90,7 +90,7 @@ TEST(Router, ParsesNamesAndNumbers) {
 }
 
 TEST(Router, FindsTheRouteOfAMethodAmongThoseOfOneTemplate) {
-  const Router router(kRoutes);
+  const Router router(kRoutedPaths);
   const auto both = router.match("/x/a");
   EXPECT_EQ(router.find(*both, Method::kGet), 1u);
   EXPECT_EQ(router.find(*both, Method::kDelete), 3u);
@@ -102,7 +102,7 @@ TEST(Router, FindsTheRouteOfAMethodAmongThoseOfOneTemplate) {
 }
 
 TEST(Router, NamesEachTemplateOnce) {
-  const Router router(kRoutes);
+  const Router router(kRoutedPaths);
   EXPECT_EQ(router.templates().size(), 4u);
   EXPECT_EQ(router.template_of(3), router.template_of(1));
   EXPECT_EQ(router.templates()[router.template_of(kCatchAll)], "/{rest}");

@@ -11,14 +11,14 @@
 namespace vitrine {
 namespace {
 
-constexpr std::uint64_t kHead = 1'000;
+constexpr std::uint64_t kHeadBytes = 1'000;
 
 // Levels of one region and one chunk each.
 Manifest manifest_of(std::uint32_t levels, std::uint64_t chunk) {
   Manifest manifest;
   manifest.base_offset = 600;
-  manifest.base_length = kHead - 600;
-  manifest.file_bytes = kHead;
+  manifest.base_length = kHeadBytes - 600;
+  manifest.file_bytes = kHeadBytes;
   for (std::uint32_t level = 0; level < levels; ++level) {
     manifest.levels.push_back(
         {.vertices = 50 * (level + 1), .faces = 100 * (level + 1), .max_error = 1.0 / (level + 1)});
@@ -62,7 +62,7 @@ class PromiseTest : public ::testing::Test {
 
   // Of whole chunks by that time, with the head.
   std::uint64_t held(std::uint16_t model, double by) const {
-    std::uint64_t bytes = kHead;
+    std::uint64_t bytes = kHeadBytes;
     for (const auto& [at, slice] : arrived) {
       const SliceHeader& header = slice.header;
       if (at <= by && header.model == model && header.offset + slice.length == header.total)
@@ -88,7 +88,7 @@ class PromiseTest : public ::testing::Test {
           << "said at " << at << " of model " << promise.model << " for " << promise.seconds;
       const std::uint64_t chunks = promise.level;
       const Manifest& manifest = promise.model == 0 ? large : small;
-      EXPECT_GE(held(promise.model, by), kHead + chunks * manifest.chunks[0].length);
+      EXPECT_GE(held(promise.model, by), kHeadBytes + chunks * manifest.chunks[0].length);
     }
     EXPECT_GT(checked, 0u);
   }

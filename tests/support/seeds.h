@@ -5,7 +5,7 @@
 
 namespace vitrine::test {
 
-// How many of `count` random cases this build tries. Sanitizers take ten times as long and look for
+// How many of `count` cases, random or spread over a file, this build tries. Sanitizers take ten times as long and look for
 // faults that show in any case: a tenth is enough for them.
 constexpr std::uint64_t seeds(std::uint64_t count) {
 #ifdef VITRINE_SANITISED
