@@ -12,16 +12,13 @@
 #include "codec/progressive/placement.h"
 #include "codec/simplify/collapse_rules.h"
 #include "codec/simplify/surface.h"
+#include "hierarchies.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 #include "support/validate.h"
 
 namespace vitrine::test {
 namespace {
-
-LatticeMesh on_lattice(const TriangleMesh& mesh) {
-  return quantise(mesh, fit_lattice(mesh.positions, 12));
-}
 
 // Performs the recorded collapses on plain face lists, without the code under test.
 class Replay {
@@ -256,36 +253,6 @@ TEST(Simplify, EveryLevelIsAManifoldThatObeysTheRulesDownToTheBase) {
   }
 }
 
-TEST(Simplify, ReachesItsTargetInFewLevels) {
-  const LatticeMesh scan = on_lattice(shipped_model("demosthenes.obj"));
-  const auto hierarchy = simplify(scan, {});
-  ASSERT_TRUE(hierarchy.has_value());
-  EXPECT_GE(hierarchy->base.positions.size(), 300u);
-  EXPECT_LE(hierarchy->base.positions.size(), 375u);
-  EXPECT_LE(hierarchy->levels.size(), 8u);
-  std::size_t vertices = hierarchy->base.positions.size();
-  for (const CollapseLevel& level : hierarchy->levels)
-    vertices += level.size();
-  EXPECT_EQ(vertices, scan.positions.size());
-  EXPECT_EQ(hierarchy->tree.leaves(), 1u);
-}
-
-TEST(Simplify, RegionsAreAsManyAsTheLevelHasVerticesFor) {
-  const LatticeMesh scan = on_lattice(shipped_model("demosthenes.obj"));
-  const auto hierarchy = simplify(scan, {.region_vertices = 1500});
-  ASSERT_TRUE(hierarchy.has_value());
-  const auto last = static_cast<std::uint32_t>(hierarchy->levels.size());
-  EXPECT_EQ(hierarchy->tree.regions_at(last).size(), hierarchy->tree.leaves());
-  EXPECT_EQ(hierarchy->tree.regions_at(1).size(), 1u);
-  std::size_t vertices = hierarchy->base.positions.size();
-  for (std::uint32_t level = 1; level <= last; ++level) {
-    vertices += hierarchy->levels[level - 1].size();
-    const std::size_t regions = hierarchy->tree.regions_at(level).size();
-    EXPECT_LE(vertices, regions * 1500) << "level " << level;
-    EXPECT_TRUE(regions == 1 || vertices >= regions * 300) << "level " << level;
-  }
-}
-
 TEST(Simplify, ColoursMergeAndStayExactInTheRecord) {
   TriangleMesh mesh = sheet(20, 16);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -335,20 +302,6 @@ TEST(Simplify, RimsKeepTheirPlace) {
   EXPECT_GE(middle_of(*high, shift).z, 4095 - tolerance);
 }
 
-TEST(Simplify, CoarseLevelsStandOnACoarserLatticeThatIsFinerThanTheirError) {
-  for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
-    const auto hierarchy =
-        simplify(on_lattice(shipped_model("demosthenes.obj")), {.placement = placement});
-    ASSERT_TRUE(hierarchy.has_value());
-    const auto& shift = hierarchy->shift;
-    ASSERT_EQ(shift.size(), hierarchy->levels.size() + 1);
-    EXPECT_EQ(shift.back(), 0u);
-    EXPECT_TRUE(std::is_sorted(shift.rbegin(), shift.rend()));
-    EXPECT_GE(shift.front(), 2u);
-    EXPECT_LE(shift.front(), 7u);
-  }
-}
-
 Surface surface_of(const LatticeMesh& fine) {
   Surface surface;
   surface.mesh =
@@ -388,8 +341,7 @@ double cost_of(const Surface& surface, const Collapse& collapse, Placement place
 }
 
 TEST(Simplify, TheHeapTakesTheCheapestPairFirst) {
-  for (const TriangleMesh& mesh :
-       {sheet(24, 20), tube(24, 18), torus(30, 16), shipped_model("demosthenes.obj")}) {
+  for (const TriangleMesh& mesh : {sheet(24, 20), tube(24, 18), torus(30, 16)}) {
     for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
       const LatticeMesh fine = on_lattice(mesh);
       const auto vertices = static_cast<std::uint32_t>(fine.positions.size());

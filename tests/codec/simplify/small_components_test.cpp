@@ -6,46 +6,17 @@
 #include <algorithm>
 
 #include "codec/simplify/simplify.h"
+#include "hierarchies.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 
 namespace vitrine::test {
 namespace {
 
-LatticeMesh on_12_bits(const TriangleMesh& mesh) {
-  return quantise(mesh, fit_lattice(mesh.positions, 12));
-}
-
-std::size_t born_whole(const Hierarchy& hierarchy) {
-  std::size_t vertices = 0;
-  for (const auto& level : hierarchy.births) {
-    for (const Component& component : level)
-      vertices += component.ids.size();
-  }
-  return vertices;
-}
-
 std::int32_t width(const std::vector<Vec3i>& positions) {
   const auto by_x = [](const Vec3i& a, const Vec3i& b) { return a.x < b.x; };
   const auto [low, high] = std::ranges::minmax_element(positions, by_x);
   return high->x - low->x;
-}
-
-TEST(SmallComponents, TenThousandSpecksDoNotGrowTheBase) {
-  LatticeMesh scan = on_12_bits(shipped_model("demosthenes.obj"));
-  const std::size_t without = scan.positions.size();
-  add_specks(scan, 10'000, 1);
-  for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
-    const auto hierarchy = simplify(scan, {.placement = placement, .region_vertices = 1500});
-    ASSERT_TRUE(hierarchy.has_value());
-    EXPECT_GE(hierarchy->base.positions.size(), 150u);
-    EXPECT_LE(hierarchy->base.positions.size(), 375u);
-    std::size_t vertices = hierarchy->base.positions.size() + born_whole(*hierarchy);
-    for (const CollapseLevel& level : hierarchy->levels)
-      vertices += level.size();
-    EXPECT_EQ(vertices, scan.positions.size());
-    EXPECT_GT(born_whole(*hierarchy), (scan.positions.size() - without) / 2);
-  }
 }
 
 TEST(SmallComponents, OfAModelOfSpecksAloneTheLargestAreTheBase) {
@@ -62,7 +33,7 @@ TEST(SmallComponents, OfAModelOfSpecksAloneTheLargestAreTheBase) {
 
 // Seven vertices, each next to each: no torus has fewer, and none has more faces per vertex.
 TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
-  LatticeMesh mesh = on_12_bits(sheet(30, 30));
+  LatticeMesh mesh = on_lattice(sheet(30, 30));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (std::int32_t k = 0; k < 7; ++k)
     mesh.positions.push_back({100 + k, 5 * k % 7, 3 * k % 7});
@@ -76,7 +47,7 @@ TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
 }
 
 TEST(SmallComponents, WhatIsAsLargeAsTheModelStays) {
-  LatticeMesh mesh = on_12_bits(torus(40, 24));
+  LatticeMesh mesh = on_lattice(torus(40, 24));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const auto faces = mesh.faces;
   for (std::uint32_t v = 0; v < first; ++v)
