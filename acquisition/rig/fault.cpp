@@ -15,18 +15,18 @@ struct Name {
   int step;  // where none is given
 };
 
-constexpr Name kNames[] = {{"lost-packets", FaultKind::kLostPackets, 0},
-                           {"camera-unplug", FaultKind::kCameraUnplug, 1},
-                           {"usb-unplug", FaultKind::kUsbUnplug, 1},
-                           {"motor-stall", FaultKind::kMotorStall, 1},
-                           {"missed-trigger", FaultKind::kMissedTrigger, 1},
-                           {"drift", FaultKind::kDrift, 0},
-                           {"laser-out", FaultKind::kLaserOut, 0},
-                           {"second-stripe", FaultKind::kSecondStripe, 0}};
+constexpr Name kFaults[] = {{"lost-packets", FaultKind::kLostPackets, 0},
+                            {"camera-unplug", FaultKind::kCameraUnplug, 1},
+                            {"usb-unplug", FaultKind::kUsbUnplug, 1},
+                            {"motor-stall", FaultKind::kMotorStall, 1},
+                            {"missed-trigger", FaultKind::kMissedTrigger, 1},
+                            {"drift", FaultKind::kDrift, 0},
+                            {"laser-out", FaultKind::kLaserOut, 0},
+                            {"second-stripe", FaultKind::kSecondStripe, 0}};
 
 Unexpected unknown(std::string_view text) {
   std::string names;
-  for (const Name& known : kNames)
+  for (const Name& known : kFaults)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
   return fail(
       ErrorCode::kBadInput,
@@ -37,10 +37,10 @@ Unexpected unknown(std::string_view text) {
 
 Expected<Fault> parse_fault(std::string_view text) {
   const std::size_t at = text.find('@');
-  const auto known = std::find_if(std::begin(kNames), std::end(kNames), [&](const Name& name) {
+  const auto known = std::find_if(std::begin(kFaults), std::end(kFaults), [&](const Name& name) {
     return name.name == text.substr(0, at);
   });
-  if (known == std::end(kNames)) return unknown(text);
+  if (known == std::end(kFaults)) return unknown(text);
   Fault fault{known->kind, known->step};
   if (at == std::string_view::npos) return fault;
   const char *first = text.data() + at + 1, *last = text.data() + text.size();

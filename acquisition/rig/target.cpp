@@ -33,8 +33,8 @@ cv::Mat print(const TargetSpec& spec) {
 
 // The sheet's front towards that azimuth and elevation, then rolled in its plane; degrees.
 Placement facing(double azimuth, double elevation, double roll, const Vec3& origin) {
-  constexpr double kDegree = std::numbers::pi / 180;
-  const double a = azimuth * kDegree, e = elevation * kDegree, r = roll * kDegree;
+  constexpr double kRadians = std::numbers::pi / 180;
+  const double a = azimuth * kRadians, e = elevation * kRadians, r = roll * kRadians;
   const Vec3 normal{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
   const Vec3 right{-std::sin(a), std::cos(a), 0}, top = cross(normal, right);
   return {right * std::cos(r) + top * std::sin(r), top * std::cos(r) - right * std::sin(r), normal,
