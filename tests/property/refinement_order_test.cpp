@@ -7,8 +7,8 @@
 
 #include "codec/progressive/birth_pass.h"
 #include "codec/progressive/cell.h"
-#include "support/seeds.h"
 #include "support/random_mesh.h"
+#include "support/seeds.h"
 #include "support/stored_model.h"
 
 namespace vitrine::test {

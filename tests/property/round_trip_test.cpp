@@ -2,8 +2,8 @@
 // What is coded comes back, for random meshes.
 #include <gtest/gtest.h>
 
-#include "support/seeds.h"
 #include "support/random_mesh.h"
+#include "support/seeds.h"
 #include "support/stored_model.h"
 
 namespace vitrine::test {
