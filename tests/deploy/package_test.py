@@ -12,13 +12,13 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ["VITRINE_BUILD"])
 MESH = ROOT / "tests" / "models" / "demosthenes.obj"
 
-# This machine with the package on it, in mounts and a network of its own that end with the script.
+# This machine with the package on it, in mounts, processes and a network of its own that end with the script.
 MACHINE = """set -euo pipefail
 ip link set lo up
 mount -t tmpfs none "$STATE"
 mkdir "$STATE/upper" "$STATE/work" "$STATE/root"
 mount -t overlay none -o "lowerdir=/,upperdir=$STATE/upper,workdir=$STATE/work" "$STATE/root"
-mount --rbind /proc "$STATE/root/proc"
+mount -t proc none "$STATE/root/proc"
 mount --rbind /dev "$STATE/root/dev"
 cp "$PACKAGE" "$STATE/root/tmp/vitrine.deb"
 cp "$MESH" "$STATE/root/tmp/bust.obj"
@@ -30,16 +30,21 @@ dpkg --install /tmp/vitrine.deb
 as_user() { runuser --user vitrine -- "$@"; }
 id vitrine
 systemd-analyze verify /lib/systemd/system/vitrined.service
-logrotate --debug /etc/logrotate.d/vitrine
 as_user vitrined --config=/etc/vitrine.conf --check-config
 command=$(sed -n 's/^ExecStart=//p' /lib/systemd/system/vitrined.service)
 setpriv --reuid vitrine --regid vitrine --init-groups $command 2>/tmp/log &
 id=$(as_user vitrine publish /tmp/bust.obj --data /var/lib/vitrine --json | jq -r .id)
-curl -fsS --retry 50 --retry-connrefused --retry-delay 1 -o /tmp/head "http://127.0.0.1:8080/api/v1/models/$id/head"
+head() { curl -fsS --retry 50 --retry-connrefused --retry-delay 1 -o /tmp/head "http://127.0.0.1:8080/api/v1/models/$id/head"; }
+head
 as_user vitrine token create --role viewer --data /var/lib/vitrine >/dev/null
 stat -c '%U %a %n' /var/lib/vitrine /var/log/vitrine /var/log/vitrine/access.log
+until test -s /var/log/vitrine/access.log; do head; done
+logrotate --force /etc/logrotate.d/vitrine
+test -s /var/log/vitrine/access.log.1
+kill -USR1 $!  # as the rotation has systemd do it
 kill -TERM $!
 wait $!
+test -e /var/log/vitrine/access.log
 ! grep -E 'event=(warning|error|critical)' /tmp/log
 dpkg --purge vitrine
 test -s /var/lib/vitrine/catalogue.sqlite
@@ -93,7 +98,7 @@ class Package(unittest.TestCase):
         with tempfile.TemporaryDirectory() as state:
             environment = os.environ | {"STATE": state, "PACKAGE": str(self.package), "MESH": str(MESH), "SCRIPT": SERVES}
             environment = {name: value for name, value in environment.items() if not name.startswith("VITRINE_")}
-            said = run("unshare", "--mount", "--net", "bash", "-c", MACHINE, env=environment)
+            said = run("unshare", "--mount", "--net", "--pid", "--fork", "--kill-child", "bash", "-c", MACHINE, env=environment)
         self.assertRegex(said, r"uid=\d+\(vitrine\) .*\(plugdev\)")
         self.assertIn("vitrine 750 /var/lib/vitrine\n", said)
         self.assertIn("vitrine 640 /var/log/vitrine/access.log\n", said)
