@@ -229,6 +229,7 @@ Expected<std::string> RemoteServer::upgrade(const RemoteRequest& request) {
   const std::string origin = origin_of(request.url);
   curl_easy_setopt(curl, CURLOPT_URL, origin.c_str());
   curl_easy_setopt(curl, CURLOPT_CONNECT_ONLY, 1L);
+  curl_easy_setopt(curl, CURLOPT_HTTP_VERSION, CURL_HTTP_VERSION_1_1);  // HTTP/2 has no upgrades
   const CURLcode code = curl_easy_perform(curl);
   if (code != CURLE_OK) return handle_->failed(request, code);
   const std::string text = fmt::format(

@@ -16,28 +16,30 @@ const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !n
 const kFault = /event=(error|critical)|terminate called|Sanitizer/;
 
 export class Daemon {
-  static async start(folderOfBinaries) {
+  /** `settings`: more words of its command line. */
+  static async start(folderOfBinaries, settings = []) {
     const bin = resolve(folderOfBinaries);
     const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
     const portFile = join(folder, "port");
-    const appeared = watched(folder, portFile);
+    const appeared = Promise.all([watched(folder, portFile), watched(folder, join(folder, "admin-port"))]);
     const data = join(folder, "data");
-    const daemon = new Daemon(bin, folder, data);
+    const daemon = new Daemon(bin, folder, data, settings);
     const ended = daemon.spawn("127.0.0.1:0", portFile);
-    daemon.port = await Promise.race([appeared, ended]);
+    [daemon.port, daemon.adminPort] = await Promise.race([appeared, ended]);
     daemon.url = `http://127.0.0.1:${daemon.port}`;
     return daemon;
   }
 
-  constructor(bin, folder, data) {
-    Object.assign(this, { bin, folder, data, log: "" });
+  constructor(bin, folder, data, settings) {
+    Object.assign(this, { bin, folder, data, settings, log: "" });
   }
 
   /** Starts the program; rejects when it ends. */
   spawn(listen, portFile) {
     this.child = spawn(
       join(this.bin, "vitrined"),
-      ["--listen", listen, "--admin-listen", "127.0.0.1:0", "--data", this.data, "--port-file", portFile],
+      ["--listen", listen, "--admin-listen", "127.0.0.1:0", "--data", this.data, "--port-file", portFile,
+       "--admin-port-file", join(this.folder, "admin-port"), ...this.settings],
       { cwd: this.folder, env, stdio: ["ignore", "ignore", "pipe"] },
     );
     this.child.stderr.on("data", (text) => (this.log += text));
@@ -54,6 +56,18 @@ export class Daemon {
     const portFile = join(this.folder, "port-again");
     const appeared = watched(this.folder, portFile);
     await Promise.race([appeared, this.spawn(`127.0.0.1:${this.port}`, portFile)]);
+  }
+
+  /** The samples of /metrics: [name, labels, value]. */
+  async metrics() {
+    const text = await (await fetch(`http://127.0.0.1:${this.adminPort}/metrics`)).text();
+    return [...text.matchAll(/^([a-z_]+)(\{.*\})? (\S+)$/gm)].map(([, name, labels, value]) => [name, labels ?? "", Number(value)]);
+  }
+
+  /** How often chunks were asked for. */
+  async chunkRequests() {
+    const counted = (await this.metrics()).filter(([name, labels]) => name === "vitrine_http_requests_total" && labels.includes('"/api/v1/chunks/'));
+    return counted.reduce((sum, [, , value]) => sum + value, 0);
   }
 
   /** Publishes a mesh; returns the address of its page. */

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The configuration that ships (deploy/nginx/vitrine.conf) in a real nginx, for the time of a test.
+import { execFile, execFileSync, spawn } from "node:child_process";
+import { once } from "node:events";
+import { chmod, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { createConnection, createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+
+const kProgram = "/usr/sbin/nginx";
+const kShipped = new URL("../../deploy/nginx/vitrine.conf", import.meta.url);
+
+export class Nginx {
+  /** In front of a daemon at `origin` ("127.0.0.1:PORT"); `changes`: what of the configuration is other. */
+  static async start(origin, changes = []) {
+    const nginx = new Nginx();
+    nginx.folder = await mkdtemp(join(tmpdir(), "vitrine-nginx-"));
+    await chmod(nginx.folder, 0o755);  // for its workers, which are another user's
+    nginx.port = await freePort();
+    nginx.url = `https://127.0.0.1:${nginx.port}`;
+    await nginx.#configure(origin, changes);
+    const words = ["-p", nginx.folder, "-c", "nginx.conf", "-e", "error.log"];
+    await promisify(execFile)(kProgram, [...words, "-t"]);
+    nginx.child = spawn(kProgram, words, { stdio: "ignore" });
+    nginx.exit = once(nginx.child, "close");
+    await listens(nginx.port);
+    return nginx;
+  }
+
+  async #configure(origin, changes) {
+    const path = (name) => join(this.folder, name);
+    this.certificate = path("cert.pem");
+    this.cache = path("cache");
+    execFileSync("openssl", ["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "90", "-subj", "/CN=127.0.0.1", "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", path("key.pem"), "-out", this.certificate], { stdio: "ignore" });
+    await writeFile(path("nginx.conf"), `daemon off; worker_processes 1; pid nginx.pid; events { worker_connections 1024; }
+http { access_log off; client_body_temp_path body; proxy_temp_path proxy; fastcgi_temp_path fastcgi; uwsgi_temp_path uwsgi; scgi_temp_path scgi;
+include site.conf; }\n`);
+    await writeFile(path("site.conf"), replaced(await readFile(kShipped, "utf8"), [
+      ["server 127.0.0.1:8080;", `server ${origin};`],
+      ["/var/cache/nginx/vitrine", this.cache],
+      ["/etc/ssl/certs/museum.example.pem", this.certificate],
+      ["/etc/ssl/private/museum.example.key", path("key.pem")],
+      ["listen 80;", `listen 127.0.0.1:${await freePort()};`],
+      ["listen [::]:80;", ""],
+      ["listen 443 ssl http2;", `listen 127.0.0.1:${this.port} ssl http2;`],
+      ["listen [::]:443 ssl http2;", ""],
+      ...changes,
+    ]));
+  }
+
+  /** Starts its processes anew, when those before have ended; the cache stays. */
+  async reload() {
+    const before = new Set(await this.#children());
+    this.child.kill("SIGHUP");
+    while ((await this.#children()).some((pid) => before.has(pid)));
+  }
+
+  async #children() {
+    return (await readFile(`/proc/${this.child.pid}/task/${this.child.pid}/children`, "utf8")).trim().split(" ");
+  }
+
+  async stop() {
+    this.child.kill("SIGTERM");
+    await this.exit;
+    await rm(this.folder, { recursive: true, force: true });
+  }
+}
+
+/** `text` with places of this machine instead of those of a museum; each has to be there once. */
+function replaced(text, changes) {
+  for (const [from, to] of changes) {
+    if (text.split(from).length !== 2) throw new Error(`'${from}' is not once in ${kShipped.pathname}`);
+    text = text.replace(from, to);
+  }
+  return text;
+}
+
+async function freePort() {
+  const server = createServer().listen(0, "127.0.0.1");
+  await once(server, "listening");
+  const { port } = server.address();
+  server.close();
+  await once(server, "close");
+  return port;
+}
+
+/** Until somebody listens at `port`; asks again after each refusal. */
+async function listens(port) {
+  for (;;) {
+    const socket = createConnection(port, "127.0.0.1");
+    const open = await new Promise((resolve) => socket.once("connect", () => resolve(true)).once("error", () => resolve(false)));
+    socket.destroy();
+    if (open) return;
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+}
