@@ -35,6 +35,9 @@ class WatchedStore final : public ObjectStore {
     before_opening();
     return store_.open(name);
   }
+  Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override {
+    return store_.size_of(name);
+  }
 
   mutable std::atomic<int> opened{0};
   std::function<void()> before_opening = [] {};
