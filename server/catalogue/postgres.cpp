@@ -29,7 +29,8 @@ std::string with_dollars(std::string_view sql) {
   std::string text;
   int count = 0;
   for (std::size_t i = 0; i < sql.size(); ++i) {
-    const bool is_numbered = i + 1 < sql.size() && std::isdigit(static_cast<unsigned char>(sql[i + 1]));
+    const bool is_numbered =
+        i + 1 < sql.size() && std::isdigit(static_cast<unsigned char>(sql[i + 1]));
     if (sql[i] != '?') {
       text += sql[i];
     } else {
@@ -95,12 +96,25 @@ class Statement final : public sql::Statement {
   double real(int column) const override {
     return std::bit_cast<double>(big_endian<std::uint64_t>(check_length(column, 8)));
   }
-  bool is_null(int column) const override {
-    return PQgetisnull(result_.get(), row_, column) == 1;
-  }
+  bool is_null(int column) const override { return PQgetisnull(result_.get(), row_, column) == 1; }
   std::string text(int column) const override {
     return {PQgetvalue(result_.get(), row_, column),
             static_cast<std::size_t>(PQgetlength(result_.get(), row_, column))};
+  }
+
+  void bind_to(sql::Statement& other, int column) const override {
+    const std::string value = text(column);
+    if (is_null(column)) {
+      other.bind_null();
+    } else if (PQftype(result_.get(), column) == kReal) {
+      other.bind_real(real(column));
+    } else if (PQftype(result_.get(), column) == kText) {
+      other.bind(value);
+    } else if (PQftype(result_.get(), column) == kBytes) {
+      other.bind(std::span(reinterpret_cast<const std::uint8_t*>(value.data()), value.size()));
+    } else {
+      other.bind(integer(column));
+    }
   }
 
  private:
@@ -169,11 +183,15 @@ Connection::Connection(const std::string& url) {
   if (options == nullptr)
     throw sql::Failure("the setting catalogue is no URL of PostgreSQL", ErrorCode::kIo, kAdvice);
   PQconninfoFree(options);
-  constexpr std::array kNames{"connect_timeout", "tcp_user_timeout", "keepalives_idle",
-                              "client_encoding", "fallback_application_name", "dbname",
+  constexpr std::array kNames{"connect_timeout",
+                              "tcp_user_timeout",
+                              "keepalives_idle",
+                              "client_encoding",
+                              "fallback_application_name",
+                              "dbname",
                               static_cast<const char*>(nullptr)};
-  const std::array values{"5",         "10000",     "10", "UTF8",
-                          "vitrine",   url.c_str(), static_cast<const char*>(nullptr)};
+  const std::array values{
+      "5", "10000", "10", "UTF8", "vitrine", url.c_str(), static_cast<const char*>(nullptr)};
   handle_.reset(PQconnectdbParams(kNames.data(), values.data(), /*expand_dbname=*/1));
   if (PQstatus(handle()) != CONNECTION_OK) raise(nullptr);
   PQsetNoticeProcessor(
@@ -183,9 +201,8 @@ Connection::Connection(const std::string& url) {
 bool Connection::is_alive() {
   if (hangs_ || PQstatus(handle()) != CONNECTION_OK) return false;
   pollfd socket{PQsocket(handle()), POLLIN, 0};
-  // There is nothing to read between two statements but that the server has closed it.
-  return ::poll(&socket, 1, 0) == 0 ||
-         (PQconsumeInput(handle()) == 1 && PQstatus(handle()) == CONNECTION_OK);
+  // Between two statements the server hardly says more than that it ends the connection.
+  return ::poll(&socket, 1, 0) == 0;
 }
 
 void Connection::raise(const PGresult* result) const {

@@ -26,6 +26,7 @@ class Connection final : public sql::Connection {
   explicit Connection(const std::string& url);
 
   bool is_alive();  // as far as is known without asking
+  bool hangs() const { return hangs_; }
 
   void run(const char* sql) override;
   sql::Statement& prepare(const std::string& sql) override;

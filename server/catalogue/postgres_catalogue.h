@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The catalogue, jobs and scans in a PostgreSQL database: any number of machines may use it at once.
+// The catalogue's database on a PostgreSQL server: any number of machines may use it at once.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <string>
 
-#include "server/catalogue/catalogue.h"
-#include "server/catalogue/jobs.h"
+#include "server/catalogue/sql.h"
 
-namespace vitrine {
+namespace vitrine::postgres {
 
-struct PostgresCatalogue {
-  std::unique_ptr<Catalogue> catalogue;
-  std::unique_ptr<JobCatalogue> jobs;
-  // Is held by one at a time of all who use the database, until the result is gone.
+struct OpenDatabase {
+  std::shared_ptr<sql::Database> database;
+  // Is held by one at a time of all who use the database, until the result is gone; where the
+  // server ends its connection, no longer. Fails with kIo.
   std::function<Expected<std::shared_ptr<const void>>()> lock;
 };
 
 // Creates or migrates the tables. `url`: postgresql://USER@HOST/DATABASE, with what else libpq
 // knows. Fails with kIo where the server is not reached or refuses; no message tells the password.
-Expected<PostgresCatalogue> open_postgres_catalogue(const std::string& url);
+Expected<OpenDatabase> open_database(const std::string& url);
 
-}  // namespace vitrine
+}  // namespace vitrine::postgres

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/catalogue/postgres_database.h"
 
+#include "server/catalogue/postgres_catalogue.h"
 #include "server/catalogue/postgres_migrations.h"
 
 namespace vitrine::postgres {
 namespace {
 
+constexpr std::chrono::seconds kPause{1};            // between two attempts to reach the server
 constexpr std::int64_t kLock = 8532478916893896302;  // of its own among the database's users
 
 }  // namespace
-
-Expected<std::shared_ptr<Database>> Database::open(const std::string& url) {
-  try {
-    std::shared_ptr<Database> database(new Database(url));
-    migrate(*database->lease());
-    return database;
-  } catch (const sql::Failure& failure) {
-    return sql::refused("cannot open the catalogue", failure);
-  }
-}
 
 // An idle connection, or null: then there is a place for a new one.
 std::unique_ptr<Connection> Database::take_place() {
@@ -29,6 +21,8 @@ std::unique_ptr<Connection> Database::take_place() {
     throw sql::Failure("all connections are in use", ErrorCode::kIo,
                        "try again, and look at the load of the PostgreSQL server");
   }
+  if (std::chrono::steady_clock::now() < away_until_)
+    throw sql::Failure("the PostgreSQL server is away", ErrorCode::kIo, "try again in a moment");
   ++leased_;
   if (idle_.empty()) return nullptr;
   auto connection = std::move(idle_.back());
@@ -39,7 +33,11 @@ std::unique_ptr<Connection> Database::take_place() {
 void Database::give_back(std::unique_ptr<Connection> connection) {
   const std::scoped_lock lock(mutex_);
   --leased_;
-  if (connection && connection->is_alive()) idle_.push_back(std::move(connection));
+  if (connection && connection->is_alive()) {
+    idle_.push_back(std::move(connection));
+  } else if (!connection || connection->hangs()) {
+    away_until_ = std::chrono::steady_clock::now() + kPause;
+  }
   freed_.notify_one();
 }
 
@@ -77,6 +75,16 @@ void Database::unlock() noexcept {
     locking_.reset();
   }
   own_turn_.release();
+}
+
+Expected<OpenDatabase> open_database(const std::string& url) {
+  try {
+    auto database = std::make_shared<Database>(url);
+    migrate(*database->lease());
+    return OpenDatabase{database, [database] { return database->lock(); }};
+  } catch (const sql::Failure& failure) {
+    return sql::refused("cannot open the catalogue", failure);
+  }
 }
 
 }  // namespace vitrine::postgres

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The catalogue's database on a PostgreSQL server, over a bounded number of connections. While the
-// server is away all that is asked of it fails; what is asked afterwards has new connections.
+// server is away all that is asked of it fails, most of it at once; what is asked afterwards has
+// new connections.
 #pragma once
 
 #include <condition_variable>
@@ -14,19 +15,16 @@ namespace vitrine::postgres {
 
 class Database final : public sql::Database, public std::enable_shared_from_this<Database> {
  public:
-  // Creates or migrates the tables. Fails with kIo where the server is not reached or refuses.
-  static Expected<std::shared_ptr<Database>> open(const std::string& url);
+  explicit Database(std::string url) : url_(std::move(url)) {}
 
   std::shared_ptr<sql::Connection> lease() override;
 
-  // Is held by one at a time of all who use the database, until the result is gone; where the
-  // server ends its connection, no longer. Fails with kIo.
+  // As OpenDatabase::lock.
   Expected<std::shared_ptr<const void>> lock();
 
  private:
   static constexpr std::size_t kMostConnections = 8;
 
-  explicit Database(std::string url) : url_(std::move(url)) {}
   std::unique_ptr<Connection> take_place();
   void give_back(std::unique_ptr<Connection> connection);
   void unlock() noexcept;
@@ -36,6 +34,7 @@ class Database final : public sql::Database, public std::enable_shared_from_this
   std::condition_variable freed_;
   std::vector<std::unique_ptr<Connection>> idle_;
   std::size_t leased_ = 0;
+  std::chrono::steady_clock::time_point away_until_{};  // nobody waits for the server before
 
   // Of its own: who holds the lock needs a connection beside it, and others wait for it meanwhile.
   std::binary_semaphore own_turn_{1};

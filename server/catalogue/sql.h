@@ -46,6 +46,7 @@ class Statement {
   virtual double real(int column) const = 0;
   virtual bool is_null(int column) const = 0;
   virtual std::string text(int column) const = 0;
+  virtual void bind_to(Statement& other, int column) const = 0;  // the value, whatever its type is
   template <std::size_t N>
   std::array<std::uint8_t, N> blob(int column) const {
     std::array<std::uint8_t, N> bytes{};

@@ -282,8 +282,8 @@ class SqlCatalogue final : public Catalogue {
       Files files;
       const Query rows(connection.prepare(kFiles));
       while (rows->step())
-        files.push_back({ModelId::from_bytes(rows->blob<16>(0)), rows->blob<32>(1),
-                         count(*rows, 2)});
+        files.push_back(
+            {ModelId::from_bytes(rows->blob<16>(0)), rows->blob<32>(1), count(*rows, 2)});
       return files;
     });
   }

@@ -44,8 +44,7 @@ void Database::raise() const {
   std::string message = sqlite3_errmsg(handle());
   if (error != 0) message += std::string(": ") + std::strerror(error);
   if (error == ENOSPC || error == EDQUOT)
-    throw sql::Failure(message, ErrorCode::kLimit,
-                       "free some space or choose another data folder");
+    throw sql::Failure(message, ErrorCode::kLimit, "free some space or choose another data folder");
   throw sql::Failure(message, ErrorCode::kIo, kAdvice);
 }
 
@@ -106,6 +105,27 @@ bool Statement::step() {
 std::string Statement::text(int column) const {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), column));
   return std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column)));
+}
+
+void Statement::bind_to(sql::Statement& other, int column) const {
+  const auto* blob = static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column));
+  switch (sqlite3_column_type(handle_.get(), column)) {
+    case SQLITE_INTEGER:
+      other.bind(integer(column));
+      return;
+    case SQLITE_FLOAT:
+      other.bind_real(real(column));
+      return;
+    case SQLITE_TEXT:
+      other.bind(text(column));
+      return;
+    case SQLITE_BLOB:
+      other.bind(
+          std::span(blob, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column))));
+      return;
+    default:
+      other.bind_null();
+  }
 }
 
 void Statement::copy_blob(int column, std::span<std::uint8_t> out) const {

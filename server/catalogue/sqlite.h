@@ -48,6 +48,7 @@ class Statement final : public sql::Statement {
     return sqlite3_column_type(handle_.get(), column) == SQLITE_NULL;
   }
   std::string text(int column) const override;
+  void bind_to(sql::Statement& other, int column) const override;
 
  private:
   void check(int result) const;

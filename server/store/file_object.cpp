@@ -23,8 +23,9 @@ class FileObject final : public Object {
     while (!out.empty()) {
       const ssize_t n = ::pread(fd_.get(), out.data(), out.size(), static_cast<off_t>(offset));
       if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return fail(ErrorCode::kIo, fmt::format("cannot read an object: {}; check the data folder",
-                                                 n < 0 ? std::strerror(errno) : "cut short"));
+      if (n <= 0)
+        return fail(ErrorCode::kIo, fmt::format("cannot read an object: {}; check the data folder",
+                                                n < 0 ? std::strerror(errno) : "cut short"));
       offset += static_cast<std::uint64_t>(n);
       out = out.subspan(static_cast<std::size_t>(n));
     }

@@ -37,8 +37,7 @@ void LocalCopy::restart() {
 
 bool LocalCopy::append(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    const ssize_t n =
-        ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(size_));
+    const ssize_t n = ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(size_));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       fault_ = refused(n < 0 ? errno : ENOSPC);

@@ -18,8 +18,8 @@ std::string s3_upload_id(std::string_view xml);
 
 struct S3Entry {
   std::string key;
-  std::string upload;          // of an unfinished one
-  std::int64_t when = 0;       // written or begun, in seconds since 1970
+  std::string upload;     // of an unfinished one
+  std::int64_t when = 0;  // written or begun, in seconds since 1970
 };
 
 struct S3Page {

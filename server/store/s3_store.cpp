@@ -171,8 +171,9 @@ Expected<std::unique_ptr<Object>> S3Store::open(const Sha256& name) const {
     auto object = std::move(*copy).finish(name);
     if (!object || *object != nullptr) return object;
   }
-  return fail(ErrorCode::kIo, fmt::format("object {} is damaged in s3://{}; publish its model again",
-                                          to_hex(name), client_.address().bucket));
+  return fail(ErrorCode::kIo,
+              fmt::format("object {} is damaged in s3://{}; publish its model again", to_hex(name),
+                          client_.address().bucket));
 }
 
 Expected<std::optional<std::uint64_t>> S3Store::size_of(const Sha256& name) const {

@@ -86,16 +86,15 @@ Expected<void> s3_upload(S3Client& client, const std::string& key,
     if (!done) static_cast<void>(s3_give_up(client, key, *upload));
     return done;
   }
-  const auto answer = client.ask(
-      {.method = "PUT", .key = key, .body = bytes, .body_sha256 = sha256(bytes)});
+  const auto answer =
+      client.ask({.method = "PUT", .key = key, .body = bytes, .body_sha256 = sha256(bytes)});
   if (!answer) return tl::unexpected(answer.error());
   if (answer->status != 200) return client.refused("write an object", *answer);
   return {};
 }
 
 Expected<void> s3_give_up(S3Client& client, const std::string& key, const std::string& upload) {
-  const auto answer =
-      client.ask({.method = "DELETE", .key = key, .query = of_upload(upload)});
+  const auto answer = client.ask({.method = "DELETE", .key = key, .query = of_upload(upload)});
   if (!answer) return tl::unexpected(answer.error());
   if (answer->status / 100 == 2 || answer->status == 404) return {};
   return client.refused("give up an upload", *answer);

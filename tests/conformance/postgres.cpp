@@ -2,6 +2,8 @@
 #include "conformance/catalogue_suite.h"
 #include "conformance/jobs_suite.h"
 #include "server/catalogue/postgres_catalogue.h"
+#include "server/catalogue/sql_catalogue.h"
+#include "server/catalogue/sql_jobs.h"
 #include "support/postgres_server.h"
 
 namespace vitrine::test {
@@ -10,7 +12,7 @@ namespace {
 class Postgres final : public CatalogueBackend {
  public:
   std::unique_ptr<Catalogue> connect() override {
-    return std::move(open_postgres_catalogue(database_).value().catalogue);
+    return make_catalogue(postgres::open_database(database_).value().database);
   }
 
  private:
@@ -20,7 +22,7 @@ class Postgres final : public CatalogueBackend {
 class PostgresJobs final : public JobsBackend {
  public:
   std::unique_ptr<JobCatalogue> connect() override {
-    return std::move(open_postgres_catalogue(database_).value().jobs);
+    return make_jobs(postgres::open_database(database_).value().database);
   }
 
  private:

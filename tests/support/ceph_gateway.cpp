@@ -18,8 +18,7 @@ const std::string& ceph_gateway() {
 
 std::string new_bucket() {
   static int made = 0;
-  const std::string url =
-      "s3://bucket" + std::to_string(++made) + "?endpoint=" + ceph_gateway();
+  const std::string url = "s3://bucket" + std::to_string(++made) + "?endpoint=" + ceph_gateway();
   S3Client client(S3Address::parse(url).value(), kGatewayKeys);
   const auto answer = client.ask({.method = "PUT"});
   if (!answer || answer->status != 200) throw std::runtime_error("no bucket is made");

@@ -20,8 +20,8 @@ std::string new_database() {
   static int made = 0;
   const std::string name = "database" + std::to_string(++made);
   server().ask("create " + name);
-  return std::string("postgresql://museum:") + kPostgresPassword + "@127.0.0.1:" +
-         server().line() + "/" + name;
+  return std::string("postgresql://museum:") + kPostgresPassword + "@127.0.0.1:" + server().line() +
+         "/" + name;
 }
 
 void stop_postgres() {
