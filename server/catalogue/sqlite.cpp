@@ -108,7 +108,6 @@ std::string Statement::text(int column) const {
 }
 
 void Statement::bind_to(sql::Statement& other, int column) const {
-  const auto* blob = static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column));
   switch (sqlite3_column_type(handle_.get(), column)) {
     case SQLITE_INTEGER:
       other.bind(integer(column));
@@ -121,7 +120,8 @@ void Statement::bind_to(sql::Statement& other, int column) const {
       return;
     case SQLITE_BLOB:
       other.bind(
-          std::span(blob, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column))));
+          std::span(static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column)),
+                    static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column))));
       return;
     default:
       other.bind_null();

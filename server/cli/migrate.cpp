@@ -31,7 +31,7 @@ Outcome migrate_installation(const Arguments& arguments) {
       fmt::format("{} models, {} files, {} bytes", done->models, done->files, done->bytes));
 }
 
-constexpr Flag kFlags[] = {
+constexpr Flag kMigrateFlags[] = {
     {"--from", "DIR|FILE", "a data folder, or the configuration file of a daemon"},
     {"--to", "DIR|FILE", "likewise, of a place that is new"},
     {"--json", "", "print one JSON object: models, files and bytes"}};
@@ -41,7 +41,7 @@ constexpr Flag kFlags[] = {
 const Command kMigrate = {"migrate",
                           "Moves models, tokens and jobs to another store and catalogue.",
                           {},
-                          kFlags,
+                          kMigrateFlags,
                           migrate_installation};
 
 }  // namespace vitrine::cli

@@ -32,7 +32,7 @@ bool may_come_first(std::string_view name) {
   return std::ranges::count(kNames, name) > 0;
 }
 
-Expected<void> create_folder(const fs::path& folder) {
+Expected<void> make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) return {};
@@ -112,7 +112,7 @@ Expected<void> check_place(const InstallationPlace& place) {
 Expected<Installation> open_installation(const InstallationPlace& place) {
   if (auto usable = check_installation(place.folder); !usable)
     return tl::unexpected(usable.error());
-  if (auto made = create_folder(place.folder); !made) return tl::unexpected(made.error());
+  if (auto made = make_folder(place.folder); !made) return tl::unexpected(made.error());
   auto catalogue = open_catalogue(place);
   if (!catalogue) return tl::unexpected(catalogue.error());
   auto store = open_store(place, catalogue->lock);
