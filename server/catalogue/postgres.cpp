@@ -17,10 +17,11 @@ namespace {
 constexpr const char* kAdvice = "check the PostgreSQL server and the setting catalogue";
 constexpr Oid kBytes = 17, kInteger = 20, kText = 25, kReal = 701;  // of pg_type
 
-// The first line without what says that it is an error; libpq ends each with a newline.
+// The first line without its severity; libpq ends each with a newline.
 std::string first_line(std::string_view message) {
-  constexpr std::string_view kPrefix = "ERROR:  ";
-  if (message.starts_with(kPrefix)) message.remove_prefix(kPrefix.size());
+  for (const std::string_view severity : {"ERROR:  ", "FATAL:  "}) {
+    if (message.starts_with(severity)) message.remove_prefix(severity.size());
+  }
   return std::string(message.substr(0, message.find('\n')));
 }
 
