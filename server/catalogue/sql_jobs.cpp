@@ -126,9 +126,9 @@ std::string replacements(std::string_view columns) {
 // Whether the row was written.
 bool insert(Connection& connection, std::string_view table, std::string_view columns,
             const auto& record, const std::string& otherwise) {
-  const Query row(connection.prepare(
-      fmt::format("INSERT INTO {}({}) VALUES ({}) ON CONFLICT {} RETURNING 1", table, columns,
-                  places(columns), otherwise)));
+  const Query row(
+      connection.prepare(fmt::format("INSERT INTO {}({}) VALUES ({}) ON CONFLICT {} RETURNING 1",
+                                     table, columns, places(columns), otherwise)));
   return bind_record(*row, record).any();
 }
 
@@ -257,8 +257,8 @@ class SqlJobs final : public JobCatalogue {
   template <class Record>
   Expected<void> write(std::string_view table, std::string_view columns, const Record& record) {
     return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare(fmt::format(
-          "UPDATE {} SET {} WHERE id = ?1 RETURNING 1", table, assignments(columns))));
+      const Query row(connection.prepare(
+          fmt::format("UPDATE {} SET {} WHERE id = ?1 RETURNING 1", table, assignments(columns))));
       if (bind_record(*row, record).any()) return {};
       return fail(ErrorCode::kState,
                   fmt::format("there is no {} {}; list them", table, record.id.to_string()));

@@ -125,7 +125,8 @@ Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::pa
     const auto connection = database->lease();
     connection->run(
         "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
-    if (sql::migrate(*connection, kMigrations) > static_cast<std::int64_t>(std::size(kMigrations))) {
+    if (sql::migrate(*connection, kMigrations) >
+        static_cast<std::int64_t>(std::size(kMigrations))) {
       return fail(ErrorCode::kUnsupported,
                   fmt::format("{} was written by a newer version of Vitrine; install that version",
                               file.string()));
