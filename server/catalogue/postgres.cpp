@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 namespace vitrine::postgres {
 namespace {
@@ -39,6 +40,15 @@ std::string with_dollars(std::string_view sql) {
     }
   }
   return text;
+}
+
+// What the server takes for text: a fault's message may repeat what was in a hostile file.
+std::string as_utf8(std::string_view text) {
+  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+  auto valid =
+      nlohmann::json::parse(nlohmann::json(text).dump(-1, ' ', false, kReplace)).get<std::string>();
+  std::erase(valid, '\0');
+  return valid;
 }
 
 template <class Word>
@@ -74,7 +84,7 @@ class Statement final : public sql::Statement {
     return add(kReal, big_endian_text(std::bit_cast<std::uint64_t>(value)));
   }
   Statement& bind_null() override { return add(0, std::nullopt); }
-  Statement& bind(std::string_view text) override { return add(kText, std::string(text)); }
+  Statement& bind(std::string_view text) override { return add(kText, as_utf8(text)); }
   Statement& bind(std::span<const std::uint8_t> blob) override {
     return add(kBytes, std::string(reinterpret_cast<const char*>(blob.data()), blob.size()));
   }
