@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "codec/files/atomic_file.h"
-#include "server/store/installation.h"
+#include "server/jobs/place_of.h"
 
 namespace vitrine {
 namespace {
@@ -34,6 +34,7 @@ Expected<void> check_log(const fs::path& log) {
 
 Expected<void> check_paths(const Settings& settings) {
   if (auto ok = named("data", check_installation(settings.data)); !ok) return ok;
+  if (auto ok = named("store", check_place(place_of(settings))); !ok) return ok;
   for (const auto& [key, file] : {std::pair("port-file", settings.port_file),
                                   std::pair("admin-port-file", settings.admin_port_file)}) {
     if (file.empty()) continue;

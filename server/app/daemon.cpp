@@ -9,8 +9,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -21,12 +19,14 @@
 #include "server/app/streams.h"
 #include "server/config/command_line.h"
 #include "server/config/live_settings.h"
+#include "server/config/read_file.h"
 #include "server/config/reload.h"
 #include "server/http/http_server.h"
 #include "server/http/job_json.h"
 #include "server/http/routes.h"
 #include "server/http/services.h"
 #include "server/jobs/open_scanners.h"
+#include "server/jobs/place_of.h"
 #include "server/jobs/publish_jobs.h"
 #include "server/store/installation.h"
 #include "server/transport/live_tls.h"
@@ -343,18 +343,6 @@ class Daemon {
   asio::steady_timer watchdog_;
 };
 
-Expected<std::string> read_file(const std::string& path) {
-  std::ifstream file(path);
-  int error = errno;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) error = EISDIR;  // opens, and reads as empty
-  if (!file || error == EISDIR) {
-    return fail(ErrorCode::kIo,
-                fmt::format("cannot read {}: {}; check --config", path, std::strerror(error)));
-  }
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
 int report(const Error& error) {
   std::fputs(fmt::format("vitrined: {}\n", error.message).c_str(), stderr);
   return error.code == ErrorCode::kBadInput ? kExitUsage : kExitFailed;
@@ -371,8 +359,8 @@ int serve(Configuration configuration) {
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
   auto tls = open_tls(settings);
   if (!tls) return report(tls.error());
-  auto installation = open_installation(settings.data);
-  if (!installation) return report({ErrorCode::kIo, installation.error().message});
+  auto installation = open_installation(place_of(settings));
+  if (!installation) return report(installation.error());
   auto access_log = Log::open(settings.access_log);
   if (!access_log) return report(access_log.error());
   auto scanners = open_scanners(settings.scanners);
@@ -397,7 +385,7 @@ int check(const Settings& settings) {
 int run_daemon(std::span<const std::string_view> arguments,
                std::span<const std::string_view> environment) {
   std::signal(SIGPIPE, SIG_IGN);  // sendfile(2) has no MSG_NOSIGNAL
-  const auto read = [=] { return parse_command_line(arguments, environment, read_file); };
+  const auto read = [=] { return parse_command_line(arguments, environment, read_config_file); };
   const auto line = read();
   if (!line) return report(line.error());
   switch (line->action) {

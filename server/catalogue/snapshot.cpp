@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/catalogue/snapshot.h"
 
-#include "server/catalogue/migrations.h"
 #include "server/catalogue/private_file.h"
 #include "server/catalogue/sqlite.h"
 
@@ -18,8 +17,8 @@ Expected<void> snapshot_sqlite(const std::filesystem::path& from, const std::fil
     sqlite3_backup_step(backup, -1);
     if (sqlite3_backup_finish(backup) != SQLITE_OK) copy.raise();
     return {};
-  } catch (const sqlite::Failure& failure) {
-    return sqlite::refused("cannot copy the catalogue " + from.string(), failure);
+  } catch (const sql::Failure& failure) {
+    return sql::refused("cannot copy the catalogue " + from.string(), failure);
   }
 }
 

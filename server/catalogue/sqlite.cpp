@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kBusyMilliseconds = 10'000;  // how long to wait for another process's write
 
+constexpr const char* kAdvice = "check the data folder";
+
 // The error number behind the last result, or 0. SQLite calls a full disk by two names: a result of
 // its own, and an I/O error where the index of the write-ahead log finds no room.
 int system_error(sqlite3* handle) {
@@ -41,7 +43,9 @@ void Database::raise() const {
   const int error = system_error(handle());
   std::string message = sqlite3_errmsg(handle());
   if (error != 0) message += std::string(": ") + std::strerror(error);
-  throw Failure(message, error == ENOSPC || error == EDQUOT);
+  if (error == ENOSPC || error == EDQUOT)
+    throw sql::Failure(message, ErrorCode::kLimit, "free some space or choose another data folder");
+  throw sql::Failure(message, ErrorCode::kIo, kAdvice);
 }
 
 void Database::run(const char* sql) {
@@ -98,22 +102,36 @@ bool Statement::step() {
   database_->raise();
 }
 
-bool Statement::any() {
-  bool found = false;
-  while (step())
-    found = true;
-  return found;
-}
-
 std::string Statement::text(int column) const {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), column));
   return std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column)));
 }
 
+void Statement::bind_to(sql::Statement& other, int column) const {
+  switch (sqlite3_column_type(handle_.get(), column)) {
+    case SQLITE_INTEGER:
+      other.bind(integer(column));
+      return;
+    case SQLITE_FLOAT:
+      other.bind_real(real(column));
+      return;
+    case SQLITE_TEXT:
+      other.bind(text(column));
+      return;
+    case SQLITE_BLOB:
+      other.bind(
+          std::span(static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column)),
+                    static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column))));
+      return;
+    default:
+      other.bind_null();
+  }
+}
+
 void Statement::copy_blob(int column, std::span<std::uint8_t> out) const {
   const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column));
   if (sqlite3_column_bytes(handle_.get(), column) != static_cast<int>(out.size())) {
-    throw Failure("a column has another length than it should", false);
+    throw sql::Failure("a column has another length than it should", ErrorCode::kIo, kAdvice);
   }
   std::copy_n(bytes, out.size(), out.begin());
 }

@@ -19,7 +19,7 @@ struct Command {
 };
 
 extern const Command kBuild, kInfo, kDecode, kVerify, kMeasure, kPublish, kFetch, kCalibrate, kScan,
-    kReprocess, kMerge, kToken, kBackup, kRestore, kDoctor;
+    kReprocess, kMerge, kToken, kBackup, kRestore, kMigrate, kDoctor;
 
 // Runs a whole command line (without the program's name). Prints the fault, returns the exit code.
 int run(std::span<const std::string_view> words);

@@ -5,9 +5,11 @@
 
 #include "server/cli/command.h"
 #include "server/cli/console.h"
+#include "server/cli/place.h"
 #include "server/doctor/check_data.h"
 #include "server/doctor/check_machine.h"
 #include "server/doctor/check_server.h"
+#include "server/doctor/check_services.h"
 
 namespace vitrine::cli {
 namespace {
@@ -47,7 +49,12 @@ Outcome examine(const Arguments& arguments) {
   const auto add = [&](const Findings& more) {
     findings.insert(findings.end(), more.begin(), more.end());
   };
-  if (arguments.has("--data")) add(check_data(arguments.text("--data")));
+  if (arguments.has("--data")) {
+    const auto place = place_of(arguments.text("--data"));
+    if (!place) return failed(place.error());
+    const bool is_in_folder = place->store.empty() && place->catalogue.empty();
+    add(is_in_folder ? check_data(place->folder) : check_services(*place));
+  }
   if (arguments.has("--url")) add(check_server(arguments.text("--url"), arguments.text("--token")));
   const auto failures = std::ranges::count(findings, Verdict::kFail, &Finding::verdict);
   const Outcome shown =
@@ -60,7 +67,7 @@ Outcome examine(const Arguments& arguments) {
 constexpr Flag kDoctorFlags[] = {
     {"--url", "URL", "the address that visitors use"},
     {"--token", "T", "with --url: looks at the scanners, too; of the role viewer or more"},
-    {"--data", "DIR", "a data folder on this machine"},
+    {"--data", "DIR|FILE", "a data folder on this machine, or the configuration file of a daemon"},
     {"--json", "", "print one JSON object: ok, and checks with verdict, detail and advice"}};
 
 }  // namespace

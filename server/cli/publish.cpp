@@ -10,11 +10,11 @@
 #include "server/cli/console.h"
 #include "server/cli/input.h"
 #include "server/cli/isolation.h"
+#include "server/cli/place.h"
 #include "server/cli/reading.h"
 #include "server/cli/remote_vitrine.h"
 #include "server/jobs/build_model.h"
 #include "server/jobs/verify_model.h"
-#include "server/store/installation.h"
 
 namespace vitrine::cli {
 namespace {
@@ -108,16 +108,16 @@ Outcome publish_file(const Arguments& arguments) {
   const std::string path = arguments.operand(0);
   const auto file = open_input(arguments);
   if (!file) return tl::unexpected(file.error());
-  const std::filesystem::path data = arguments.text("--data");
-  if (const auto usable = check_installation(data); !usable) return failed(usable.error());
-  if (const auto there = check_data_folder(data); !there) return failed(there.error());
+  const auto place = place_of(arguments.text("--data"));
+  if (!place) return failed(place.error());
+  if (const auto usable = check_existing(*place); !usable) return failed(usable.error());
   const CompanionFiles companions(path, file->bytes());
   reading->beside = companions.contents();
-  const SpillOptions spill{.folder = data, .input = file->bytes()};
+  const SpillOptions spill{.folder = place->folder, .input = file->bytes()};
   const auto pmesh = make_pmesh(*file, path, *reading, spill);
   if (!pmesh) return tl::unexpected(pmesh.error());
 
-  const auto installation = open_installation(data);
+  const auto installation = open_installation(*place);
   if (!installation) return failed(installation.error());
   const std::string stem = std::filesystem::path(path).stem().string();
   const auto published = publish(*installation->store, *installation->catalogue, *pmesh,
@@ -134,7 +134,9 @@ Outcome publish_file(const Arguments& arguments) {
 }
 
 constexpr std::string_view kPublishOperands[] = {"IN"};
-constexpr Flag kPublishFlags[] = {{"--data", "DIR", "the daemon's data folder; it may be running"},
+constexpr Flag kPublishFlags[] = {{"--data", "DIR|FILE",
+                                   "the data folder of the daemon, which may run, or its "
+                                   "configuration file"},
                                   kUnitFlag,
                                   kUpFlag,
                                   {"--server", "URL", "or a server: its URL"},

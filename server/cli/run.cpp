@@ -11,9 +11,9 @@
 namespace vitrine::cli {
 namespace {
 
-constexpr std::array kCommands = {&kBuild,   &kInfo,  &kDecode,    &kVerify,  &kMeasure,
-                                  &kPublish, &kFetch, &kCalibrate, &kScan,    &kReprocess,
-                                  &kMerge,   &kToken, &kBackup,    &kRestore, &kDoctor};
+constexpr std::array kCommands = {
+    &kBuild, &kInfo,      &kDecode, &kVerify, &kMeasure, &kPublish, &kFetch,   &kCalibrate,
+    &kScan,  &kReprocess, &kMerge,  &kToken,  &kBackup,  &kRestore, &kMigrate, &kDoctor};
 
 std::string flag_usage(const Flag& flag) {
   return flag.value.empty() ? std::string(flag.name) : fmt::format("{} {}", flag.name, flag.value);

@@ -5,20 +5,13 @@
 #include "server/auth/role.h"
 #include "server/cli/command.h"
 #include "server/cli/console.h"
+#include "server/cli/place.h"
 #include "server/cli/remote_vitrine.h"
-#include "server/store/installation.h"
 
 namespace vitrine::cli {
 namespace {
 
 constexpr std::string_view kActions[] = {"create", "revoke"};
-
-// A mistyped name makes no new installation.
-Expected<Installation> open_existing(const std::string& data) {
-  if (const auto usable = check_installation(data); !usable) return tl::unexpected(usable.error());
-  if (const auto there = check_data_folder(data); !there) return tl::unexpected(there.error());
-  return open_installation(data);
-}
 
 // Of a server, or of a data folder.
 tl::expected<nlohmann::json, Fault> make_token(const Arguments& arguments, Role role) {
@@ -85,7 +78,8 @@ Outcome change_tokens(const Arguments& arguments) {
 
 constexpr std::string_view kOperands[] = {"create|revoke"};
 constexpr Flag kTokenFlags[] = {
-    {"--data", "DIR", "the daemon's data folder, or an empty one; it may be running"},
+    {"--data", "DIR|FILE",
+     "the data folder of the daemon, which may run, or its configuration file"},
     {"--role", "R", "create: viewer, operator or admin"},
     {"--label", "L", "create: whose token it is, for people"},
     {"--id", "ID", "revoke: the id that create has printed"},

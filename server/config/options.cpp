@@ -131,6 +131,34 @@ Expected<void> number(Settings& settings, std::string_view text) {
   return {};
 }
 
+// The message does not repeat the URL, which may hold a password.
+template <auto Member>
+Expected<void> url_of(Settings& settings, std::string_view text,
+                      std::initializer_list<std::string_view> schemes) {
+  const bool fits = std::ranges::any_of(
+      schemes, [text](std::string_view scheme) { return text.starts_with(scheme); });
+  if (!text.empty() && !fits) {
+    return fail(ErrorCode::kBadInput,
+                fmt::format("it does not begin with {}; correct the URL", *schemes.begin()));
+  }
+  settings.*Member = std::string(text);
+  return {};
+}
+
+Expected<void> store_url(Settings& settings, std::string_view text) {
+  return url_of<&Settings::store>(settings, text, {"s3://"});
+}
+
+Expected<void> catalogue_url(Settings& settings, std::string_view text) {
+  return url_of<&Settings::catalogue>(settings, text, {"postgresql://", "postgres://"});
+}
+
+template <auto Member>
+Expected<void> text_of(Settings& settings, std::string_view text) {
+  settings.*Member = std::string(text);
+  return {};
+}
+
 // An origin and, behind a proxy that adds one, a path; what a browser would show.
 Expected<void> public_url(Settings& settings, std::string_view text) {
   while (text.ends_with('/'))
@@ -168,6 +196,19 @@ constexpr std::array kOptions{
            false, trusted_proxies},
     Option{"data", kPath, "./data", "The folder of this installation: objects and catalogue.",
            false, data_folder},
+    Option{
+        "store", kUrl, "",
+        "A bucket that holds the objects: s3://BUCKET/PREFIX?endpoint=URL&region=R&style=path, or "
+        "style=virtual. Empty: in the data folder.",
+        false, store_url},
+    Option{"store-access-key", kText, "", "Who this daemon is for the object store.", false,
+           text_of<&S::store_access_key>},
+    Option{"store-secret-key", kText, "", "What proves it. Set it in the file or environment.",
+           true, text_of<&S::store_secret_key>},
+    Option{"catalogue", kUrl, "",
+           "A PostgreSQL database: postgresql://USER:PASSWORD@HOST/DATABASE, with what else libpq "
+           "knows. Set it in the file or environment. Empty: a file in the data folder.",
+           true, catalogue_url},
     Option{"port-file", kPath, "", "A file to write the port of 'listen' to once it is bound.",
            false, path<&S::port_file>},
     Option{"admin-listen", kEndpoint, "127.0.0.1:0",
@@ -282,6 +323,8 @@ std::string_view type_name(OptionType type) {
       return "ORIGIN,...";
     case kUrl:
       return "URL";
+    case kText:
+      return "TEXT";
     case kNames:
       return "NAME,...";
     case kNetworks:

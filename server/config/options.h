@@ -22,7 +22,8 @@ enum class OptionType {
   kOrigins,
   kNames,
   kNetworks,
-  kUrl
+  kUrl,
+  kText
 };
 
 struct Option {

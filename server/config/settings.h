@@ -25,6 +25,8 @@ struct Settings {
   Endpoint listen;
   Endpoint admin_listen;
   std::filesystem::path data;
+  std::string store, catalogue;  // URLs; empty: in the data folder
+  std::string store_access_key, store_secret_key;
   std::filesystem::path port_file;        // empty: none is written
   std::filesystem::path admin_port_file;  // empty: none is written
   std::filesystem::path access_log;       // "-": standard error; empty: none

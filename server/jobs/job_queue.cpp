@@ -318,6 +318,8 @@ Expected<JobStatus> JobQueue::cancel(const JobId& id) {
 
 Expected<std::optional<JobStatus>> JobQueue::find(const JobId& id) {
   if (const auto unfinished = run(id)) return unfinished->status();
+  store_again();
+  if (const auto waiting = unstored(id)) return JobStatus{*waiting, std::nullopt, {}};
   const auto stored = catalogue_.find_job(id);
   if (!stored) return Unexpected(stored.error());
   if (!*stored) return std::nullopt;
@@ -325,6 +327,7 @@ Expected<std::optional<JobStatus>> JobQueue::find(const JobId& id) {
 }
 
 Expected<std::vector<JobStatus>> JobQueue::list(const PageOf& page) {
+  store_again();
   const auto stored = catalogue_.jobs(page);
   if (!stored) return Unexpected(stored.error());
   std::vector<JobStatus> jobs;
@@ -388,8 +391,27 @@ void JobQueue::end(const Run& run, const Expected<JobEnd>& result) {
 }
 
 void JobQueue::store(const JobRecord& job) {
-  const auto stored = catalogue_.update(job);
-  if (!stored) events_.event(Severity::kError, stored.error().message);
+  {
+    const std::scoped_lock lock(storing_);
+    unstored_[job.id] = job;
+  }
+  store_again();
+}
+
+void JobQueue::store_again() {
+  const std::scoped_lock lock(storing_);
+  while (!unstored_.empty()) {
+    const auto stored = catalogue_.update(unstored_.begin()->second);
+    if (!stored) events_.event(Severity::kError, stored.error().message);
+    if (!stored && stored.error().code != ErrorCode::kState) return;
+    unstored_.erase(unstored_.begin());
+  }
+}
+
+std::optional<JobRecord> JobQueue::unstored(const JobId& id) {
+  const std::scoped_lock lock(storing_);
+  const auto found = unstored_.find(id);
+  return found == unstored_.end() ? std::nullopt : std::optional(found->second);
 }
 
 }  // namespace vitrine

@@ -163,7 +163,10 @@ class JobQueue {
 
   void work(const Run& run);
   void end(const Run& run, const Expected<JobEnd>& result);
+  // What the catalogue refuses, as it is away, is stored when somebody comes the next time.
   void store(const JobRecord& job);
+  void store_again();
+  std::optional<JobRecord> unstored(const JobId& id);
 
   JobCatalogue& catalogue_;
   const Log& events_;
@@ -174,6 +177,9 @@ class JobQueue {
   std::map<JobId, Run> runs_;  // the unfinished ones
   std::map<std::string, std::unique_ptr<Lane>> lanes_;
   bool stopping_ = false;
+
+  std::mutex storing_;  // guards what follows
+  std::map<JobId, JobRecord> unstored_;
 };
 
 }  // namespace vitrine

@@ -17,13 +17,24 @@ namespace {
 
 // Of one request, as the library's callbacks see it.
 struct Transfer {
+  CURL* curl;
   const RemoteRequest& request;
   RemoteAnswer& answer;
   std::size_t sent = 0;
 };
 
+bool is_success(CURL* curl) {
+  long status = 0;
+  curl_easy_getinfo(curl, CURLINFO_RESPONSE_CODE, &status);
+  return status / 100 == 2;
+}
+
 std::size_t take_body(char* bytes, std::size_t size, std::size_t count, void* to) {
-  auto& body = static_cast<Transfer*>(to)->answer.body;
+  const auto& transfer = *static_cast<Transfer*>(to);
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes);
+  if (transfer.request.take && is_success(transfer.curl))
+    return transfer.request.take({first, size * count}) ? size * count : 0;
+  auto& body = transfer.answer.body;
   const std::size_t fits = std::min(size * count, RemoteAnswer::kMost - body.size());
   body.append(bytes, fits);
   return size * count;
@@ -99,6 +110,13 @@ void set_body(CURL* curl, Transfer& transfer) {
   curl_easy_setopt(curl, CURLOPT_SEEKDATA, &transfer);
   curl_easy_setopt(curl, CURLOPT_INFILESIZE_LARGE,
                    static_cast<curl_off_t>(transfer.request.body.size()));
+}
+
+void sign(CURL* curl, const RemoteSigner& signer) {
+  const std::string what = fmt::format("aws:amz:{}:s3", signer.region);
+  curl_easy_setopt(curl, CURLOPT_AWS_SIGV4, what.c_str());
+  curl_easy_setopt(curl, CURLOPT_USERNAME, signer.access_key.c_str());
+  curl_easy_setopt(curl, CURLOPT_PASSWORD, signer.secret_key.c_str());
 }
 
 // "Expire date:Feb  3 12:00:00 2027 GMT", of the server's own certificate, which comes first.
@@ -200,11 +218,13 @@ Expected<RemoteAnswer> RemoteServer::ask(const RemoteRequest& request) {
   if (curl == nullptr) return fail(ErrorCode::kIo, "out of memory; try again");
   handle_->prepare(request);
   RemoteAnswer answer;
-  Transfer transfer{request, answer};
+  Transfer transfer{curl, request, answer};
   std::vector<std::string> lines = request.fields;
-  lines.emplace_back("Expect:");  // what is sent is wanted
+  // What is sent is wanted. A field without a value would be signed and not sent.
+  if (request.signer == nullptr) lines.emplace_back("Expect:");
   const List fields = list_of(lines);
   set_body(curl, transfer);
+  if (request.signer != nullptr) sign(curl, *request.signer);
   curl_easy_setopt(curl, CURLOPT_URL, request.url.c_str());
   curl_easy_setopt(curl, CURLOPT_CUSTOMREQUEST, request.method.c_str());
   if (request.method == "HEAD") curl_easy_setopt(curl, CURLOPT_NOBODY, 1L);

@@ -17,6 +17,12 @@
 
 namespace vitrine {
 
+// By whom a request is, as S3 wants it (AWS signature, version 4). One of the request's fields is
+// x-amz-content-sha256, and its query is encoded and sorted by name.
+struct RemoteSigner {
+  std::string region, access_key, secret_key;
+};
+
 struct RemoteRequest {
   std::string method = "GET";
   std::string url;
@@ -26,6 +32,9 @@ struct RemoteRequest {
   std::chrono::seconds patience{30};                // for a connection, and for each byte to follow
   std::chrono::seconds deadline{0};                 // for all of it; 0: none
   std::function<bool()> given_up = {};              // asked about once a second: true ends it
+  const RemoteSigner* signer = nullptr;             // null: the request is not signed
+  // Gets the body of an answer 2xx, which RemoteAnswer does not hold then; false ends it.
+  std::function<bool(std::span<const std::uint8_t>)> take = {};
 };
 
 struct RemoteAnswer {

@@ -13,6 +13,7 @@
 #include "codec/files/atomic_file.h"
 #include "codec/files/file_descriptor.h"
 #include "server/store/file_lock.h"
+#include "server/store/file_object.h"
 
 namespace vitrine {
 namespace {
@@ -23,32 +24,6 @@ Unexpected refused(const char* what, const fs::path& path, const char* why) {
   return fail(ErrorCode::kIo,
               fmt::format("cannot {} {}: {}; check the data folder", what, path.string(), why));
 }
-
-class FileObject final : public Object {
- public:
-  FileObject(FileDescriptor fd, std::uint64_t size) : fd_(std::move(fd)), size_(size) {}
-
-  std::uint64_t size() const override { return size_; }
-  std::optional<int> descriptor() const override { return fd_.get(); }
-
-  Expected<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const override {
-    if (offset > size_ || out.size() > size_ - offset) {
-      return fail(ErrorCode::kIo, "read beyond the end of an object; check the data folder");
-    }
-    while (!out.empty()) {
-      const ssize_t n = ::pread(fd_.get(), out.data(), out.size(), static_cast<off_t>(offset));
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return refused("read", "an object", n < 0 ? std::strerror(errno) : "cut short");
-      offset += static_cast<std::uint64_t>(n);
-      out = out.subspan(static_cast<std::size_t>(n));
-    }
-    return {};
-  }
-
- private:
-  FileDescriptor fd_;
-  std::uint64_t size_;
-};
 
 // Where a disk does not give them back they are not there.
 bool holds(const Object& object, std::span<const std::uint8_t> bytes) {
@@ -86,15 +61,6 @@ bool is_unnamed(const fs::path& path, const std::set<Sha256>& keep, std::chrono:
 
 }  // namespace
 
-Expected<std::vector<std::uint8_t>> Object::read(std::uint64_t offset, std::uint64_t length) const {
-  if (offset > size() || length > size() - offset) {
-    return fail(ErrorCode::kIo, "read beyond the end of an object; check the data folder");
-  }
-  std::vector<std::uint8_t> bytes(length);
-  if (auto done = read(offset, std::span(bytes)); !done) return tl::unexpected(done.error());
-  return bytes;
-}
-
 Expected<FileStore> FileStore::open(const fs::path& root) {
   std::error_code error;
   fs::create_directories(root, error);
@@ -131,12 +97,17 @@ Expected<bool> FileStore::put(const Sha256& name, std::span<const std::uint8_t> 
 }
 
 Expected<std::shared_ptr<const void>> FileStore::lock() {
-  auto folder =
-      std::make_shared<FileDescriptor>(::open(root_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!*folder || !lock_file(folder->get())) {
-    return refused("lock", root_, std::strerror(errno));
-  }
+  auto folder = lock_folder(root_);
+  if (!folder) return refused("lock", root_, std::strerror(errno));
   return folder;
+}
+
+Expected<std::optional<std::uint64_t>> FileStore::size_of(const Sha256& name) const {
+  const fs::path path = path_of(name);
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) return static_cast<std::uint64_t>(status.st_size);
+  if (errno == ENOENT) return std::nullopt;
+  return refused("look at", path, std::strerror(errno));
 }
 
 Expected<void> FileStore::remove(const Sha256& name) {
@@ -176,7 +147,7 @@ Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
   if (!fd && errno == ENOENT) return nullptr;
   struct stat status {};
   if (!fd || ::fstat(fd.get(), &status) != 0) return refused("open", path, std::strerror(errno));
-  return std::make_unique<FileObject>(std::move(fd), static_cast<std::uint64_t>(status.st_size));
+  return object_in(std::move(fd), static_cast<std::uint64_t>(status.st_size));
 }
 
 }  // namespace vitrine

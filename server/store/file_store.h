@@ -19,6 +19,7 @@ class FileStore final : public ObjectStore {
   Expected<void> begin_grace(const Sha256& name) override;
   Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) override;
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
+  Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override;
 
  private:
   explicit FileStore(std::filesystem::path root) : root_(std::move(root)) {}

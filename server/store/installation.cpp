@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store/installation.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <string_view>
 
 #include "codec/files/atomic_file.h"
-#include "server/catalogue/sqlite_catalogue.h"
-#include "server/catalogue/sqlite_jobs.h"
+#include "server/catalogue/postgres_catalogue.h"
+#include "server/catalogue/sql_catalogue.h"
+#include "server/catalogue/sql_jobs.h"
+#include "server/catalogue/sqlite_database.h"
+#include "server/store/file_lock.h"
 #include "server/store/file_store.h"
+#include "server/store/s3_store.h"
 
 namespace vitrine {
 namespace {
@@ -22,6 +30,53 @@ constexpr const char* kNextStep = "give the folder of an installation, or start 
 bool may_come_first(std::string_view name) {
   constexpr std::array<std::string_view, 3> kNames{"objects", "demo", "lost+found"};
   return std::ranges::count(kNames, name) > 0;
+}
+
+Expected<void> make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return {};
+  return fail(ErrorCode::kIo, fmt::format("cannot create {}: {}; {}", folder.string(),
+                                          error.message(), next_step(error.value())));
+}
+
+struct OpenCatalogue {
+  std::shared_ptr<sql::Database> database, jobs;  // SQLite: connections of their own
+  TakeLock lock;                                  // of all who use it
+};
+
+Expected<OpenCatalogue> open_in_folder(const fs::path& folder) {
+  auto database = sqlite::open_database(folder / kCatalogueFile);
+  if (!database) return tl::unexpected(database.error());
+  auto jobs = sqlite::open_database(folder / kCatalogueFile);
+  if (!jobs) return tl::unexpected(jobs.error());
+  return OpenCatalogue{
+      std::move(*database), std::move(*jobs), [folder]() -> Expected<std::shared_ptr<const void>> {
+        if (auto lock = lock_folder(folder)) return lock;
+        return fail(ErrorCode::kIo, fmt::format("cannot lock {}: {}; check it", folder.string(),
+                                                std::strerror(errno)));
+      }};
+}
+
+Expected<OpenCatalogue> open_catalogue(const InstallationPlace& place) {
+  if (place.catalogue.empty()) return open_in_folder(place.folder);
+  auto database = postgres::open_database(place.catalogue);
+  if (!database) return tl::unexpected(database.error());
+  return OpenCatalogue{database->database, database->database, database->lock};
+}
+
+Expected<std::unique_ptr<ObjectStore>> open_store(const InstallationPlace& place, TakeLock lock) {
+  if (place.store.empty()) {
+    auto files = FileStore::open(place.folder / "objects");
+    if (!files) return tl::unexpected(files.error());
+    return std::make_unique<FileStore>(std::move(*files));
+  }
+  auto address = S3Address::parse(place.store);
+  if (!address) return tl::unexpected(address.error());
+  return S3Store::open({.address = std::move(*address),
+                        .keys = {place.access_key, place.secret_key},
+                        .copies = place.folder,
+                        .lock = std::move(lock)});
 }
 
 }  // namespace
@@ -48,16 +103,22 @@ Expected<void> check_data_folder(const fs::path& folder) {
                                   error.message() + "; " + kNextStep + "this one once");
 }
 
-Expected<Installation> open_installation(const fs::path& folder) {
-  if (auto usable = check_installation(folder); !usable) return tl::unexpected(usable.error());
-  auto store = FileStore::open(folder / "objects");
-  if (!store) return tl::unexpected(store.error());
-  auto catalogue = open_sqlite_catalogue(folder / kCatalogueFile);
+Expected<void> check_place(const InstallationPlace& place) {
+  if (place.store.empty()) return {};
+  const auto address = S3Address::parse(place.store);
+  return address ? Expected<void>() : tl::unexpected(address.error());
+}
+
+Expected<Installation> open_installation(const InstallationPlace& place) {
+  if (auto usable = check_installation(place.folder); !usable)
+    return tl::unexpected(usable.error());
+  if (auto made = make_folder(place.folder); !made) return tl::unexpected(made.error());
+  auto catalogue = open_catalogue(place);
   if (!catalogue) return tl::unexpected(catalogue.error());
-  auto jobs = open_sqlite_jobs(folder / kCatalogueFile);
-  if (!jobs) return tl::unexpected(jobs.error());
-  return Installation{std::make_unique<FileStore>(std::move(*store)), std::move(*catalogue),
-                      std::move(*jobs)};
+  auto store = open_store(place, catalogue->lock);
+  if (!store) return tl::unexpected(store.error());
+  return Installation{place, std::move(*store), make_catalogue(catalogue->database),
+                      make_jobs(catalogue->jobs), catalogue->database};
 }
 
 }  // namespace vitrine

@@ -27,7 +27,7 @@ class Object {
   // Fills `out` from `offset`. Fails (kIo) unless offset + out.size() <= size().
   virtual Expected<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const = 0;
 
-  // A descriptor for sendfile(2), owned by the object; nothing where the object is remote. Its
+  // A descriptor for sendfile(2), owned by the object; nothing where the object is in no file. Its
   // file position is shared: give sendfile an explicit offset.
   virtual std::optional<int> descriptor() const { return std::nullopt; }
 
@@ -61,8 +61,12 @@ class ObjectStore {
   // with the lock held. Fails (kIo) where the disk refuses; then some are gone and some are not.
   virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) = 0;
 
-  // Null where there is no such object.
+  // Null where there is no such object. Of a remote store it is fetched: its bytes are those of its
+  // name.
   virtual Expected<std::unique_ptr<Object>> open(const Sha256& name) const = 0;
+
+  // Without opening it; nothing where there is no such object.
+  virtual Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const = 0;
 };
 
 }  // namespace vitrine

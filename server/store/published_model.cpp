@@ -13,7 +13,9 @@
 namespace vitrine {
 namespace {
 
-constexpr std::size_t kMaxOpenModels = 256;  // each holds a descriptor
+constexpr std::size_t kMaxOpenModels = 256;      // each holds a descriptor
+constexpr std::chrono::minutes kGoOnFor{15};     // without the catalogue
+constexpr std::chrono::milliseconds kSoon{250};  // within which it answers unless it is away
 
 Unexpected damaged(const ModelRecord& record, std::string_view why) {
   return fail(ErrorCode::kState, fmt::format("model {} cannot be served: {}; publish it again",
@@ -105,8 +107,31 @@ void PublishedModels::count_hit(const PublishedModel& model, Clock::time_point n
   hits.fetch_add(1, std::memory_order_relaxed);
 }
 
+bool PublishedModels::may_go_on(Clock::time_point now) const {
+  return known_ != Clock::time_point{} && now - known_ < kGoOnFor;
+}
+
+// While one waits for a catalogue that is away, the others go on.
 Expected<void> PublishedModels::forget_if_changed() {
   const auto now = Clock::now();
+  {
+    const Clock::time_point asking(Clock::duration(asking_.load()));
+    const std::shared_lock lock(mutex_);
+    if (asking != Clock::time_point{} && now - asking > kSoon && may_go_on(now)) return {};
+  }
+  Clock::rep nobody = 0;
+  const bool is_first = asking_.compare_exchange_strong(nobody, now.time_since_epoch().count());
+  auto asked = ask_for_changes(now);
+  if (is_first) asking_ = 0;
+  if (asked) return asked;
+  const std::unique_lock lock(mutex_);
+  if (!may_go_on(now)) return asked;
+  checked_ = Clock::now();
+  due_ = (checked_ + staleness_ / 2).time_since_epoch().count();
+  return {};
+}
+
+Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   std::uint64_t refreshed = 0, before = 0;
   std::vector<Model> held;
   {
@@ -126,7 +151,7 @@ Expected<void> PublishedModels::forget_if_changed() {
   if (!kept) return tl::unexpected(kept.error());
   const std::unique_lock lock(mutex_);
   if (refreshed == refreshed_) {
-    checked_ = now;
+    checked_ = known_ = now;
     due_ = (now + staleness_ / 2).time_since_epoch().count();
   }
   if (*revision == revision_) return {};
@@ -271,7 +296,7 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_whole(cons
 void PublishedModels::refresh() {
   const std::unique_lock lock(mutex_);
   ++refreshed_;
-  checked_ = {};
+  checked_ = known_ = {};
 }
 
 std::shared_ptr<const PublishedModel> PublishedModels::held(const ModelId& id) {

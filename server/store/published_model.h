@@ -71,7 +71,8 @@ struct PublishedChunk {
 // The published models of an installation, opened on first use, by one for all who ask, and kept:
 // their manifests, and what has been told of those, in `max_bytes` of memory, the least recently
 // asked for dropped first. Thread-safe. What another process publishes is found at once; what it
-// changes or hides is noticed within `staleness`, and all else is kept.
+// changes or hides is noticed within `staleness`, and all else is kept. While the catalogue is
+// away, what is held is shown on for a quarter of an hour: nobody changes it there.
 class PublishedModels {
  public:
   PublishedModels(const ObjectStore& store, Catalogue& catalogue,
@@ -135,7 +136,9 @@ class PublishedModels {
   bool is_fresh(Clock::time_point now, Clock::duration age) const;  // with the lock held
   bool may_show(Clock::time_point now);                             // likewise
   void count_hit(const PublishedModel& model, Clock::time_point now);
+  bool may_go_on(Clock::time_point now) const;  // likewise
   Expected<void> forget_if_changed();
+  Expected<void> ask_for_changes(Clock::time_point now);
   Expected<std::vector<const PublishedModel*>> unchanged(const std::vector<Model>& models);
   Expected<Model> load(const ModelId& id);
   Expected<Model> open(const ModelId& id);
@@ -151,8 +154,10 @@ class PublishedModels {
   std::shared_mutex mutex_;  // guards what follows
   std::uint64_t revision_ = 0;
   Clock::time_point checked_{};
-  std::atomic<Clock::rep> due_{0};  // when somebody is to ask the catalogue again
-  std::uint64_t refreshed_ = 0;     // how often: what was read before is no news
+  Clock::time_point known_{};          // when the catalogue last told; {}: not since a refresh()
+  std::atomic<Clock::rep> due_{0};     // when somebody is to ask the catalogue again
+  std::atomic<Clock::rep> asking_{0};  // since when somebody asks it; 0: nobody does
+  std::uint64_t refreshed_ = 0;        // how often: what was read before is no news
   std::uint64_t max_bytes_;
   std::uint64_t bytes_ = 0;
   HeldModels models_;

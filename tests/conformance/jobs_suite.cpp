@@ -85,6 +85,15 @@ TEST_F(JobsSuite, an_update_writes_over_the_whole_record) {
   EXPECT_EQ(jobs_->find_scan(id_of(100)).value(), grown);
 }
 
+TEST_F(JobsSuite, words_that_are_no_utf8_are_kept_as_far_as_they_can_be) {
+  JobRecord odd = job(1);
+  odd.error = std::string("before \xff\xc3 after\0", 15);
+  add(odd);
+  const std::string kept = jobs_->find_job(odd.id).value()->error;
+  EXPECT_TRUE(kept.starts_with("before ")) << kept;
+  EXPECT_NE(kept.find(" after"), std::string::npos) << kept;
+}
+
 TEST_F(JobsSuite, what_is_not_there_cannot_be_updated) {
   EXPECT_EQ(jobs_->update(job(1)).error().code, ErrorCode::kState);
   EXPECT_EQ(jobs_->update(scan(100, 1)).error().code, ErrorCode::kState);

@@ -69,6 +69,13 @@ TEST_F(ObjectStoreSuite, an_absent_object_is_not_an_error) {
   EXPECT_EQ(*object, nullptr);
 }
 
+TEST_F(ObjectStoreSuite, the_size_is_known_without_opening) {
+  const Bytes bytes = some_bytes(12'345, 4);
+  EXPECT_EQ(store_->size_of(sha256(bytes)).value(), std::nullopt);
+  put(bytes);
+  EXPECT_EQ(store_->size_of(sha256(bytes)).value(), bytes.size());
+}
+
 TEST_F(ObjectStoreSuite, bytes_under_a_wrong_name_are_refused_and_not_stored) {
   const Bytes bytes = some_bytes(10, 5), others = some_bytes(10, 6);
   const auto result = store_->put(sha256(others), bytes);
@@ -128,6 +135,20 @@ TEST_F(ObjectStoreSuite, a_sweep_takes_what_is_not_named_once_its_grace_is_over)
   EXPECT_TRUE(open(named));
   EXPECT_EQ(reading->read(0, 2'000).value(), other);  // who reads it reads on
   EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0)).value(), 0u);
+}
+
+TEST_F(ObjectStoreSuite, a_grace_that_begins_anew_outlives_that_of_the_same_age) {
+  const Bytes renewed = some_bytes(1'000, 1), other = some_bytes(1'000, 2);
+  put(renewed);
+  put(other);
+  const auto lock = store_->lock();
+  for (std::size_t swept = 0; swept == 0;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ASSERT_TRUE(store_->begin_grace(sha256(renewed)));
+    swept = store_->sweep({}, std::chrono::seconds(2)).value();
+  }
+  EXPECT_TRUE(open(renewed));
+  EXPECT_EQ(open(other), nullptr);
 }
 
 TEST_F(ObjectStoreSuite, the_grace_of_what_is_not_there_is_no_fault) {

@@ -145,7 +145,7 @@ def rooms(root):
 def normal(name):
     """Library names as the table spells them."""
     return {"Threads::Threads": "threads", "nlohmann_json::nlohmann_json": "nlohmann-json", "OpenMeshCore": "OpenMesh",
-            "OpenMeshTools": "OpenMesh", "SQLite::SQLite3": "SQLite", "${VITRINE_SECCOMP}": "seccomp",
+            "OpenMeshTools": "OpenMesh", "SQLite::SQLite3": "SQLite", "PostgreSQL::PostgreSQL": "PostgreSQL", "pugixml::pugixml": "pugixml", "${VITRINE_SECCOMP}": "seccomp",
             "${VITRINE_TURBOJPEG}": "TurboJPEG", "PkgConfig::aravis": "Aravis", "PkgConfig::libusb": "libusb",
             "PkgConfig::umockdev": "umockdev"}.get(name, name)
 

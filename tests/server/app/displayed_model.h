@@ -42,7 +42,7 @@ class DisplayedModel {
 
  private:
   static std::string publish_in(const std::filesystem::path& data, const ModelMetadata& metadata) {
-    Installation installation = open_installation(data).value();
+    Installation installation = open_installation({.folder = data}).value();
     const auto published =
         publish(*installation.store, *installation.catalogue, built_model().file, metadata);
     if (!published) throw std::runtime_error(published.error().message);

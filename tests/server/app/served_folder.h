@@ -25,7 +25,7 @@ inline const TinyPmesh& served_pmesh() {
 
 class ServedFolder {
  public:
-  ServedFolder() : installation_(open_installation(folder_.path()).value()) {}
+  ServedFolder() : installation_(open_installation({.folder = folder_.path()}).value()) {}
 
   const std::filesystem::path& path() const { return folder_.path(); }
 

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 TEST(WebhooksOfADaemon, WhatAnotherHasNotToldIsToldAtTheStart) {
   const TemporaryFolder folder;
-  const Installation installation = open_installation(folder.path()).value();
+  const Installation installation = open_installation({.folder = folder.path()}).value();
   WebhookListener listener;
   const JobRecord ended{.id = JobId::generate(),
                         .kind = JobKind::kPublish,

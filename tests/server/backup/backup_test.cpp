@@ -71,7 +71,7 @@ class BackupTest : public ::testing::Test {
 
   const TemporaryFolder folder;
   const fs::path data = path("data"), tar = path("backup.tar");
-  Installation installation = open_installation(data).value();
+  Installation installation = open_installation({.folder = data}).value();
 };
 
 TEST_F(BackupTest, WhatIsRestoredIsWhatThereWas) {
@@ -90,7 +90,7 @@ TEST_F(BackupTest, WhatIsRestoredIsWhatThereWas) {
   ASSERT_TRUE(restored) << restored.error().message;
   EXPECT_EQ(restored->models, 3u);
   EXPECT_EQ(restored->bytes, report->bytes);
-  Installation again = open_installation(path("again")).value();
+  Installation again = open_installation({.folder = path("again")}).value();
   const auto bytes_of = [](const Installation& in, const ModelRecord& model) {
     return in.store->open(model.file).value()->read(0, model.file_bytes).value();
   };

@@ -14,7 +14,7 @@ TEST_F(VitrineCommand, BacksUpAnInstallationAndRestoresIt) {
   EXPECT_EQ(saved["models"], 1);
   const auto restored = vitrine_json({"restore", path("backup.tar"), "--data", path("again")});
   EXPECT_EQ(restored, saved);
-  const auto catalogue = open_installation(path("again")).value();
+  const auto catalogue = open_installation({.folder = path("again")}).value();
   EXPECT_TRUE(catalogue.catalogue->find(*ModelId::parse(id)).value());
 }
 

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 TEST_F(VitrineCommand, what_is_published_is_served_by_an_installation_that_is_open_already) {
   const std::string data = path("data");
-  const auto installation = open_installation(data).value();
+  const auto installation = open_installation({.folder = data}).value();
   PublishedModels models(*installation.store, *installation.catalogue);
   const std::string in = write("Bust of a girl.ply", bumpy_ply(2'000));
   const nlohmann::json report = vitrine_json({"publish", in, "--data", data});
@@ -35,7 +35,7 @@ TEST_F(VitrineCommand, a_pmesh_is_published_as_it_is) {
   const std::string file = model(800);
   const nlohmann::json report =
       vitrine_json({"publish", file, "--data", empty_folder("data"), "--title", "Torus"});
-  const auto installation = open_installation(path("data")).value();
+  const auto installation = open_installation({.folder = path("data")}).value();
   PublishedModels models(*installation.store, *installation.catalogue);
   const auto found = models.find(*ModelId::parse(report["id"].get<std::string>())).value();
   ASSERT_TRUE(found);

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 // What a daemon on the data folder would find.
 std::optional<Caller> find(const std::string& data, const std::string& token) {
-  const auto installation = open_installation(data).value();
+  const auto installation = open_installation({.folder = data}).value();
   return Authenticator(*installation.catalogue).find(token).value();
 }
 

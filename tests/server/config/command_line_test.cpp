@@ -140,6 +140,19 @@ TEST(CommandLine, ThePrintedConfigurationGivesTheSameSettingsWhenRead) {
   EXPECT_EQ(again->settings.data, "a b");
 }
 
+TEST(CommandLine, SecretsAreNotPrintedNorRepeatedInFaults) {
+  const auto line = parse({"--store", "s3://models", "--store-secret-key", "hush"},
+                          {"VITRINE_CATALOGUE=postgresql://museum:hush@db/vitrine"});
+  ASSERT_TRUE(line) << line.error().message;
+  EXPECT_EQ(line->settings.catalogue, "postgresql://museum:hush@db/vitrine");
+  EXPECT_THAT(print_config(*line), HasSubstr("s3://models"));
+  EXPECT_THAT(print_config(*line), testing::Not(HasSubstr("hush")));
+  const auto fault = parse({"--catalogue", "mysql://museum:hush@db/vitrine"});
+  ASSERT_FALSE(fault);
+  EXPECT_EQ(fault.error().message,
+            "--catalogue: it does not begin with postgresql://; correct the URL");
+}
+
 TEST(CommandLine, TheReferenceNamesEveryOption) {
   const std::string text = reference();
   for (const Option& option : options()) {

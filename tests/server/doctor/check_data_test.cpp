@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 TEST(CheckData, MissesWhatIsPublicOfAModelToo) {
   const test::TemporaryFolder folder;
-  const Installation in = open_installation(folder.path()).value();
+  const Installation in = open_installation({.folder = folder.path()}).value();
   const auto file = test::tiny_pmesh("base", "chunk").bytes;
   ModelRecord model;
   for (const char* title : {"whole", "capped"}) {

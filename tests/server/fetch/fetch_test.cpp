@@ -45,7 +45,7 @@ std::vector<std::uint8_t> file_at(const fs::path& path) {
 class FetchTest : public ::testing::Test {
  protected:
   FetchTest() {
-    const auto installation = open_installation(data.path()).value();
+    const auto installation = open_installation({.folder = data.path()}).value();
     id = publish(*installation.store, *installation.catalogue, sheet(), {.title = "A sheet"})
              .value()
              .id.to_string();

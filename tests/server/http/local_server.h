@@ -77,7 +77,7 @@ class LocalServer {
   static constexpr WebAsset kPages[] = {{"/model.html", "text/html; charset=utf-8", {}}};
 
   TemporaryFolder folder_;
-  Installation installation_ = open_installation(folder_.path()).value();
+  Installation installation_ = open_installation({.folder = folder_.path()}).value();
   Log log_ = Log::open("").value();
   Uploads uploads_{folder_.path() / "uploads", {.bytes = 1 << 20, .per_token = 3}};
   Quota quota_{*installation_.catalogue, uploads_, 3 << 20};

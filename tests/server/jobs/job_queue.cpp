@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 
+#include "server/catalogue/sqlite_database.h"
 #include "server/catalogue/sqlite_jobs.h"
 #include "support/temporary_folder.h"
 
@@ -101,6 +102,24 @@ TEST_F(Jobs, a_job_runs_and_what_it_tells_is_seen_and_kept) {
   EXPECT_EQ(ended.record.progress, 1);
   EXPECT_GT(ended.record.ended, 0);
   EXPECT_EQ(ended.eta, std::nullopt);
+}
+
+TEST_F(Jobs,
+       an_end_that_the_catalogue_refuses_is_seen_all_the_same_and_kept_as_soon_as_it_answers) {
+  const auto database = sqlite::open_database(folder_.path() / "catalogue.sqlite").value();
+  const auto queue = gated();
+  const JobRecord job = job_for("a");
+  ASSERT_TRUE(queue->add(job, {}, {}));
+  gate_.await_beginning();
+  database->lease()->run(
+      "CREATE TRIGGER away BEFORE UPDATE ON job BEGIN SELECT RAISE(ABORT, 'away'); END");
+  gate_.open();
+  settle(*queue);
+  EXPECT_EQ(stored(job), JobState::kRunning);
+  EXPECT_EQ((*queue->find(job.id))->record.state, JobState::kDone);
+  database->lease()->run("DROP TRIGGER away");
+  EXPECT_EQ((*queue->find(job.id))->record.state, JobState::kDone);
+  EXPECT_EQ(stored(job), JobState::kDone);
 }
 
 TEST_F(Jobs, a_scanner_takes_one_job_at_a_time_and_another_scanner_is_free) {

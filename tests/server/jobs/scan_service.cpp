@@ -58,7 +58,7 @@ class Scans : public testing::Test {
       .scanner = "rig", .request = {.steps = 12}, .metadata = {.title = "A ring"}};
   FakeScanner world_;
   test::TemporaryFolder folder_;
-  Installation installation_ = open_installation(folder_.path()).value();
+  Installation installation_ = open_installation({.folder = folder_.path()}).value();
   const Log events_ = Log::open("").value();
   const Uploads uploads_{folder_.path() / "uploads", {}};
   std::unique_ptr<Quota> quota_;

@@ -14,6 +14,7 @@
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
+#include "support/catalogue_before.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
 
@@ -44,59 +45,20 @@ class Publish : public testing::Test {
   std::size_t model_count() { return catalogue_->search({.drafts = true}).value().models.size(); }
 };
 
-// Hands all on: for catalogues that differ in one thing.
-class CatalogueBefore : public Catalogue {
- public:
-  explicit CatalogueBefore(Catalogue& before) : before_(before) {}
-
-  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
-    return before_.add(model, chunks);
-  }
-  Expected<void> set_state(const ModelId& id, ModelState state) override {
-    return before_.set_state(id, state);
-  }
-  Expected<void> update(const ModelRecord& model,
-                        std::optional<std::span<const ChunkPlace>> chunks) override {
-    return before_.update(model, chunks);
-  }
-  Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) override {
-    return before_.remove(id, version);
-  }
-  Expected<std::vector<NamedFile>> files() override { return before_.files(); }
-  Expected<std::vector<TokenRecord>> tokens() override { return before_.tokens(); }
-  Expected<std::optional<ModelRecord>> find(const ModelId& id) override { return before_.find(id); }
-  Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) override {
-    return before_.find_same(model);
-  }
-  Expected<ModelPage> search(const ModelQuery& query) override { return before_.search(query); }
-  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
-    return before_.find_chunk(chunk);
-  }
-  Expected<void> add_token(const TokenRecord& token) override { return before_.add_token(token); }
-  Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
-    return before_.tokens_like(hash);
-  }
-  Expected<void> revoke_token(const ModelId& id) override { return before_.revoke_token(id); }
-  Expected<std::uint64_t> revision() override { return before_.revision(); }
-
- protected:
-  Catalogue& before_;
-};
-
 // As on a disk that is full by then.
-class FullCatalogue final : public CatalogueBefore {
+class FullCatalogue final : public test::CatalogueBefore {
  public:
-  using CatalogueBefore::CatalogueBefore;
+  using test::CatalogueBefore::CatalogueBefore;
   Expected<void> add(const ModelRecord&, std::span<const ChunkPlace>) override {
     return fail(ErrorCode::kIo, "the disk is full; free some space");
   }
 };
 
 // Somebody is always faster: as soon as a chunk was found, its model changes.
-class HastyCatalogue final : public CatalogueBefore {
+class HastyCatalogue final : public test::CatalogueBefore {
  public:
   HastyCatalogue(Catalogue& before, std::function<void()> change)
-      : CatalogueBefore(before), change_(std::move(change)) {}
+      : test::CatalogueBefore(before), change_(std::move(change)) {}
   Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
     auto found = before_.find_chunk(chunk);
     change_();
@@ -246,8 +208,8 @@ TEST_F(Publish, text_that_is_not_utf8_or_is_endless_is_refused) {
 }
 
 TEST_F(Publish, two_openings_of_a_data_folder_share_their_models) {
-  const auto first = open_installation(folder_.path() / "data").value();
-  const auto second = open_installation(folder_.path() / "data").value();
+  const auto first = open_installation({.folder = folder_.path() / "data"}).value();
+  const auto second = open_installation({.folder = folder_.path() / "data"}).value();
   const ModelId id = publish(*first.store, *first.catalogue, file_.bytes, {}).value().id;
   PublishedModels models(*second.store, *second.catalogue);
   EXPECT_TRUE(models.find(id).value());

@@ -10,6 +10,7 @@
 #include "server/store/file_store.h"
 #include "server/store/publish.h"
 #include "server/store/published_model.h"
+#include "support/catalogue_before.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
 
@@ -34,6 +35,9 @@ class WatchedStore final : public ObjectStore {
     ++opened;
     before_opening();
     return store_.open(name);
+  }
+  Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override {
+    return store_.size_of(name);
   }
 
   mutable std::atomic<int> opened{0};
@@ -160,6 +164,42 @@ TEST_F(PublishedModelsTest, the_catalogue_is_asked_elsewhere_while_visitors_are_
   lazy.held_chunk(name_of("one"));
   EXPECT_EQ(tasks.size(), 1u) << "once for all";
   tasks.front()();
+}
+
+// Is away when it is told so.
+class DistantCatalogue final : public test::CatalogueBefore {
+ public:
+  using CatalogueBefore::CatalogueBefore;
+  Expected<std::uint64_t> revision() override {
+    if (is_away) return fail(ErrorCode::kIo, "the catalogue is away; wait for it");
+    return before_.revision();
+  }
+
+  std::atomic<bool> is_away{false};
+};
+
+TEST_F(PublishedModelsTest, while_the_catalogue_is_away_what_is_held_is_shown_on) {
+  DistantCatalogue distant(*catalogue_);
+  PublishedModels models(store_, distant, std::chrono::milliseconds(0));
+  const ModelId held = add("held"), other = add("other");
+  ASSERT_TRUE(models.find(held).value());
+  distant.is_away = true;
+  EXPECT_TRUE(models.find(held).value());
+  EXPECT_TRUE(models.find_chunk(name_of("held")).value().model);
+  EXPECT_FALSE(models.find(other));
+  distant.is_away = false;
+  EXPECT_TRUE(models.find(other).value());
+}
+
+TEST_F(PublishedModelsTest, what_was_hidden_here_is_not_shown_while_the_catalogue_is_away) {
+  DistantCatalogue distant(*catalogue_);
+  PublishedModels models(store_, distant, std::chrono::milliseconds(0));
+  const ModelId id = add("one");
+  ASSERT_TRUE(models.find(id).value());
+  ASSERT_TRUE(catalogue_->set_state(id, ModelState::kDraft));
+  models.refresh();
+  distant.is_away = true;
+  EXPECT_FALSE(models.find(id));
 }
 
 }  // namespace

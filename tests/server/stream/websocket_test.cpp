@@ -90,7 +90,7 @@ class WebsocketTest : public ::testing::TestWithParam<bool> {
   }
 
   const TemporaryFolder folder;
-  const Installation installation = open_installation(folder.path()).value();
+  const Installation installation = open_installation({.folder = folder.path()}).value();
   const StreamedModel model = [this] {
     const TinyPmesh pmesh = tiny_pmesh("a base mesh", "a chunk");
     const auto id = publish(*installation.store, *installation.catalogue, pmesh.bytes, {}).value();

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/catalogue/migrations.h"
+#include "server/catalogue/sqlite_database.h"
 
 #include <fmt/core.h>
 
-#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include "server/catalogue/sqlite.h"
 
 namespace vitrine::sqlite {
 namespace {
 
-// Migration i leads from schema version i to i + 1. Never edit one that has been released.
 constexpr const char* kMigrations[] = {
     R"sql(
 CREATE TABLE model (
@@ -71,48 +73,67 @@ ALTER TABLE job ADD COLUMN told INTEGER NOT NULL DEFAULT 0;
 UPDATE job SET told = 1 WHERE state >= 3;
 )sql",
 };
-constexpr std::int64_t kSchemaVersion = std::size(kMigrations);
 
-// Returns the version found where that is newer than ours, else ours.
-std::int64_t migrate(Database& database) {
-  Transaction transaction(database);
-  database.run(
-      "CREATE TABLE IF NOT EXISTS migration (version INTEGER PRIMARY KEY, "
-      "applied TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP)");
-  Statement newest(database, "SELECT coalesce(max(version), 0) FROM migration");
-  newest.step();
-  const std::int64_t found = newest.integer(0);
-  newest.reset();
-  Statement record(database, "INSERT INTO migration(version) VALUES (?)");
-  for (std::int64_t version = found; version < kSchemaVersion; ++version) {
-    database.run(kMigrations[version]);
-    record.reset().bind(version + 1).step();
+class SqliteConnection final : public sql::Connection {
+ public:
+  explicit SqliteConnection(const std::string& file) : database_(file) {}
+
+  void run(const char* sql) override { database_.run(sql); }
+  sql::Statement& prepare(const std::string& sql) override {
+    auto& statement = statements_[sql];
+    if (!statement) statement = std::make_unique<Statement>(database_, sql);
+    return *statement;
   }
-  transaction.commit();
-  return std::max(found, kSchemaVersion);
-}
+  // Takes the write lock at once, so that no two writers can deadlock on an upgrade.
+  void begin() override { run("BEGIN IMMEDIATE"); }
+  void roll_back() noexcept override {
+    sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+  // The version of the data counts the changes of others only.
+  std::uint64_t revision() override {
+    const sql::Query others(prepare("PRAGMA data_version"));
+    others->step();
+    const auto own = static_cast<std::uint64_t>(sqlite3_total_changes64(database_.handle()));
+    return static_cast<std::uint64_t>(others->integer(0)) + (own << 32);
+  }
+  const char* like() const override { return "LIKE"; }
+
+ private:
+  Database database_;
+  std::map<std::string, std::unique_ptr<Statement>> statements_;
+};
+
+class SqliteDatabase final : public sql::Database {
+ public:
+  explicit SqliteDatabase(const std::string& file) : connection_(file) {}
+
+  std::shared_ptr<sql::Connection> lease() override {
+    mutex_.lock();
+    return {&connection_, [this](sql::Connection*) { mutex_.unlock(); }};
+  }
+
+ private:
+  SqliteConnection connection_;
+  std::mutex mutex_;
+};
 
 }  // namespace
 
-Unexpected refused(const std::string& what, const sqlite::Failure& failure) {
-  return fail(failure.disk_full ? ErrorCode::kLimit : ErrorCode::kIo,
-              fmt::format("{}: {}; {}", what, failure.what(),
-                          failure.disk_full ? "free some space or choose another data folder"
-                                            : "check the data folder"));
-}
-
-Expected<Database> open_database(const std::filesystem::path& file) {
+Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::path& file) {
   try {
-    Database database(file.string());
-    database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
-    if (migrate(database) > kSchemaVersion) {
+    auto database = std::make_shared<SqliteDatabase>(file.string());
+    const auto connection = database->lease();
+    connection->run(
+        "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
+    if (sql::migrate(*connection, kMigrations) >
+        static_cast<std::int64_t>(std::size(kMigrations))) {
       return fail(ErrorCode::kUnsupported,
                   fmt::format("{} was written by a newer version of Vitrine; install that version",
                               file.string()));
     }
     return database;
-  } catch (const Failure& failure) {
-    return refused("cannot open the catalogue " + file.string(), failure);
+  } catch (const sql::Failure& failure) {
+    return sql::refused("cannot open the catalogue " + file.string(), failure);
   }
 }
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/catalogue/sqlite_jobs.h"
+#include "server/catalogue/sql_jobs.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
 #include "server/catalogue/catalogue.h"
-#include "server/catalogue/guarded_connection.h"
 
 namespace vitrine {
 namespace {
 
-using sqlite::Database;
-using sqlite::Statement;
-using sqlite::Transaction;
+using sql::Connection;
+using sql::Query;
+using sql::Statement;
+using sql::Transaction;
 
 constexpr std::string_view kJobColumns =
     "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended, "
@@ -112,20 +112,58 @@ std::string places(std::string_view columns) {
   return text;
 }
 
-class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection {
+// "a = excluded.a, b = excluded.b, …" of "a, b, …".
+std::string replacements(std::string_view columns) {
+  std::string text;
+  while (!columns.empty()) {
+    const auto name = columns.substr(0, columns.find(','));
+    text += fmt::format("{0}{1} = excluded.{1}", text.empty() ? "" : ", ", name);
+    columns.remove_prefix(std::min(columns.size(), name.size() + 2));
+  }
+  return text;
+}
+
+// Whether the row was written.
+bool insert(Connection& connection, std::string_view table, std::string_view columns,
+            const auto& record, const std::string& otherwise) {
+  const Query row(
+      connection.prepare(fmt::format("INSERT INTO {}({}) VALUES ({}) ON CONFLICT {} RETURNING 1",
+                                     table, columns, places(columns), otherwise)));
+  return bind_record(*row, record).any();
+}
+
+bool insert_once(Connection& connection, const OnceKey& once, const JobId& job) {
+  const Query row(
+      connection.prepare("INSERT INTO idempotency(key, request, job) VALUES (?,?,?) "
+                         "ON CONFLICT DO NOTHING RETURNING 1"));
+  return row->bind(once.key).bind(once.request).bind(job.bytes()).any();
+}
+
+template <class Record>
+std::vector<Record> all(Statement& rows) {
+  std::vector<Record> records;
+  while (rows.step())
+    read(rows, records.emplace_back());
+  return records;
+}
+
+class SqlJobs final : public JobCatalogue {
  public:
-  explicit SqliteJobs(Database database) : GuardedConnection(std::move(database)) {}
+  explicit SqlJobs(std::shared_ptr<sql::Database> database) : database_(std::move(database)) {}
 
   Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                      const std::optional<OnceKey>& once) override {
-    return guarded<void>([&]() -> Expected<void> {
-      Transaction transaction(database_);
-      if (!insert("INSERT OR IGNORE INTO job", kJobColumns, job)) {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      Transaction transaction(connection);
+      if (!insert(connection, "job", kJobColumns, job, "DO NOTHING")) {
         return fail(ErrorCode::kState,
                     fmt::format("job {} exists; use another id", job.id.to_string()));
       }
-      if (scan) insert("INSERT OR REPLACE INTO scan", kScanColumns, *scan);
-      if (once && !insert_once(*once, job.id)) {
+      if (scan) {
+        insert(connection, "scan", kScanColumns, *scan,
+               "(id) DO UPDATE SET " + replacements(kScanColumns));
+      }
+      if (once && !insert_once(connection, *once, job.id)) {
         return fail(ErrorCode::kState, "the key was used meanwhile; send the request again");
       }
       transaction.commit();
@@ -158,45 +196,47 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
   }
 
   Expected<void> set_told(const JobId& id) override {
-    return guarded<void>([&]() -> Expected<void> {
-      Statement row(database_, "UPDATE job SET told = 1 WHERE id = ? RETURNING 1");
-      if (row.bind(id.bytes()).any()) return {};
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query row(connection.prepare("UPDATE job SET told = 1 WHERE id = ? RETURNING 1"));
+      if (row->bind(id.bytes()).any()) return {};
       return fail(ErrorCode::kState, fmt::format("there is no job {}; list them", id.to_string()));
     });
   }
 
   Expected<JobCounts> count_jobs() override {
-    return guarded<JobCounts>([&]() -> Expected<JobCounts> {
-      Statement row(database_, "SELECT state, count(*) FROM job GROUP BY state");
+    return sql::guarded<JobCounts>(*database_, [](Connection& connection) -> Expected<JobCounts> {
+      const Query row(connection.prepare("SELECT state, count(*) FROM job GROUP BY state"));
       JobCounts counts{};
-      while (row.step())
-        counts.at(static_cast<std::size_t>(row.integer(0))) =
-            static_cast<std::uint64_t>(row.integer(1));
+      while (row->step())
+        counts.at(static_cast<std::size_t>(row->integer(0))) =
+            static_cast<std::uint64_t>(row->integer(1));
       return counts;
     });
   }
 
   Expected<std::optional<Earlier>> find_once(const std::string& key) override {
-    return guarded<std::optional<Earlier>>([&]() -> Expected<std::optional<Earlier>> {
-      Statement row(database_, "SELECT job, request FROM idempotency WHERE key = ?");
-      if (!row.bind(key).step()) return std::nullopt;
-      return Earlier{ModelId::from_bytes(row.blob<16>(0)), row.blob<32>(1)};
+    using Found = std::optional<Earlier>;
+    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
+      const Query row(connection.prepare("SELECT job, request FROM idempotency WHERE key = ?"));
+      if (!row->bind(key).step()) return std::nullopt;
+      return Earlier{ModelId::from_bytes(row->blob<16>(0)), row->blob<32>(1)};
     });
   }
 
   Expected<std::size_t> forget(std::int64_t keys_before, std::int64_t jobs_before) override {
-    return guarded<std::size_t>([&]() -> Expected<std::size_t> {
-      Transaction transaction(database_);
-      Statement keys(database_,
-                     "DELETE FROM idempotency WHERE job IN "
-                     "(SELECT id FROM job WHERE state >= ? AND created < ?) RETURNING 1");
-      keys.bind(number(JobState::kDone)).bind(keys_before).any();
-      Statement jobs(database_,
-                     "DELETE FROM job WHERE state >= ? AND ended < ? "
-                     "AND id NOT IN (SELECT job FROM scan) "
-                     "AND id NOT IN (SELECT job FROM idempotency) RETURNING 1");
+    using Count = std::size_t;
+    return sql::guarded<Count>(*database_, [&](Connection& connection) -> Expected<Count> {
+      Transaction transaction(connection);
+      const Query keys(
+          connection.prepare("DELETE FROM idempotency WHERE job IN "
+                             "(SELECT id FROM job WHERE state >= ? AND created < ?) RETURNING 1"));
+      keys->bind(number(JobState::kDone)).bind(keys_before).any();
+      const Query jobs(
+          connection.prepare("DELETE FROM job WHERE state >= ? AND ended < ? "
+                             "AND id NOT IN (SELECT job FROM scan) "
+                             "AND id NOT IN (SELECT job FROM idempotency) RETURNING 1"));
       std::size_t forgotten = 0;
-      for (jobs.bind(number(JobState::kDone)).bind(jobs_before); jobs.step();)
+      for (jobs->bind(number(JobState::kDone)).bind(jobs_before); jobs->step();)
         ++forgotten;
       transaction.commit();
       return forgotten;
@@ -206,31 +246,20 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
  private:
   // Oldest first; the condition's ? is the first state in which a job has ended.
   Expected<std::vector<JobRecord>> jobs_where(std::string_view condition) {
-    return guarded<std::vector<JobRecord>>([&]() -> Expected<std::vector<JobRecord>> {
-      Statement rows(database_, fmt::format("SELECT {} FROM job WHERE {} ORDER BY id", kJobColumns,
-                                            condition));
-      return all<JobRecord>(rows.bind(number(JobState::kDone)));
+    using Jobs = std::vector<JobRecord>;
+    return sql::guarded<Jobs>(*database_, [&](Connection& connection) -> Expected<Jobs> {
+      const Query rows(connection.prepare(
+          fmt::format("SELECT {} FROM job WHERE {} ORDER BY id", kJobColumns, condition)));
+      return all<JobRecord>(rows->bind(number(JobState::kDone)));
     });
-  }
-
-  // Whether the row was written.
-  bool insert(std::string_view how, std::string_view columns, const auto& record) {
-    Statement row(database_,
-                  fmt::format("{}({}) VALUES ({}) RETURNING 1", how, columns, places(columns)));
-    return bind_record(row, record).any();
-  }
-
-  bool insert_once(const OnceKey& once, const JobId& job) {
-    Statement row(database_, "INSERT OR IGNORE INTO idempotency VALUES (?,?,?) RETURNING 1");
-    return row.bind(once.key).bind(once.request).bind(job.bytes()).any();
   }
 
   template <class Record>
   Expected<void> write(std::string_view table, std::string_view columns, const Record& record) {
-    return guarded<void>([&]() -> Expected<void> {
-      Statement row(database_, fmt::format("UPDATE {} SET {} WHERE id = ?1 RETURNING 1", table,
-                                           assignments(columns)));
-      if (bind_record(row, record).any()) return {};
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query row(connection.prepare(
+          fmt::format("UPDATE {} SET {} WHERE id = ?1 RETURNING 1", table, assignments(columns))));
+      if (bind_record(*row, record).any()) return {};
       return fail(ErrorCode::kState,
                   fmt::format("there is no {} {}; list them", table, record.id.to_string()));
     });
@@ -239,11 +268,13 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
   template <class Record>
   Expected<std::optional<Record>> find(std::string_view table, std::string_view columns,
                                        const ModelId& id) {
-    return guarded<std::optional<Record>>([&]() -> Expected<std::optional<Record>> {
-      Statement row(database_, fmt::format("SELECT {} FROM {} WHERE id = ?", columns, table));
-      if (!row.bind(id.bytes()).step()) return std::nullopt;
+    using Found = std::optional<Record>;
+    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
+      const Query row(
+          connection.prepare(fmt::format("SELECT {} FROM {} WHERE id = ?", columns, table)));
+      if (!row->bind(id.bytes()).step()) return std::nullopt;
       Record record;
-      read(row, record);
+      read(*row, record);
       return record;
     });
   }
@@ -251,29 +282,23 @@ class SqliteJobs final : public JobCatalogue, private sqlite::GuardedConnection 
   template <class Record>
   Expected<std::vector<Record>> list(std::string_view table, std::string_view columns,
                                      const PageOf& page) {
-    return guarded<std::vector<Record>>([&]() -> Expected<std::vector<Record>> {
-      Statement rows(database_, fmt::format("SELECT {} FROM {} {} ORDER BY id DESC LIMIT ?",
-                                            columns, table, page.after ? "WHERE id < ?" : ""));
-      if (page.after) rows.bind(page.after->bytes());
-      return all<Record>(rows.bind(number(std::clamp(page.limit, 1u, kMaxPage))));
+    using Records = std::vector<Record>;
+    return sql::guarded<Records>(*database_, [&](Connection& connection) -> Expected<Records> {
+      const Query rows(
+          connection.prepare(fmt::format("SELECT {} FROM {} {} ORDER BY id DESC LIMIT ?", columns,
+                                         table, page.after ? "WHERE id < ?" : "")));
+      if (page.after) rows->bind(page.after->bytes());
+      return all<Record>(rows->bind(number(std::clamp(page.limit, 1u, kMaxPage))));
     });
   }
 
-  template <class Record>
-  static std::vector<Record> all(Statement& rows) {
-    std::vector<Record> records;
-    while (rows.step())
-      read(rows, records.emplace_back());
-    return records;
-  }
+  const std::shared_ptr<sql::Database> database_;
 };
 
 }  // namespace
 
-Expected<std::unique_ptr<JobCatalogue>> open_sqlite_jobs(const std::filesystem::path& file) {
-  auto database = sqlite::open_database(file);
-  if (!database) return Unexpected(database.error());
-  return std::make_unique<SqliteJobs>(std::move(*database));
+std::unique_ptr<JobCatalogue> make_jobs(std::shared_ptr<sql::Database> database) {
+  return std::make_unique<SqlJobs>(std::move(database));
 }
 
 }  // namespace vitrine

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/backup/migrate.h"
+
+#include <fmt/core.h>
+
+#include <map>
+
+#include "server/catalogue/copy_catalogue.h"
+
+namespace vitrine {
+namespace {
+
+using Files = std::map<Sha256, NamedFile>;  // each once, however many models name it
+
+Expected<Files> named_files(Installation& installation, MigrationReport& report) {
+  const auto named = installation.catalogue->files();
+  if (!named) return tl::unexpected(named.error());
+  report.models = models_in(*named);
+  Files files;
+  for (const NamedFile& file : *named)
+    files.emplace(file.file, file);
+  return files;
+}
+
+Expected<void> copy_file(const ObjectStore& from, ObjectStore& to, const NamedFile& file) {
+  const auto object = from.open(file.file);
+  if (!object) return tl::unexpected(object.error());
+  if (*object == nullptr) {
+    return fail(ErrorCode::kState, fmt::format("model {} has lost its file; publish it again, or "
+                                               "delete it",
+                                               file.model.to_string()));
+  }
+  const auto bytes = (*object)->read(0, (*object)->size());
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto put = to.put(file.file, *bytes);
+  return put ? Expected<void>() : tl::unexpected(put.error());
+}
+
+// Those that `done` does not hold yet.
+Expected<void> copy_files(Installation& from, Installation& to, MigrationReport& report,
+                          Files& done, const MigrationProgress& progress) {
+  const auto files = named_files(from, report);
+  if (!files) return tl::unexpected(files.error());
+  for (const auto& [name, file] : *files) {
+    if (done.contains(name)) continue;
+    if (auto copied = copy_file(*from.store, *to.store, file); !copied) return copied;
+    done.emplace(name, file);
+    progress(done.size(), files->size());
+  }
+  return {};
+}
+
+bool are_same_folder(const Installation& a, const Installation& b) {
+  std::error_code unknown;
+  return std::filesystem::equivalent(a.place.folder, b.place.folder, unknown);
+}
+
+// Then there is one lock for both.
+bool share_files(const Installation& a, const Installation& b) {
+  return a.place.store.empty() && b.place.store.empty() && are_same_folder(a, b);
+}
+
+bool are_same(const Installation& a, const Installation& b) {
+  return a.place.store == b.place.store && a.place.catalogue == b.place.catalogue &&
+         (are_same_folder(a, b) || !(a.place.store.empty() || a.place.catalogue.empty()));
+}
+
+}  // namespace
+
+// One that was removed at the old place meanwhile stays behind at the new one until it is
+// collected.
+Expected<MigrationReport> migrate(Installation& from, Installation& to,
+                                  const MigrationProgress& progress) {
+  if (are_same(from, to))
+    return fail(ErrorCode::kState, "both places are the same; name another to migrate to");
+  MigrationReport report;
+  Files done;
+  if (auto copied = copy_files(from, to, report, done, progress); !copied)
+    return tl::unexpected(copied.error());
+  const auto locked = from.store->lock();
+  if (!locked) return tl::unexpected(locked.error());
+  const auto also_locked = share_files(from, to) ? locked : to.store->lock();
+  if (!also_locked) return tl::unexpected(also_locked.error());
+  if (auto copied = copy_files(from, to, report, done, progress); !copied)
+    return tl::unexpected(copied.error());
+  if (auto copied = copy_catalogue(*from.database, *to.database); !copied)
+    return tl::unexpected(copied.error());
+  report.files = done.size();
+  for (const auto& [name, file] : done)
+    report.bytes += file.bytes;
+  return report;
+}
+
+}  // namespace vitrine

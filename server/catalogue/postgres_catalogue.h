@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The catalogue's database on a PostgreSQL server: any number of machines may use it at once.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/catalogue/sql.h"
+
+namespace vitrine::postgres {
+
+struct OpenDatabase {
+  std::shared_ptr<sql::Database> database;
+  // Is held by one at a time of all who use the database, until the result is gone; where the
+  // server ends its connection, no longer. Fails with kIo.
+  std::function<Expected<std::shared_ptr<const void>>()> lock;
+};
+
+// Creates or migrates the tables. `url`: postgresql://USER@HOST/DATABASE, with what else libpq
+// knows. Fails with kIo where the server is not reached or refuses; no message tells the password.
+Expected<OpenDatabase> open_database(const std::string& url);
+
+}  // namespace vitrine::postgres

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/catalogue/postgres_migrations.h"
+
+namespace vitrine::postgres {
+namespace {
+
+// Numbered on their own: the first is what SQLite's have led to. The revision counts the changes of
+// what visitors and tokens meet, not the steps of jobs.
+constexpr const char* kMigrations[] = {
+    R"sql(
+CREATE TABLE model (
+  id BYTEA PRIMARY KEY, state BIGINT NOT NULL, created BIGINT NOT NULL,
+  title TEXT NOT NULL, creator TEXT NOT NULL, rights TEXT NOT NULL, licence TEXT NOT NULL,
+  unit TEXT NOT NULL, file BYTEA NOT NULL, file_bytes BIGINT NOT NULL,
+  head_bytes BIGINT NOT NULL, faces BIGINT NOT NULL, vertices BIGINT NOT NULL,
+  more TEXT NOT NULL, accuracy DOUBLE PRECISION, version BIGINT NOT NULL,
+  public_max_level BIGINT, public_file BYTEA, public_file_bytes BIGINT,
+  public_head_bytes BIGINT, public_faces BIGINT, public_vertices BIGINT
+);
+CREATE INDEX model_of_file ON model(file);
+CREATE TABLE chunk (
+  sha256 BYTEA NOT NULL, model BYTEA NOT NULL REFERENCES model(id) ON DELETE CASCADE,
+  "offset" BIGINT NOT NULL, length BIGINT NOT NULL,
+  PRIMARY KEY (sha256, model)
+);
+CREATE INDEX chunk_of_model ON chunk(model);
+CREATE TABLE job (
+  id BYTEA PRIMARY KEY, kind BIGINT NOT NULL, state BIGINT NOT NULL, scanner TEXT NOT NULL,
+  scan BYTEA, model BYTEA, stage TEXT NOT NULL, progress DOUBLE PRECISION NOT NULL,
+  error TEXT NOT NULL, parameters TEXT NOT NULL, created BIGINT NOT NULL, ended BIGINT NOT NULL,
+  webhook TEXT NOT NULL, attempts BIGINT NOT NULL, told BIGINT NOT NULL DEFAULT 0
+);
+CREATE TABLE scan (
+  id BYTEA PRIMARY KEY, job BYTEA NOT NULL REFERENCES job(id), scanner TEXT NOT NULL,
+  public BIGINT NOT NULL, title TEXT NOT NULL, parameters TEXT NOT NULL, steps BIGINT NOT NULL,
+  step BIGINT NOT NULL, points BIGINT NOT NULL, calibration BIGINT NOT NULL, model BYTEA,
+  created BIGINT NOT NULL, empty_rows DOUBLE PRECISION, saturated_rows DOUBLE PRECISION,
+  doubled_rows DOUBLE PRECISION
+);
+CREATE TABLE idempotency (
+  key TEXT PRIMARY KEY, request BYTEA NOT NULL, job BYTEA NOT NULL REFERENCES job(id)
+);
+CREATE TABLE token (
+  id BYTEA PRIMARY KEY, role BIGINT NOT NULL, hash BYTEA NOT NULL UNIQUE, label TEXT NOT NULL,
+  created BIGINT NOT NULL, revoked BIGINT,
+  prefix BYTEA NOT NULL GENERATED ALWAYS AS (substr(hash, 1, 4)) STORED
+);
+CREATE INDEX token_by_prefix ON token(prefix);
+CREATE TABLE revision (number BIGINT NOT NULL);
+INSERT INTO revision VALUES (1);
+CREATE FUNCTION count_change() RETURNS trigger LANGUAGE plpgsql AS
+  'BEGIN UPDATE revision SET number = number + 1; RETURN NULL; END';
+CREATE TRIGGER count_change AFTER INSERT OR UPDATE OR DELETE ON model
+  FOR EACH STATEMENT EXECUTE FUNCTION count_change();
+CREATE TRIGGER count_change AFTER INSERT OR UPDATE OR DELETE ON token
+  FOR EACH STATEMENT EXECUTE FUNCTION count_change();
+)sql",
+};
+constexpr const char* kOneAtATime = "SELECT pg_advisory_lock(7957706764961114213)";
+constexpr const char* kNext = "SELECT pg_advisory_unlock(7957706764961114213)";
+
+}  // namespace
+
+void migrate(sql::Connection& connection) {
+  connection.run(kOneAtATime);
+  sql::migrate(connection, kMigrations);
+  connection.run(kNext);
+}
+
+}  // namespace vitrine::postgres

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/catalogue/sql_catalogue.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+namespace vitrine {
+namespace {
+
+using sql::Connection;
+using sql::Query;
+using sql::Statement;
+using sql::Transaction;
+
+constexpr std::string_view kColumns =
+    "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
+    "faces, vertices, more, accuracy, version, public_max_level, public_file, public_file_bytes, "
+    "public_head_bytes, public_faces, public_vertices";
+
+std::uint64_t count(const Statement& row, int column) {
+  return static_cast<std::uint64_t>(row.integer(column));
+}
+
+std::map<std::string, std::string> read_more(const std::string& text) {
+  std::map<std::string, std::string> more;
+  const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) return more;
+  for (const auto& [name, value] : json.items()) {
+    if (value.is_string()) more[name] = value.get<std::string>();
+  }
+  return more;
+}
+
+std::optional<PublicPart> read_public_part(const Statement& row) {
+  if (row.is_null(16)) return std::nullopt;
+  return PublicPart{.max_level = static_cast<std::uint32_t>(row.integer(16)),
+                    .file = row.blob<32>(17),
+                    .file_bytes = count(row, 18),
+                    .head_bytes = count(row, 19),
+                    .faces = count(row, 20),
+                    .vertices = count(row, 21)};
+}
+
+ModelRecord read_model(const Statement& row) {
+  ModelRecord model;
+  model.id = ModelId::from_bytes(row.blob<16>(0));
+  model.state = row.integer(1) == 1 ? ModelState::kPublished : ModelState::kDraft;
+  model.created = row.integer(2);
+  model.title = row.text(3);
+  model.creator = row.text(4);
+  model.rights = row.text(5);
+  model.licence = row.text(6);
+  model.unit = row.text(7);
+  model.file = row.blob<32>(8);
+  model.file_bytes = count(row, 9);
+  model.head_bytes = count(row, 10);
+  model.faces = count(row, 11);
+  model.vertices = count(row, 12);
+  model.more = read_more(row.text(13));
+  if (!row.is_null(14)) model.accuracy = row.real(14);
+  model.version = count(row, 15);
+  model.public_part = read_public_part(row);
+  return model;
+}
+
+std::int64_t number(std::uint64_t value) {
+  return static_cast<std::int64_t>(value);
+}
+
+std::string more_text(const ModelRecord& model) {
+  return nlohmann::json(model.more).dump();
+}
+
+void bind_public_part(Statement& row, const std::optional<PublicPart>& part) {
+  if (!part) {
+    for (int i = 0; i < 6; ++i)
+      row.bind_null();
+    return;
+  }
+  row.bind(number(part->max_level)).bind(part->file).bind(number(part->file_bytes));
+  row.bind(number(part->head_bytes)).bind(number(part->faces)).bind(number(part->vertices));
+}
+
+void bind_model(Statement& row, const ModelRecord& m) {
+  row.bind(m.id.bytes()).bind(static_cast<std::int64_t>(m.state)).bind(m.created);
+  row.bind(m.title).bind(m.creator).bind(m.rights).bind(m.licence).bind(m.unit).bind(m.file);
+  row.bind(number(m.file_bytes)).bind(number(m.head_bytes));
+  row.bind(number(m.faces)).bind(number(m.vertices)).bind(more_text(m));
+  if (m.accuracy) {
+    row.bind_real(*m.accuracy);
+  } else {
+    row.bind_null();
+  }
+  row.bind(number(m.version));
+  bind_public_part(row, m.public_part);
+}
+
+TokenRecord read_token(const Statement& row) {
+  return {.id = ModelId::from_bytes(row.blob<16>(0)),
+          .role = static_cast<Role>(row.integer(1)),
+          .hash = row.blob<32>(2),
+          .label = row.text(3),
+          .created = row.integer(4)};
+}
+
+// Words become patterns of LIKE in which the user's own % and _ mean themselves.
+std::vector<std::string> patterns(std::string_view text) {
+  constexpr std::size_t kMaxWords = 8;
+  std::vector<std::string> words;
+  std::string word;
+  for (const char c : text) {
+    if (c == '%' || c == '_' || c == '\\') word += '\\';
+    if (c != ' ' && c != '\t') word += c;
+    if ((c == ' ' || c == '\t') && !word.empty())
+      words.push_back('%' + std::exchange(word, {}) + '%');
+  }
+  if (!word.empty()) words.push_back('%' + word + '%');
+  words.resize(std::min(words.size(), kMaxWords));
+  return words;
+}
+
+Unexpected changed_meanwhile(const ModelId& id) {
+  return fail(
+      ErrorCode::kState,
+      fmt::format("model {} was changed or removed meanwhile; read it again", id.to_string()));
+}
+
+std::int64_t now_in_milliseconds() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+std::string select_models(std::string_view which) {
+  return fmt::format("SELECT {} FROM model WHERE {}", kColumns, which);
+}
+
+const std::string kInsertModel = fmt::format(
+    "INSERT INTO model({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?) "
+    "ON CONFLICT DO NOTHING RETURNING 1",
+    kColumns);
+const std::string kInsertChunk =
+    "INSERT INTO chunk(sha256, model, \"offset\", length) VALUES (?,?,?,?) ON CONFLICT DO NOTHING";
+const std::string kUpdateState =
+    "UPDATE model SET state = ?2, version = version + 1 WHERE id = ?1 RETURNING 1";
+const std::string kUpdateModel =
+    "UPDATE model SET state = ?2, title = ?4, creator = ?5, rights = ?6, "
+    "licence = ?7, unit = ?8, file = ?9, file_bytes = ?10, head_bytes = ?11, faces = ?12, "
+    "vertices = ?13, more = ?14, accuracy = ?15, version = version + 1, "
+    "public_max_level = ?17, public_file = ?18, public_file_bytes = ?19, "
+    "public_head_bytes = ?20, public_faces = ?21, public_vertices = ?22 "
+    "WHERE id = ?1 AND version = ?16 RETURNING 1";
+const std::string kRemoveChunks = "DELETE FROM chunk WHERE model = ?";
+const std::string kRemoveModel =
+    "DELETE FROM model WHERE id = ?1 AND version = coalesce(?2, version) RETURNING 1";
+const std::string kFiles =
+    "SELECT id, file, file_bytes FROM model UNION ALL SELECT id, public_file, "
+    "public_file_bytes FROM model WHERE public_file IS NOT NULL ORDER BY 1";
+const std::string kFindModel = select_models("id = ?");
+const std::string kFindSame = select_models(
+    "state = 1 AND file = ? AND title = ? AND creator = ? AND rights = ? AND licence = ? "
+    "AND more = ? ORDER BY id DESC LIMIT 1");
+const std::string kFindChunk =
+    "SELECT model, \"offset\", length FROM chunk JOIN model ON model.id = chunk.model "
+    "WHERE sha256 = ? AND state = 1 LIMIT 1";
+const std::string kInsertToken =
+    "INSERT INTO token(id, role, hash, label, created) VALUES (?,?,?,?,?) "
+    "ON CONFLICT DO NOTHING RETURNING 1";
+const std::string kTokensLike =
+    "SELECT id, role, hash, label, created FROM token WHERE prefix = ? AND revoked IS NULL";
+const std::string kTokens =
+    "SELECT id, role, hash, label, created FROM token WHERE revoked IS NULL ORDER BY id";
+const std::string kRevokeToken =
+    "UPDATE token SET revoked = ? WHERE id = ? AND revoked IS NULL RETURNING 1";
+
+void insert_chunks(Connection& connection, const ModelId& model,
+                   std::span<const ChunkPlace> chunks) {
+  for (const ChunkPlace& c : chunks) {
+    const Query row(connection.prepare(kInsertChunk));
+    row->bind(c.chunk).bind(model.bytes()).bind(number(c.offset)).bind(number(c.length)).step();
+  }
+}
+
+std::optional<ModelRecord> read_one(Statement& row) {
+  return row.step() ? std::optional(read_model(row)) : std::nullopt;
+}
+
+std::vector<TokenRecord> read_tokens(Statement& rows) {
+  std::vector<TokenRecord> tokens;
+  while (rows.step())
+    tokens.push_back(read_token(rows));
+  return tokens;
+}
+
+ModelPage search_in(Connection& connection, const ModelQuery& query) {
+  const auto words = patterns(query.text);
+  std::string which = "state >= ?";
+  if (query.after) which += " AND id < ?";
+  for (std::size_t i = 0; i < words.size(); ++i)
+    which += fmt::format(" AND title||' '||creator {} ? ESCAPE '\\'", connection.like());
+
+  const Query rows(connection.prepare(select_models(which + " ORDER BY id DESC LIMIT ?")));
+  rows->bind(std::int64_t{query.drafts ? 0 : 1});
+  if (query.after) rows->bind(query.after->bytes());
+  for (const std::string& word : words)
+    rows->bind(word);
+  const std::uint32_t limit = std::clamp(query.limit, 1u, kMaxPage);
+  rows->bind(std::int64_t{limit} + 1);  // one more tells whether there is a next page
+
+  ModelPage page;
+  while (rows->step())
+    page.models.push_back(read_model(*rows));
+  if (page.models.size() > limit) {
+    page.models.pop_back();
+    page.next = page.models.back().id;
+  }
+  return page;
+}
+
+class SqlCatalogue final : public Catalogue {
+ public:
+  explicit SqlCatalogue(std::shared_ptr<sql::Database> database) : database_(std::move(database)) {}
+
+  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      Transaction transaction(connection);
+      const Query row(connection.prepare(kInsertModel));
+      bind_model(*row, model);
+      if (!row->any()) {
+        return fail(ErrorCode::kState,
+                    fmt::format("model {} exists; use another id", model.id.to_string()));
+      }
+      insert_chunks(connection, model.id, chunks);
+      transaction.commit();
+      return {};
+    });
+  }
+
+  Expected<void> set_state(const ModelId& id, ModelState state) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query row(connection.prepare(kUpdateState));
+      if (row->bind(id.bytes()).bind(static_cast<std::int64_t>(state)).any()) return {};
+      return fail(ErrorCode::kState,
+                  fmt::format("there is no model {}; list the models", id.to_string()));
+    });
+  }
+
+  Expected<void> update(const ModelRecord& model,
+                        std::optional<std::span<const ChunkPlace>> chunks) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      Transaction transaction(connection);
+      const Query row(connection.prepare(kUpdateModel));
+      bind_model(*row, model);
+      if (!row->any()) return changed_meanwhile(model.id);
+      if (chunks) {
+        const Query old(connection.prepare(kRemoveChunks));
+        old->bind(model.id.bytes()).any();
+        insert_chunks(connection, model.id, *chunks);
+      }
+      transaction.commit();
+      return {};
+    });
+  }
+
+  // Its chunks go with it.
+  Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query row(connection.prepare(kRemoveModel));
+      row->bind(id.bytes());
+      if (version) row->bind(number(*version));
+      if (!row->any()) return changed_meanwhile(id);
+      return {};
+    });
+  }
+
+  Expected<std::vector<NamedFile>> files() override {
+    using Files = std::vector<NamedFile>;
+    return sql::guarded<Files>(*database_, [&](Connection& connection) -> Expected<Files> {
+      Files files;
+      const Query rows(connection.prepare(kFiles));
+      while (rows->step())
+        files.push_back(
+            {ModelId::from_bytes(rows->blob<16>(0)), rows->blob<32>(1), count(*rows, 2)});
+      return files;
+    });
+  }
+
+  Expected<std::optional<ModelRecord>> find(const ModelId& id) override {
+    using Found = std::optional<ModelRecord>;
+    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
+      const Query row(connection.prepare(kFindModel));
+      return read_one(row->bind(id.bytes()));
+    });
+  }
+
+  Expected<std::optional<ModelRecord>> find_same(const ModelRecord& like) override {
+    using Found = std::optional<ModelRecord>;
+    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
+      const Query row(connection.prepare(kFindSame));
+      row->bind(like.file).bind(like.title).bind(like.creator).bind(like.rights);
+      return read_one(row->bind(like.licence).bind(more_text(like)));
+    });
+  }
+
+  Expected<ModelPage> search(const ModelQuery& query) override {
+    return sql::guarded<ModelPage>(*database_, [&](Connection& connection) -> Expected<ModelPage> {
+      return search_in(connection, query);
+    });
+  }
+
+  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
+    using Found = std::optional<ChunkLocation>;
+    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
+      const Query row(connection.prepare(kFindChunk));
+      if (!row->bind(chunk).step()) return std::nullopt;
+      return ChunkLocation{ModelId::from_bytes(row->blob<16>(0)),
+                           {chunk, count(*row, 1), count(*row, 2)}};
+    });
+  }
+
+  Expected<void> add_token(const TokenRecord& token) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query row(connection.prepare(kInsertToken));
+      row->bind(token.id.bytes()).bind(static_cast<std::int64_t>(token.role)).bind(token.hash);
+      if (row->bind(token.label).bind(token.created).any()) return {};
+      return fail(ErrorCode::kState,
+                  fmt::format("token {} exists; create another", token.id.to_string()));
+    });
+  }
+
+  Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
+    using Tokens = std::vector<TokenRecord>;
+    return sql::guarded<Tokens>(*database_, [&](Connection& connection) -> Expected<Tokens> {
+      const Query rows(connection.prepare(kTokensLike));
+      return read_tokens(rows->bind(std::span(hash).first<4>()));
+    });
+  }
+
+  Expected<std::vector<TokenRecord>> tokens() override {
+    using Tokens = std::vector<TokenRecord>;
+    return sql::guarded<Tokens>(*database_, [&](Connection& connection) -> Expected<Tokens> {
+      const Query rows(connection.prepare(kTokens));
+      return read_tokens(*rows);
+    });
+  }
+
+  Expected<void> revoke_token(const ModelId& id) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query row(connection.prepare(kRevokeToken));
+      if (row->bind(now_in_milliseconds()).bind(id.bytes()).any()) return {};
+      return fail(ErrorCode::kState,
+                  fmt::format("there is no token {} in force; check the id", id.to_string()));
+    });
+  }
+
+  Expected<std::uint64_t> revision() override {
+    return sql::guarded<std::uint64_t>(
+        *database_,
+        [](Connection& connection) -> Expected<std::uint64_t> { return connection.revision(); });
+  }
+
+ private:
+  const std::shared_ptr<sql::Database> database_;
+};
+
+}  // namespace
+
+std::unique_ptr<Catalogue> make_catalogue(std::shared_ptr<sql::Database> database) {
+  return std::make_unique<SqlCatalogue>(std::move(database));
+}
+
+}  // namespace vitrine

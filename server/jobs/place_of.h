@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "server/config/settings.h"
+#include "server/store/installation.h"
+
+namespace vitrine {
+
+// Where the settings say that the installation is.
+inline InstallationPlace place_of(const Settings& settings) {
+  return {.folder = settings.data,
+          .store = settings.store,
+          .catalogue = settings.catalogue,
+          .access_key = settings.store_access_key,
+          .secret_key = settings.store_secret_key};
+}
+
+}  // namespace vitrine

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/file_object.h"
+
+#include <fmt/core.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace vitrine {
+namespace {
+
+class FileObject final : public Object {
+ public:
+  FileObject(FileDescriptor fd, std::uint64_t size) : fd_(std::move(fd)), size_(size) {}
+
+  std::uint64_t size() const override { return size_; }
+  std::optional<int> descriptor() const override { return fd_.get(); }
+
+  Expected<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const override {
+    if (offset > size_ || out.size() > size_ - offset) {
+      return fail(ErrorCode::kIo, "read beyond the end of an object; check the data folder");
+    }
+    while (!out.empty()) {
+      const ssize_t n = ::pread(fd_.get(), out.data(), out.size(), static_cast<off_t>(offset));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0)
+        return fail(ErrorCode::kIo, fmt::format("cannot read an object: {}; check the data folder",
+                                                n < 0 ? std::strerror(errno) : "cut short"));
+      offset += static_cast<std::uint64_t>(n);
+      out = out.subspan(static_cast<std::size_t>(n));
+    }
+    return {};
+  }
+
+ private:
+  FileDescriptor fd_;
+  std::uint64_t size_;
+};
+
+}  // namespace
+
+Expected<std::vector<std::uint8_t>> Object::read(std::uint64_t offset, std::uint64_t length) const {
+  if (offset > size() || length > size() - offset) {
+    return fail(ErrorCode::kIo, "read beyond the end of an object; check the data folder");
+  }
+  std::vector<std::uint8_t> bytes(length);
+  if (auto done = read(offset, std::span(bytes)); !done) return tl::unexpected(done.error());
+  return bytes;
+}
+
+std::unique_ptr<Object> object_in(FileDescriptor file, std::uint64_t size) {
+  return std::make_unique<FileObject>(std::move(file), size);
+}
+
+}  // namespace vitrine

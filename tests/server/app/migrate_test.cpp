@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/backup/migrate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/app/elsewhere.h"
+#include "server/store/publish.h"
+#include "support/tiny_pmesh.h"
+
+namespace vitrine::test {
+namespace {
+
+using testing::HasSubstr;
+
+void nobody_looks(std::size_t, std::size_t) {}
+
+ModelId publish_at(Installation& installation, const std::string& title) {
+  const auto pmesh = tiny_pmesh("a base", "a chunk of " + title);
+  return publish(*installation.store, *installation.catalogue, pmesh.bytes,
+                 {.title = title, .creator = "somebody", .more = {{"date", "1750"}}})
+      .value()
+      .id;
+}
+
+// All that a catalogue tells.
+struct Told {
+  std::vector<std::string> models;
+  std::vector<ModelId> tokens;
+  std::vector<JobRecord> jobs, untold;
+  std::vector<ScanEntry> scans;
+  std::optional<ModelId> once;
+
+  bool operator==(const Told&) const = default;
+};
+
+Told told_by(Installation& installation) {
+  Told told;
+  const auto models = installation.catalogue->search({.drafts = true}).value().models;
+  for (const ModelRecord& m : models) {
+    told.models.push_back(m.id.to_string() + m.title + m.creator + m.more.at("date") +
+                          to_hex(m.file) + std::to_string(m.version) + std::to_string(m.created));
+    const auto object = installation.store->open(m.file).value();
+    EXPECT_EQ(sha256(object->read(0, object->size()).value()), m.file);
+    const auto chunk = parse_header(object->read(0, object->size()).value()).value().base_sha256;
+    EXPECT_TRUE(installation.catalogue->find_chunk(chunk).value());
+  }
+  const auto tokens = installation.catalogue->tokens().value();
+  for (const TokenRecord& token : tokens)
+    told.tokens.push_back(token.id);
+  told.jobs = installation.jobs->jobs({}).value();
+  told.untold = installation.jobs->untold_jobs().value();
+  told.scans = installation.jobs->scans({}).value();
+  if (const auto earlier = installation.jobs->find_once("a key").value()) told.once = earlier->job;
+  return told;
+}
+
+class Migrate : public testing::Test {
+ protected:
+  void fill() {
+    publish_at(folder_, "vase");
+    publish_at(folder_, "bowl");
+    const JobRecord told{.id = JobId::generate(), .state = JobState::kDone, .webhook = "http://a/"};
+    const JobRecord untold{
+        .id = JobId::generate(), .state = JobState::kFailed, .error = "no", .webhook = "http://b/"};
+    const ScanEntry scan{.id = ScanId::generate(),
+                         .job = told.id,
+                         .title = "a scan",
+                         .steps = 720,
+                         .rows = ScannedRows{.25, .5, 0}};
+    ASSERT_TRUE(folder_.jobs->add(told, scan, OnceKey{"a key", sha256({})}));
+    ASSERT_TRUE(folder_.jobs->set_told(told.id));
+    ASSERT_TRUE(folder_.jobs->add(untold, {}, {}));
+    ASSERT_TRUE(folder_.catalogue->add_token(
+        {.id = ModelId::generate(), .role = Role::kAdmin, .hash = sha256({}), .label = "l"}));
+  }
+
+  const TemporaryFolder root_;
+  const Elsewhere place_;
+  Installation folder_ = open_installation({.folder = root_.path() / "a"}).value();
+  Installation elsewhere_ = open_installation(place_.place()).value();
+};
+
+TEST_F(Migrate, an_installation_is_the_same_elsewhere_and_back) {
+  fill();
+  const auto moved = migrate(folder_, elsewhere_, nobody_looks);
+  ASSERT_TRUE(moved) << moved.error().message;
+  EXPECT_EQ(moved->models, 2u);
+  EXPECT_EQ(moved->files, 2u);
+  EXPECT_EQ(told_by(elsewhere_), told_by(folder_));
+  Installation back = open_installation({.folder = root_.path() / "b"}).value();
+  ASSERT_TRUE(migrate(elsewhere_, back, nobody_looks));
+  EXPECT_EQ(told_by(back), told_by(folder_));
+}
+
+TEST_F(Migrate, what_was_interrupted_shows_nothing_and_is_done_again) {
+  fill();
+  const auto file = folder_.catalogue->files().value().back().file;
+  const auto object = folder_.store->open(file).value();
+  const auto bytes = object->read(0, object->size()).value();
+  ASSERT_TRUE(folder_.store->remove(file));
+  const auto broken = migrate(folder_, elsewhere_, nobody_looks);
+  ASSERT_FALSE(broken);
+  EXPECT_THAT(broken.error().message, HasSubstr("has lost its file"));
+  EXPECT_EQ(told_by(elsewhere_), Told{});
+  ASSERT_TRUE(folder_.store->put(file, bytes));
+  ASSERT_TRUE(migrate(folder_, elsewhere_, nobody_looks));
+  ASSERT_TRUE(migrate(folder_, elsewhere_, nobody_looks));
+  EXPECT_EQ(told_by(elsewhere_), told_by(folder_));
+}
+
+TEST_F(Migrate, two_installations_are_not_mixed) {
+  fill();
+  publish_at(elsewhere_, "another");
+  const auto before = told_by(elsewhere_);
+  const auto refused = migrate(folder_, elsewhere_, nobody_looks);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kState);
+  EXPECT_EQ(told_by(elsewhere_), before);
+}
+
+TEST_F(Migrate, a_place_is_not_migrated_to_itself) {
+  Installation same = open_installation(place_.place()).value();
+  EXPECT_FALSE(migrate(elsewhere_, same, nobody_looks));
+}
+
+TEST_F(Migrate, the_catalogue_can_move_alone) {
+  fill();
+  InstallationPlace place = place_.place();
+  place.folder = folder_.place.folder;
+  place.store = {};
+  Installation beside = open_installation(place).value();
+  ASSERT_TRUE(migrate(folder_, beside, nobody_looks));
+  EXPECT_EQ(told_by(beside), told_by(folder_));
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "server/catalogue/catalogue.h"
+
+namespace vitrine::test {
+
+// Hands all on: for catalogues that differ in one thing.
+class CatalogueBefore : public Catalogue {
+ public:
+  explicit CatalogueBefore(Catalogue& before) : before_(before) {}
+
+  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
+    return before_.add(model, chunks);
+  }
+  Expected<void> set_state(const ModelId& id, ModelState state) override {
+    return before_.set_state(id, state);
+  }
+  Expected<void> update(const ModelRecord& model,
+                        std::optional<std::span<const ChunkPlace>> chunks) override {
+    return before_.update(model, chunks);
+  }
+  Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) override {
+    return before_.remove(id, version);
+  }
+  Expected<std::vector<NamedFile>> files() override { return before_.files(); }
+  Expected<std::vector<TokenRecord>> tokens() override { return before_.tokens(); }
+  Expected<std::optional<ModelRecord>> find(const ModelId& id) override { return before_.find(id); }
+  Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) override {
+    return before_.find_same(model);
+  }
+  Expected<ModelPage> search(const ModelQuery& query) override { return before_.search(query); }
+  Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
+    return before_.find_chunk(chunk);
+  }
+  Expected<void> add_token(const TokenRecord& token) override { return before_.add_token(token); }
+  Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
+    return before_.tokens_like(hash);
+  }
+  Expected<void> revoke_token(const ModelId& id) override { return before_.revoke_token(id); }
+  Expected<std::uint64_t> revision() override { return before_.revision(); }
+
+ protected:
+  Catalogue& before_;
+};
+
+}  // namespace vitrine::test

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# postgres.sh FOLDER: a PostgreSQL server on a free port of 127.0.0.1, never as root. Prints the port
+# once it answers, then does what its standard input says (create NAME, stop, start), each answered
+# with a line, and ends with it.
+set -euo pipefail
+cd "$1"
+binaries=/usr/lib/postgresql/15/bin
+as_owner=()
+if ((EUID == 0)); then
+  as_owner=(setpriv --reuid=postgres --regid=postgres --clear-groups)
+  chown postgres:postgres .
+fi
+export HOME=$PWD PGPASSWORD=a-secret LC_ALL=C.UTF-8
+
+free_port() {
+  local lowest port
+  read -r lowest _ </proc/sys/net/ipv4/ip_local_port_range
+  for port in $(shuf -i "$((lowest - 8000))-$((lowest - 1))" -n 50); do
+    (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null || break
+  done
+  echo "$port"
+}
+port=$(free_port)
+
+control() {
+  "${as_owner[@]}" "$binaries/pg_ctl" -D "$PWD/data" -l "$PWD/log" -w -t 60 "$@" </dev/null >>control 2>&1
+}
+stop() { control -m fast stop || true; }
+start() {
+  # What is in it goes with the test: nothing has to reach the disk.
+  control -o "-p $port -h 127.0.0.1 -k '' -c fsync=off -c full_page_writes=off -c shared_buffers=32MB" start
+}
+
+echo "$PGPASSWORD" >secret
+[[ ${as_owner[*]} ]] && chown postgres secret
+"${as_owner[@]}" "$binaries/initdb" -D "$PWD/data" -U museum -A scram-sha-256 --pwfile=secret -N \
+  -E UTF8 </dev/null >init 2>&1
+trap stop EXIT
+start
+echo "$port"
+while read -r command name; do
+  case $command in
+    create) "$binaries/createdb" -h 127.0.0.1 -p "$port" -U museum "$name" ;;
+    stop) stop ;;
+    start) start ;;
+  esac
+  echo "done"
+done
