@@ -77,6 +77,19 @@ export class ViewerPage {
     }, count, { timeout: 60_000 });
   }
 
+  /** Opens the sheet of a tool, unless it is open. */
+  async sheet(tool) {
+    const button = this.page.locator(`button[name=${tool}]`);
+    await button.waitFor();
+    if (await button.getAttribute("aria-expanded") === "false") await button.click();
+  }
+
+  /** The switch of that name, in its open sheet. */
+  async toggle(name) {
+    await this.sheet("surface");
+    return this.page.locator(`input[name=${name}]`);
+  }
+
   async triangles() {
     const shown = (await this.seen()).filter(({ type }) => type === "refine");
     return shown.at(-1).detail.triangles;

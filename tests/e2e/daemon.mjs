@@ -70,9 +70,9 @@ export class Daemon {
     return counted.reduce((sum, [, , value]) => sum + value, 0);
   }
 
-  /** Publishes a mesh; returns the address of its page. */
-  async publish(mesh, title) {
-    const { stdout } = await run(join(this.bin, "vitrine"), ["publish", mesh, "--data", this.data, "--title", title, "--json"], { env });
+  /** Publishes a mesh, with more words of the command; returns the address of its page. */
+  async publish(mesh, title, ...more) {
+    const { stdout } = await run(join(this.bin, "vitrine"), ["publish", mesh, "--data", this.data, "--title", title, "--json", ...more], { env });
     return `${this.url}/models/${JSON.parse(stdout).id}`;
   }
 

@@ -79,7 +79,7 @@ for (const kind of ["plain", "coloured"]) {
 
     for (const toggle of ["facets", "wireframe"]) {
       test(`shows ${toggle} and takes them back`, async () => {
-        const box = viewer.page.locator(`input[name=${toggle}]`);
+        const box = await viewer.toggle(toggle);
         const plain = await canvas(viewer);
         await box.check();
         const changed = await canvas(viewer, `${kind}-${toggle}`);
@@ -90,7 +90,7 @@ for (const kind of ["plain", "coloured"]) {
     }
 
     test("offers colours only where there are some", async () => {
-      const box = viewer.page.locator("input[name=colours]");
+      const box = await viewer.toggle("colours");
       assert.equal(await box.isVisible(), kind === "coloured");
       if (kind === "plain") return;
       const coloured = await canvas(viewer);
@@ -200,7 +200,7 @@ test("draws again when a lost WebGL context comes back", async () => {
 
 test("another src keeps the visitor's switches, and attributes may change while it loads", async () => {
   const viewer = await refined(pages.plain);
-  await viewer.page.locator("input[name=wireframe]").check();
+  await (await viewer.toggle("wireframe")).check();
   await viewer.settled(() => viewer.page.evaluate((src) => {
     const element = document.querySelector("progressive-mesh");
     element.src = src;
@@ -209,7 +209,7 @@ test("another src keeps the visitor's switches, and attributes may change while 
   }, pages.coloured));
   assert.equal(await viewer.triangles(), mesh.faces.length);
   const wired = await canvas(viewer);
-  await viewer.page.locator("input[name=wireframe]").uncheck();
+  await (await viewer.toggle("wireframe")).uncheck();
   assert.notDeepEqual(await canvas(viewer), wired);
   assert.deepEqual(await viewer.complaints(), []);
   await viewer.page.context().close();
@@ -270,11 +270,11 @@ async function canvas(viewer, name) {
   return crop(viewer, bytes);
 }
 
-/** Raw pixels of the middle of a picture, without the panel at its foot. */
+/** Raw pixels of the upper half of a picture, without the panel at its foot and the sheet above that. */
 function crop(viewer, png) {
   return viewer.page.evaluate(async (base64) => {
     const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
-    const surface = new OffscreenCanvas(image.width, Math.floor(image.height * 0.7));
+    const surface = new OffscreenCanvas(image.width, Math.floor(image.height * 0.5));
     const context = surface.getContext("2d");
     context.drawImage(image, 0, 0);
     const { data } = context.getImageData(0, 0, surface.width, surface.height);

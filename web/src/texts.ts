@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every text that a visitor reads.
+// What a visitor of the pages around the viewer reads.
 const number = new Intl.NumberFormat("en");
 const short = new Intl.NumberFormat("en", { maximumFractionDigits: 1 });
 
@@ -23,17 +23,8 @@ export function timeLeft(seconds: number): string {
 }
 
 export const texts = {
-  detail: "Level of detail",
-  triangles: (shown: number, total: number) => `${count(shown)} of ${count(total)} triangles`,
-  bytes: (held: number, total: number) => `${size(held)} of ${size(total)}`,
   amount: (triangles: string, bytes: string) => `${triangles} triangles, ${bytes}`,
-  colours: "Colours",
-  facets: "Facets",
-  wireframe: "Wireframe",
-  resetView: "Reset view",
   loading: "Loading",
-  viewOf: (title: string) => title || "Three-dimensional model",
-  noWebGl: "This browser cannot show three-dimensional content (WebGL 2 is missing).",
   galleryTitle: "Collection",
   galleryEmpty: "Nothing is on display yet.",
   galleryHint: "Publish a scan with: vitrine publish scan.ply --data DIR",

@@ -1,59 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shadow tree of <progressive-mesh>: picture, poster, controls, messages.
-import { texts } from "../texts.ts";
+// The shadow tree of <progressive-mesh>: picture, poster, messages, the choice of detail, and the place
+// of the tools, which come later (tools/toolbox.ts).
+import type { ModelInfo, Want } from "../core/types.ts";
+import type { Texts } from "../texts/index.ts";
+import { Choice, kChoice } from "./choice.ts";
 import style from "./element.css?text";
-
-const kToggles = ["colours", "facets", "wireframe"] as const;
-export type Toggle = (typeof kToggles)[number];
 
 const kTemplate = `
   <div class="panel">
     <div class="view">
-      <canvas part="canvas" tabindex="0" role="img"></canvas>
+      <canvas part="canvas" tabindex="0" role="img" aria-describedby="keys"></canvas>
       <slot name="poster"><img part="poster" class="poster" alt="" hidden></slot>
       <p class="message" part="message" role="alert" hidden></p>
+      <p class="heard" id="keys" data-text="keys"></p>
     </div>
-    <div class="progress" part="progress" role="progressbar" aria-label="${texts.loading}"><div></div></div>
-    <form class="controls" part="controls">
-      <label class="detail"><span>${texts.detail}</span>
-        <input type="range" name="detail" min="0" max="1000" value="0" disabled></label>
-      <output><span class="triangles"></span><span class="bytes"></span></output>
-      <span class="toggles">
-        <label><input type="checkbox" name="colours" checked><span>${texts.colours}</span></label>
-        <label><input type="checkbox" name="facets"><span>${texts.facets}</span></label>
-        <label><input type="checkbox" name="wireframe"><span>${texts.wireframe}</span></label>
-        <button type="button" name="reset">${texts.resetView}</button>
-      </span>
-    </form>
+    <div class="progress" part="progress" role="progressbar" data-label="loading"><div></div></div>
+    <form class="controls" part="controls">${kChoice}<div class="tools" role="toolbar" data-label="tools"></div></form>
   </div>`;
 
 export class Panel {
   onDetail: (fraction: number) => void = () => undefined;
-  onToggle: (which: Toggle, on: boolean) => void = () => undefined;
-  onReset: () => void = () => undefined;
+  readonly choice: Choice;
   #held = false;
+  #alt = "";
+  #texts!: Texts;
 
   /** The place of the picture. */
   readonly view: HTMLElement;
 
-  constructor(private readonly root: ShadowRoot) {
+  constructor(readonly root: ShadowRoot) {
     root.innerHTML = `<style>${style}</style>${kTemplate}`;
     this.view = this.#find(".view");
-    this.alt = "";
+    this.choice = new Choice(root);
     this.#detail.addEventListener("input", () => {
       this.#held = true;
       this.onDetail(Number(this.#detail.value) / 1000);
     });
-    for (const which of kToggles) {
-      const box = this.#find<HTMLInputElement>(`[name=${which}]`);
-      box.addEventListener("change", () => this.onToggle(which, box.checked));
-    }
-    this.#find("[name=reset]").addEventListener("click", () => this.onReset());
     this.#find("form").addEventListener("submit", (event) => event.preventDefault());
   }
 
+  set onChoose(choose: (want: Want) => void) {
+    this.choice.onChoose = (want) => {
+      this.#held = false;
+      choose(want);
+    };
+  }
+
+  /** Writes all texts that do not depend on the model. */
+  set texts(texts: Texts) {
+    this.#texts = this.choice.texts = texts;
+    const write = (name: string, use: (place: Element, text: string) => void) => {
+      for (const place of this.root.querySelectorAll(`[data-${name}]`)) use(place, texts[place.getAttribute(`data-${name}`) as "keys"]);
+    };
+    write("text", (place, text) => (place.textContent = text));
+    write("label", (place, text) => (place.ariaLabel = text));
+    this.alt = this.#alt;
+  }
+
   set alt(text: string) {
-    this.#find("canvas").setAttribute("aria-label", texts.viewOf(text));
+    this.#alt = text;
+    if (this.#texts) this.#find("canvas").setAttribute("aria-label", this.#texts.viewOf(text));
   }
 
   /** A canvas that has no WebGL context yet, in the place of the old one. */
@@ -64,17 +70,13 @@ export class Panel {
     return fresh;
   }
 
-  /** What the visitor has switched on: it holds for the next model too. */
-  toggles(): [Toggle, boolean][] {
-    return kToggles.map((which) => [which, this.#find<HTMLInputElement>(`[name=${which}]`).checked]);
-  }
-
   /** As before the first model. */
   reset(): void {
     this.#held = false;
     this.message = "";
     this.progress = 0;
     this.#detail.disabled = true;
+    this.choice.disable();
     this.#find("slot[name=poster]").hidden = false;
     this.#find("form").classList.remove("ready");
   }
@@ -91,21 +93,15 @@ export class Panel {
   }
 
   /** The model is there: the controls make sense now. */
-  enable(coloured: boolean): void {
+  enable(info: ModelInfo): void {
     this.#detail.disabled = false;
-    this.#find<HTMLInputElement>("[name=colours]").closest("label")?.toggleAttribute("hidden", !coloured);
+    this.choice.enable(info);
     this.#find("form").classList.add("ready");
   }
 
   /** Moves the slider along with the model, until the visitor has taken hold of it. */
   follow(fraction: number): void {
     if (!this.#held) this.#detail.value = String(Math.round(1000 * fraction));
-  }
-
-  counts(triangles: string, bytes: string): void {
-    this.#find(".triangles").textContent = triangles;
-    this.#find(".bytes").textContent = bytes;
-    this.#detail.setAttribute("aria-valuetext", triangles);
   }
 
   set progress(fraction: number) {

@@ -3,9 +3,10 @@
 import { assetsBeside } from "../core/client.ts";
 import type { Transport } from "../core/source.ts";
 import type { Level, Want } from "../core/types.ts";
-import { texts } from "../texts.ts";
+import { textsFor, type Texts } from "../texts/index.ts";
 import { Panel } from "./panel.ts";
 import type { Stage } from "./stage.ts";
+import type { Toolbox } from "./tools/toolbox.ts";
 
 /** Milliseconds without a move after which a camera rests. */
 const kRest = 100;
@@ -26,6 +27,8 @@ export class ProgressiveMeshElement extends HTMLElement {
   #painted = false; // the stage shows its base mesh: it can be refined and dressed
   #loads = 0;
   #resting: ReturnType<typeof setTimeout> | undefined;
+  #texts!: Texts;
+  #tools: Toolbox | undefined;
 
   get src(): string {
     return this.getAttribute("src") ?? "";
@@ -48,9 +51,9 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   connectedCallback(): void {
     this.#adopt();
+    this.#panel.texts = this.#texts = textsFor(this);
     this.#panel.onDetail = (fraction) => void this.#refine(this.#wantAt(fraction));
-    this.#panel.onToggle = (which, on) => this.#painted && this.#stage && (this.#stage[which] = on);
-    this.#panel.onReset = () => this.#painted && this.#stage?.frame();
+    this.#panel.onChoose = (want) => void this.#refine(want);
     this.#size.observe(this.#panel.view);
     void this.#load();
   }
@@ -94,6 +97,7 @@ export class ProgressiveMeshElement extends HTMLElement {
       this.#painted = true;
       this.#panel.hidePoster();
       this.#emit("first-paint");
+      this.#equip(stage).catch(() => undefined); // the browser tells; the model is shown all the same
       await this.#sharpen();
     } catch (error) {
       if (load === this.#loads) this.#fail(error as Error);
@@ -114,9 +118,16 @@ export class ProgressiveMeshElement extends HTMLElement {
   async #firstPaint(stage: Stage): Promise<void> {
     this.#fit();
     stage.frame();
-    for (const [which, on] of this.#panel.toggles()) stage[which] = on;
-    this.#panel.enable(stage.mesh.info.coloured);
+    this.#panel.enable(stage.mesh.info);
     await stage.draw();
+  }
+
+  /** The visitor's tools come after the first picture. */
+  async #equip(stage: Stage): Promise<void> {
+    const { Toolbox } = await import("./tools/toolbox.ts");
+    if (stage !== this.#stage) return;
+    this.#tools ??= new Toolbox(this, this.#panel, this.#texts);
+    this.#tools.attach(stage, { frame: () => stage.frame(), sharpen: () => void this.#sharpen() });
   }
 
   /** Towards what the attributes ask for. */
@@ -138,6 +149,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   async #reach(refine: (stage: Stage) => Promise<boolean>): Promise<void> {
     const stage = this.#stage;
     if (!stage) return;
+    this.#panel.choice.begin();
     try {
       if (!(await refine(stage)) || stage !== this.#stage) return;
       await stage.draw();
@@ -149,11 +161,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   }
 
   #show(surface: { triangles: number; vertices: number; bytes: number }): void {
-    const { fileBytes } = this.#info;
-    this.#panel.counts(
-      texts.triangles(surface.triangles, this.#finest.faces),
-      texts.bytes(surface.bytes, fileBytes),
-    );
+    this.#panel.choice.show(surface, !(this.#number("pixel-error") > 0));
     this.#panel.follow(this.#fractionOf(surface.triangles));
     this.#emit("refine", surface);
   }
@@ -166,17 +174,19 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   #progress(bytes: number, total: number): void {
     this.#panel.progress = total > 0 ? bytes / total : 1;
+    this.#panel.choice.arrived(bytes);
     this.#emit("progress", { bytes, total });
   }
 
   #fail(error: Error): void {
-    this.#panel.message = this.#stage ? error.message : `${texts.noWebGl} ${error.message}`;
+    this.#panel.message = this.#stage ? error.message : `${this.#texts.noWebGl} ${error.message}`;
     this.#emit("error", { message: error.message });
   }
 
   #clear(): void {
     ++this.#loads;
     clearTimeout(this.#resting);
+    this.#tools?.detach();
     this.#stage?.dispose();
     this.#stage = undefined;
     this.#painted = false;

@@ -14,6 +14,8 @@ export class Stage {
   readonly mesh: ProgressiveMesh;
   /** Called after each change of the camera. */
   onCamera: () => void = () => undefined;
+  /** Called after each picture. */
+  onDraw: () => void = () => undefined;
 
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
@@ -42,6 +44,11 @@ export class Stage {
     this.#wires.visible = false;
     this.#light();
     this.#scene.add(this.mesh, this.#wires, this.#camera);
+  }
+
+  /** What the visitor's tools work on (tools/toolbox.ts). */
+  get parts() {
+    return { renderer: this.#renderer, scene: this.#scene, camera: this.#camera, controls: this.#controls, lamp: this.#lamp };
   }
 
   /** Draws at the next frame; resolves when the picture has gone to the screen. */
@@ -113,13 +120,14 @@ export class Stage {
 
   #light(): void {
     this.#lamp.position.set(-0.6, 0.9, 0.6);
-    this.#camera.add(this.#lamp); // the light follows the visitor
+    this.#camera.add(this.#lamp, this.#lamp.target); // the light follows the visitor, whatever the model's size
     this.#scene.add(new HemisphereLight(new Color(0xffffff), new Color(0x8a8178), 1.1));
   }
 
   #render(): void {
     this.#frame = 0;
     this.#renderer.render(this.#scene, this.#camera);
+    this.onDraw();
     const drawn = this.#drawn.splice(0);
     if (drawn.length !== 0) requestAnimationFrame(() => drawn.forEach((resolve) => resolve()));
   }

@@ -3,7 +3,7 @@
 // it (dist/three.js).
 export {
   Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, GLSL3, HemisphereLight, LinearSRGBColorSpace,
-  Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Points, Scene, ShaderMaterial, Sphere, Vector3,
-  WebGLRenderer,
+  Matrix4, Mesh, MeshBasicMaterial, MeshDepthMaterial, MeshStandardMaterial, PerspectiveCamera, Plane, Points, RGBADepthPacking, Scene,
+  ShaderMaterial, Sphere, Vector3, WebGLRenderer, WebGLRenderTarget,
 } from "three";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The visitor's choice of detail: lowest, one level finer, or highest, each with its size and the wait
+// to expect; the slider in between; and the badge that tells what is shown.
+import type { ModelInfo, Want } from "../core/types.ts";
+import { inMillimetres } from "../texts/formats.ts";
+import type { Texts } from "../texts/index.ts";
+import { completeLevel, nextLevel, Throughput } from "./quality.ts";
+
+export const kChoice = `
+  <div class="choice" role="group" data-label="quality">
+    <button type="button" name="lowest" disabled><b data-text="lowest"></b><small></small></button>
+    <button type="button" name="refine" disabled><b data-text="refine"></b><small></small></button>
+    <button type="button" name="highest" disabled><b data-text="highest"></b><small></small></button>
+  </div>
+  <div class="detail">
+    <input type="range" name="detail" data-label="quality" min="0" max="1000" value="0" disabled>
+    <output aria-live="off"><span class="triangles"></span><span class="bytes"></span><span class="error"></span></output>
+  </div>`;
+
+type Name = "lowest" | "refine" | "highest";
+
+export class Choice {
+  onChoose: (want: Want) => void = () => undefined;
+  readonly #line = new Throughput();
+  #info: ModelInfo | undefined;
+  #triangles = 0; // shown
+  texts!: Texts;
+
+  constructor(private readonly root: ParentNode) {
+    this.#button("lowest").addEventListener("click", () => this.onChoose({ level: 0 }));
+    this.#button("refine").addEventListener("click", () => this.onChoose({ level: this.#next ?? this.#finest }));
+    this.#button("highest").addEventListener("click", () => this.onChoose({ level: this.#finest }));
+  }
+
+  get triangles(): number {
+    return this.#triangles;
+  }
+
+  /** From now on bytes are on their way. */
+  begin(): void {
+    this.#line.begin(performance.now());
+  }
+
+  arrived(bytes: number): void {
+    this.#line.sample(bytes, performance.now());
+    this.#tell();
+  }
+
+  enable(info: ModelInfo): void {
+    this.#info = info;
+    this.#line.sample(this.#bytesOf(0), performance.now());
+    this.#tell();
+  }
+
+  disable(): void {
+    this.#info = undefined;
+    for (const name of ["lowest", "refine", "highest"] as const) this.#button(name).disabled = true;
+  }
+
+  /** `bounded`: the model is refined everywhere alike, so that its level's error holds. */
+  show({ triangles, bytes }: { triangles: number; bytes: number }, bounded: boolean): void {
+    if (!this.#info) return;
+    const { texts } = this;
+    this.#triangles = triangles;
+    const counted = texts.triangles(triangles, this.#info.levels[this.#finest]?.faces ?? triangles);
+    this.#write(".triangles", counted);
+    this.#write(".bytes", texts.bytes(bytes, this.#info.fileBytes));
+    const error = completeLevel(this.#info, triangles).maxError;
+    this.#write(".error", bounded ? texts.error(...inMillimetres(error, this.#info.unit)) : "");
+    this.root.querySelector("[name=detail]")?.setAttribute("aria-valuetext", counted);
+    this.#tell();
+  }
+
+  #tell(): void {
+    if (!this.#info) return;
+    const { texts } = this, next = this.#next;
+    const lowest = this.#bytesOf(0), highest = this.#bytesOf(this.#finest);
+    this.#offer("lowest", texts.size(lowest), this.#wait(lowest)).ariaPressed = String(next === 1);
+    this.#offer("highest", texts.size(highest), this.#wait(highest)).ariaPressed = String(next === undefined);
+    const refine = next === undefined
+      ? this.#offer("refine", texts.complete)
+      : this.#offer("refine", texts.more(this.#bytesOf(next) - this.#bytesOf(next - 1)), this.#wait(this.#bytesOf(next)));
+    refine.ariaDisabled = String(next === undefined); // not `disabled`: it would lose the focus
+  }
+
+  #offer(name: Name, ...facts: string[]): HTMLButtonElement {
+    const button = this.#button(name);
+    (button.querySelector("small") as HTMLElement).textContent = facts.filter(Boolean).join(" · ");
+    button.disabled = false;
+    return button;
+  }
+
+  /** Until `bytes` are there, in words; nothing before the line has been measured. */
+  #wait(bytes: number): string {
+    const seconds = this.#line.secondsTo(bytes);
+    if (seconds === undefined) return "";
+    return seconds < 0.5 ? this.texts.atOnce : this.texts.wait(seconds);
+  }
+
+  #bytesOf(level: number): number {
+    return this.#info?.levels[level]?.cumulativeBytes ?? 0;
+  }
+  get #next(): number | undefined {
+    return this.#info && nextLevel(this.#info, this.#triangles);
+  }
+  get #finest(): number {
+    return (this.#info?.levels.length ?? 1) - 1;
+  }
+
+  #button(name: Name): HTMLButtonElement {
+    return this.root.querySelector(`[name=${name}]`) as HTMLButtonElement;
+  }
+  #write(selector: string, text: string): void {
+    (this.root.querySelector(selector) as HTMLElement).textContent = text;
+  }
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tells those who listen what the others see: where the camera has come to rest, and how far the model has
+// come, at milestones only.
+import type { Bench, Tool } from "./bench.ts";
+import { heightOf, sideOf } from "./view.ts";
+
+/** Milliseconds without a move after which a camera rests. */
+const kRest = 600;
+
+/** Whether a model of `total` bytes passes its half, but not its end, between two states. */
+export function passesHalf(before: number, now: number, total: number): boolean {
+  return before < total / 2 && now >= total / 2 && now < total;
+}
+
+export class Announcer implements Tool {
+  #seen = "";
+  #bytes = 0;
+  #asked = false; // for a level of detail: one that a camera asks for is worth no word
+  #resting: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly bench: Bench) {}
+
+  attach(until: AbortSignal): void {
+    const { host, stage, texts } = this.bench, { info } = stage.mesh;
+    this.#seen = this.#words();
+    this.#bytes = info.levels[0]?.cumulativeBytes ?? 0;
+    const options = { signal: until };
+    host.addEventListener("camera-change", () => this.#move(), options);
+    host.addEventListener("refine", (event) => {
+      const { bytes } = (event as CustomEvent<{ bytes: number }>).detail;
+      if (passesHalf(this.#bytes, bytes, info.fileBytes)) this.bench.say(texts.halfway);
+      this.#bytes = bytes;
+    }, options);
+    host.addEventListener("load", () => this.#asked && this.#reached(), options);
+    this.#asked = true;
+    const ask = ({ target }: Event) => (this.#asked ||= (target as Element).closest(".choice, .detail") !== null);
+    for (const sign of ["click", "input"]) this.bench.view.parentElement?.addEventListener(sign, ask, options);
+    until.addEventListener("abort", () => clearTimeout(this.#resting));
+    if (this.bench.triangles === info.levels.at(-1)?.faces) this.#reached(); // before the tools were there
+    else this.bench.say(texts.firstShape(this.bench.triangles));
+  }
+
+  #reached(): void {
+    this.#asked = false;
+    this.bench.say(this.bench.texts.reached(this.bench.triangles));
+  }
+
+  #move(): void {
+    clearTimeout(this.#resting);
+    this.#resting = setTimeout(() => {
+      const words = this.#words();
+      if (words !== this.#seen) this.bench.say((this.#seen = words));
+    }, kRest);
+  }
+
+  #words(): string {
+    const { azimuth, elevation } = this.bench.orbit.view;
+    return this.bench.texts.seenFrom(sideOf(azimuth), heightOf(elevation));
+  }
+}

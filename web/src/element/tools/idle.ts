@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// For kiosks: so many seconds (`idle-reset`) after a visitor has left, all is as before.
+import type { Bench, Tool } from "./bench.ts";
+
+const kSigns = ["pointerdown", "pointermove", "wheel", "keydown", "focusin"] as const;
+
+export class Idle implements Tool {
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly bench: Bench, private readonly leave: () => void) {}
+
+  attach(until: AbortSignal): void {
+    const options = { signal: until, passive: true, capture: true };
+    for (const sign of kSigns) this.bench.host.addEventListener(sign, () => this.#stir(), options);
+    until.addEventListener("abort", () => clearTimeout(this.#timer));
+  }
+
+  #stir(): void {
+    clearTimeout(this.#timer);
+    const seconds = Number.parseFloat(this.bench.host.getAttribute("idle-reset") ?? "");
+    if (seconds > 0) this.#timer = setTimeout(this.leave, 1000 * seconds);
+  }
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The camera for those who use no pointer.
+import type { Bench, Tool } from "./bench.ts";
+
+const kTurn = 10; // degrees
+const kZoom = 1.15;
+
+/** What a key does: degrees to the right, degrees up, a factor of the distance. */
+const kMoves: Record<string, [number, number, number]> = {
+  ArrowLeft: [-kTurn, 0, 1], ArrowRight: [kTurn, 0, 1], ArrowUp: [0, kTurn, 1], ArrowDown: [0, -kTurn, 1],
+  "+": [0, 0, 1 / kZoom], "=": [0, 0, 1 / kZoom], "-": [0, 0, kZoom],
+};
+
+export class Keyboard implements Tool {
+  constructor(private readonly bench: Bench) {}
+
+  attach(until: AbortSignal): void {
+    const canvas = this.bench.view.querySelector("canvas") as HTMLCanvasElement;
+    canvas.addEventListener("keydown", (event) => this.#press(event), { signal: until });
+  }
+
+  #press(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey || !this.bench.stage.parts.controls.enabled) return;
+    const move = kMoves[event.key];
+    if (move) this.bench.orbit.turn(...move);
+    else if (event.key === "Home") this.bench.page.frame();
+    else return;
+    event.preventDefault();
+  }
+}

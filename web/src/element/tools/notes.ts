@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Notes on the model: hotspots of the page (slot="hotspot-…" data-position data-normal, as
+// model-viewer has them) and those of the file that the attribute `annotations` names.
+import { Vector3 } from "three";
+import { readAnnotations, triple, type Annotation, type Triple } from "./annotations.ts";
+import type { Bench, Tool } from "./bench.ts";
+import { make } from "./dom.ts";
+import type { Mark } from "./overlay.ts";
+
+const kWatched = { childList: true, subtree: true, attributeFilter: ["slot", "data-position", "data-normal", "annotations"] };
+
+export class Notes implements Tool {
+  readonly content = make("ol", { class: "notes" });
+  /** Opens the sheet that holds `content`. */
+  onChosen: () => void = () => undefined;
+  /** Whether there is anything to read. */
+  onFilled: (any: boolean) => void = () => undefined;
+  #marks: Mark[] = [];
+  #hotspots: Mark[] = [];
+  #loading = "";
+
+  constructor(private readonly bench: Bench) {}
+
+  attach(until: AbortSignal): void {
+    const { host } = this.bench;
+    const watch = new MutationObserver(() => this.#gather(until));
+    watch.observe(host, kWatched);
+    until.addEventListener("abort", () => {
+      watch.disconnect();
+      this.#loading = "";
+      this.#show([]);
+      this.#clear(this.#hotspots);
+    });
+    this.#gather(until);
+  }
+
+  reset(): void {
+    this.#mark(undefined);
+  }
+
+  #gather(until: AbortSignal): void {
+    this.#pin();
+    const file = this.bench.host.getAttribute("annotations") ?? "";
+    if (file === this.#loading) return;
+    this.#loading = file;
+    void this.#load(file, until);
+  }
+
+  async #load(file: string, until: AbortSignal): Promise<void> {
+    try {
+      const answer = file ? await fetch(file, { signal: until }) : undefined;
+      if (answer && !answer.ok) throw new Error(`status ${answer.status}`);
+      const notes = answer ? readAnnotations(await answer.json()) : [];
+      if (file === this.#loading) this.#show(notes);
+    } catch (error) {
+      if (until.aborted) return;
+      this.#show([]);
+      this.content.replaceChildren(make("li", {}, this.bench.texts.notesMissing));
+      this.onFilled(true);
+      console.warn(`annotations "${file}": ${(error as Error).message}`);
+    }
+  }
+
+  #show(notes: Annotation[]): void {
+    this.#clear(this.#marks);
+    this.content.replaceChildren(...notes.map((note, i) => this.#entry(note, i)));
+    this.#marks = notes.map((note, i) => this.#place(this.#button(note, i), note.position, note.normal));
+    this.onFilled(notes.length > 0);
+    if (notes.length > 0) void this.bench.stage.draw();
+  }
+
+  #entry({ title, text }: Annotation, i: number): HTMLLIElement {
+    const head = make("button", { type: "button", onclick: () => this.#choose(i) }, title);
+    return make("li", {}, head, ...(text ? [make("p", {}, text)] : []));
+  }
+
+  #button({ title }: Annotation, i: number): HTMLElement {
+    const label = this.bench.texts.noteMarker(i + 1, title);
+    const button = make("button", { type: "button", "aria-label": label, onclick: () => this.#choose(i) }, make("span", {}, String(i + 1)));
+    return make("div", { class: "marker" }, button);
+  }
+
+  #choose(i: number): void {
+    const { point, normal } = this.#marks[i] as Mark;
+    this.#mark(i);
+    this.bench.orbit.flyTo(normal ?? point); // from without, where nothing says which side
+    this.onChosen();
+    this.content.children[i]?.scrollIntoView({ block: "nearest" });
+  }
+
+  #mark(chosen: number | undefined): void {
+    [...this.content.children].forEach((entry, i) => {
+      if (i === chosen) entry.setAttribute("aria-current", "true");
+      else entry.removeAttribute("aria-current");
+    });
+    this.#marks.forEach(({ element }, i) => element.classList.toggle("chosen", i === chosen));
+  }
+
+  /** The page's own hotspots: its elements, held in place by a slot of ours. */
+  #pin(): void {
+    this.#clear(this.#hotspots);
+    for (const hotspot of this.bench.host.querySelectorAll<HTMLElement>(":scope > [slot^=hotspot-]")) {
+      const position = triple(hotspot.dataset["position"]);
+      if (!position) continue;
+      const place = make("div", { class: "hotspot" }, make("slot", { name: hotspot.slot }));
+      this.#hotspots.push(this.#place(place, position, triple(hotspot.dataset["normal"])));
+    }
+    void this.bench.stage.draw();
+  }
+
+  #place(element: HTMLElement, position: Triple, normal: Triple | undefined): Mark {
+    const point = new Vector3(...position).sub(new Vector3(...this.bench.stage.mesh.info.centre));
+    const mark: Mark = { element, point, ...(normal && { normal: new Vector3(...normal) }) };
+    this.bench.overlay.add(mark);
+    return mark;
+  }
+
+  #clear(marks: Mark[]): void {
+    for (const mark of marks.splice(0)) this.bench.overlay.remove(mark);
+  }
+}

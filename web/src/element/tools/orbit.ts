@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns the camera about what it looks at, at once or in a flight.
+import { Vector3 } from "three";
+import type { Stage } from "../stage.ts";
+import { anglesOf, offsetOf, type View } from "./view.ts";
+
+const kFlight = 600; // milliseconds
+
+export class Orbit {
+  #flight = 0;
+
+  constructor(private readonly stage: () => Stage) {}
+
+  get view(): View {
+    const { camera, controls } = this.stage().parts, [x, y, z] = this.stage().mesh.info.centre;
+    const target = controls.target;
+    return { ...anglesOf(camera.position.clone().sub(target)), target: [target.x + x, target.y + y, target.z + z] };
+  }
+
+  set view(view: View) {
+    this.stop();
+    this.#place(view);
+  }
+
+  /** Degrees, and a factor of the distance. */
+  turn(azimuth: number, elevation: number, zoom = 1): void {
+    const { view } = this;
+    this.view = { ...view, azimuth: view.azimuth + azimuth, elevation: view.elevation + elevation, distance: view.distance * zoom };
+  }
+
+  /** To where `direction` points, seen from the target; at once for those who want no motion. */
+  flyTo(direction: Vector3): void {
+    const from = this.view, { azimuth, elevation } = anglesOf(direction);
+    const turn = ((((azimuth - from.azimuth) % 360) + 540) % 360) - 180;
+    const rise = elevation - from.elevation;
+    const at = (part: number) => ({ ...from, azimuth: from.azimuth + part * turn, elevation: from.elevation + part * rise });
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return void (this.view = at(1));
+    this.stop();
+    const begin = performance.now();
+    const step = (now: number) => {
+      const part = Math.min(1, Math.max(0, now - begin) / kFlight);
+      this.#place(at(part * part * (3 - 2 * part)));
+      this.#flight = part < 1 ? requestAnimationFrame(step) : 0;
+    };
+    this.#flight = requestAnimationFrame(step);
+  }
+
+  stop(): void {
+    cancelAnimationFrame(this.#flight);
+  }
+
+  /** The controls keep to their limits. */
+  #place(view: View): void {
+    const { camera, controls } = this.stage().parts, [x, y, z] = this.stage().mesh.info.centre;
+    controls.target.set(view.target[0] - x, view.target[1] - y, view.target[2] - z);
+    const { x: right, y: up, z: front } = offsetOf({ ...view, elevation: Math.max(-89.9, Math.min(89.9, view.elevation)) });
+    camera.position.set(right, up, front).add(controls.target);
+    controls.update();
+  }
+}

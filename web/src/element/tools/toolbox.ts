@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The visitor's tools around a model. A chunk of its own that comes after the first picture, and that shares
+// no code with the others: what it needs of them is handed to it.
+import type { Texts } from "../../texts/index.ts";
+import type { Panel } from "../panel.ts";
+import type { Stage } from "../stage.ts";
+import { Announcer } from "./announcer.ts";
+import type { Bench, Page, Tool } from "./bench.ts";
+import { make } from "./dom.ts";
+import { Idle } from "./idle.ts";
+import { Keyboard } from "./keyboard.ts";
+import { Light } from "./light.ts";
+import { Measure } from "./measure.ts";
+import { Notes } from "./notes.ts";
+import { Orbit } from "./orbit.ts";
+import { Overlay } from "./overlay.ts";
+import { Save } from "./save.ts";
+import { Section } from "./section.ts";
+import { Sheets } from "./sheets.ts";
+import { Surface } from "./surface.ts";
+import style from "./tools.css?text";
+
+export class Toolbox implements Bench {
+  readonly view: HTMLElement;
+  readonly overlay: Overlay;
+  readonly orbit = new Orbit(() => this.stage);
+  readonly #choice: Panel["choice"];
+  readonly #heard = make("p", { class: "heard", role: "status" });
+  readonly #bar: HTMLElement;
+  readonly #sheets: Sheets;
+  readonly #tools: Tool[];
+  #stage: Stage | undefined;
+  #page: Page | undefined;
+  #until = new AbortController();
+
+  constructor(readonly host: HTMLElement, { root, view, choice }: Panel, readonly texts: Texts) {
+    const marks = make("div", { class: "marks" });
+    root.append(make("style", {}, style));
+    view.append(marks, this.#heard);
+    this.view = view;
+    this.overlay = new Overlay(marks);
+    this.#choice = choice;
+    this.#bar = root.querySelector(".tools") as HTMLElement;
+    this.#sheets = new Sheets(this.#bar, texts.close);
+    this.#tools = [...this.#fill(), new Keyboard(this), new Announcer(this), new Idle(this, () => this.#startOver())];
+  }
+
+  get stage(): Stage {
+    return this.#stage as Stage;
+  }
+  get page(): Page {
+    return this.#page as Page;
+  }
+  get triangles(): number {
+    return this.#choice.triangles;
+  }
+
+  say(text: string): void {
+    this.#heard.textContent = text;
+  }
+
+  attach(stage: Stage, page: Page): void {
+    this.#stage = stage;
+    this.#page = page;
+    this.#until = new AbortController();
+    this.#bar.inert = false;
+    stage.onDraw = () => this.overlay.update(stage.parts.camera);
+    for (const tool of this.#tools) tool.attach?.(this.#until.signal);
+    void stage.draw();
+  }
+
+  /** The stage goes. */
+  detach(): void {
+    this.#bar.inert = true;
+    this.orbit.stop();
+    this.#sheets.close();
+    this.#until.abort();
+    this.#stage = undefined;
+  }
+
+  /** The bar, in the order in which one looks, studies and takes along. */
+  #fill(): Tool[] {
+    const { texts } = this, sheets = this.#sheets;
+    const light = new Light(this), surface = new Surface(this), section = new Section(this);
+    const measure = new Measure(this), notes = new Notes(this), save = new Save(this);
+    sheets.action("reset", texts.reset, () => this.page.frame());
+    sheets.add("light", texts.light, light.content);
+    sheets.add("surface", texts.surface, surface.content);
+    sheets.add("section", texts.section, section.content);
+    sheets.add("measure", texts.measure, measure.content, (open) => (measure.active = open));
+    const reader = sheets.add("notes", texts.notes, notes.content);
+    reader.hidden = true;
+    notes.onFilled = (any) => (reader.hidden = !any);
+    notes.onChosen = () => reader.ariaExpanded === "false" && reader.click();
+    sheets.add("save", texts.save, save.content, (open) => open && save.refresh());
+    const full = sheets.action("fullScreen", texts.fullScreen, () => void this.#fillScreen());
+    full.hidden = !document.fullscreenEnabled;
+    this.view.addEventListener("pointerdown", () => this.orbit.stop());
+    return [light, surface, section, measure, notes, save];
+  }
+
+  #fillScreen(): Promise<void> {
+    return document.fullscreenElement ? document.exitFullscreen() : this.host.requestFullscreen();
+  }
+
+  #startOver(): void {
+    this.#sheets.close();
+    for (const tool of this.#tools) tool.reset?.();
+    this.page.frame();
+    this.page.sharpen();
+  }
+}

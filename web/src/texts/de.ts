@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a visitor of the viewer reads and hears, in German.
+import type { Texts } from "./en.ts";
+import { formats } from "./formats.ts";
+
+const { count, size, length, bound } = formats("de");
+const units = "Einheiten";
+
+const sides = {
+  front: "vorne", "front-right": "vorne rechts", right: "rechts", "back-right": "hinten rechts",
+  back: "hinten", "back-left": "hinten links", left: "links", "front-left": "vorne links",
+};
+const heights = { above: " oben", level: "", below: " unten" };
+
+export const de: Texts = {
+  loading: "Wird geladen",
+  viewOf: (title) => title || "Dreidimensionales Modell",
+  keys: "Pfeiltasten drehen, Plus und Minus zoomen, Pos1 stellt die Ansicht zurück.",
+  noWebGl: "Dieser Browser kann keine dreidimensionalen Inhalte zeigen (WebGL 2 fehlt).",
+
+  quality: "Detailstufe",
+  lowest: "Niedrigste",
+  refine: "Verfeinern",
+  highest: "Höchste",
+  size,
+  more: (bytes) => `+${size(bytes)}`,
+  complete: "vollständig",
+  atOnce: "sofort",
+  wait: (seconds) => (seconds < 90 ? `${Math.ceil(seconds)} s` : `${Math.round(seconds / 60)} min`),
+  triangles: (shown, total) => `${count(shown)} von ${count(total)} Dreiecken`,
+  bytes: (held, total) => `${size(held)} von ${size(total)}`,
+  error: (most, unit) => `Fehler ≤ ${bound(most, unit || units)}`,
+
+  tools: "Werkzeuge",
+  close: "Schließen",
+  reset: "Ansicht zurückstellen",
+
+  light: "Licht",
+  studio: "Atelier",
+  soft: "Weich",
+  front: "Frontal",
+  raking: "Streiflicht",
+  rakingFrom: "Richtung des Streiflichts",
+  degrees: (value) => `${count(value)} Grad`,
+
+  section: "Schnitt",
+  sectionOn: "Modell schneiden",
+  sectionAcross: "Richtung des Schnitts",
+  axes: { x: "Seite", y: "Höhe", z: "Tiefe" },
+  sectionAt: "Lage des Schnitts",
+  sectionFlip: "Andere Hälfte",
+  percent: (fraction) => `${count(100 * fraction)} %`,
+
+  measure: "Messen",
+  measureFirst: "Klicken Sie einen Punkt der Oberfläche an, oder nehmen Sie mit der Eingabetaste den in der Bildmitte.",
+  measureSecond: "Nun den zweiten Punkt.",
+  measured: (distance, unit) => length(distance, unit || units),
+  distance: (distance, unit) => `Abstand: ${length(distance, unit || units)}`,
+  measureClear: "Löschen",
+
+  notes: "Notizen",
+  noteMarker: (number, title) => `Notiz ${number}: ${title}`,
+  notesMissing: "Die Notizen sind nicht lesbar.",
+
+  surface: "Fläche",
+  colours: "Farben",
+  facets: "Facetten",
+  wireframe: "Drahtgitter",
+
+  save: "Teilen",
+  screenshot: "Bild speichern",
+  link: "Link zu dieser Ansicht",
+  copy: "Kopieren",
+  copied: "Der Link ist kopiert.",
+  copyByHand: "Der Link ist markiert: kopieren Sie ihn mit der Tastatur.",
+  download: "Modell herunterladen",
+  format: "Format",
+  asShown: (triangles) => `Wie gezeigt, ${count(triangles)} Dreiecke`,
+  original: (triangles) => `Höchste, ${count(triangles)} Dreiecke`,
+  coarsest: (triangles) => `Niedrigste, ${count(triangles)} Dreiecke`,
+  fileAlone: "Das ganze Modell (.pmesh)",
+
+  fullScreen: "Vollbild",
+
+  seenFrom: (side, height) => `Gesehen von ${sides[side]}${heights[height]}.`,
+  firstShape: (triangles) => `Die erste Form ist zu sehen, ${count(triangles)} Dreiecke.`,
+  halfway: "Die Hälfte der Einzelheiten ist zu sehen.",
+  reached: (triangles) => `Die gewünschte Detailstufe ist zu sehen, ${count(triangles)} Dreiecke.`,
+};

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a visitor of the viewer reads and hears, in English. Other languages have the same shape.
+import { formats } from "./formats.ts";
+
+const { count, size, length, bound } = formats("en");
+const units = "units"; // of a model that does not say which
+
+const sides = {
+  front: "the front", "front-right": "the front right", right: "the right", "back-right": "the back right",
+  back: "the back", "back-left": "the back left", left: "the left", "front-left": "the front left",
+};
+const heights = { above: ", from above", level: "", below: ", from below" };
+
+export const en = {
+  loading: "Loading",
+  viewOf: (title: string) => title || "Three-dimensional model",
+  keys: "Arrow keys turn, plus and minus zoom, Home resets the view.",
+  noWebGl: "This browser cannot show three-dimensional content (WebGL 2 is missing).",
+
+  quality: "Level of detail",
+  lowest: "Lowest",
+  refine: "Refine",
+  highest: "Highest",
+  size,
+  more: (bytes: number) => `+${size(bytes)}`,
+  complete: "complete",
+  atOnce: "at once",
+  wait: (seconds: number) => (seconds < 90 ? `${Math.ceil(seconds)} s` : `${Math.round(seconds / 60)} min`),
+  triangles: (shown: number, total: number) => `${count(shown)} of ${count(total)} triangles`,
+  bytes: (held: number, total: number) => `${size(held)} of ${size(total)}`,
+  error: (most: number, unit: string) => `error ≤ ${bound(most, unit || units)}`,
+
+  tools: "Tools",
+  close: "Close",
+  reset: "Reset view",
+
+  light: "Light",
+  studio: "Studio",
+  soft: "Soft",
+  front: "Front",
+  raking: "Raking",
+  rakingFrom: "Direction of the raking light",
+  degrees: (value: number) => `${count(value)} degrees`,
+
+  section: "Section",
+  sectionOn: "Cut the model",
+  sectionAcross: "Direction of the cut",
+  axes: { x: "Side", y: "Height", z: "Depth" },
+  sectionAt: "Position of the cut",
+  sectionFlip: "Other half",
+  percent: (fraction: number) => `${count(100 * fraction)} %`,
+
+  measure: "Measure",
+  measureFirst: "Click a point on the surface, or press Enter for the one in the middle of the view.",
+  measureSecond: "Now the second point.",
+  measured: (distance: number, unit: string) => length(distance, unit || units),
+  distance: (distance: number, unit: string) => `Distance: ${length(distance, unit || units)}`,
+  measureClear: "Clear",
+
+  notes: "Notes",
+  noteMarker: (number: number, title: string) => `Note ${number}: ${title}`,
+  notesMissing: "The notes cannot be read.",
+
+  surface: "Surface",
+  colours: "Colours",
+  facets: "Facets",
+  wireframe: "Wireframe",
+
+  save: "Share",
+  screenshot: "Save a picture",
+  link: "Link to this view",
+  copy: "Copy",
+  copied: "The link is copied.",
+  copyByHand: "The link is selected: copy it with the keyboard.",
+  download: "Download the model",
+  format: "Format",
+  asShown: (triangles: number) => `As shown, ${count(triangles)} triangles`,
+  original: (triangles: number) => `Highest, ${count(triangles)} triangles`,
+  coarsest: (triangles: number) => `Lowest, ${count(triangles)} triangles`,
+  fileAlone: "The whole model (.pmesh)",
+
+  fullScreen: "Full screen",
+
+  seenFrom: (side: keyof typeof sides, height: keyof typeof heights) => `Seen from ${sides[side]}${heights[height]}.`,
+  firstShape: (triangles: number) => `The first shape is shown, ${count(triangles)} triangles.`,
+  halfway: "Half of the detail is shown.",
+  reached: (triangles: number) => `The detail asked for is shown, ${count(triangles)} triangles.`,
+};
+
+export type Texts = typeof en;
