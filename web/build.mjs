@@ -64,7 +64,16 @@ await Promise.all([
     format: "esm",
   }),
   build({ ...common, entryPoints: { scan: "src/gallery/scan.ts" }, outdir: dist, format: "esm", plugins: [threeBeside] }),
-  build({ ...common, entryPoints: { site: "src/gallery/site.css" }, outdir: dist }),
+  build({
+    ...common,
+    entryPoints: { console: "src/console/console.ts" },
+    chunkNames: "console-[name]",
+    outdir: dist,
+    format: "esm",
+    splitting: true,
+    plugins: [threeBeside],
+  }),
+  build({ ...common, entryPoints: { site: "src/gallery/site.css", console: "src/console/console.css" }, outdir: dist }),
 ]);
 
 const draco = dirname(createRequire(import.meta.url).resolve("draco3d"));
@@ -74,4 +83,5 @@ await Promise.all([
   copyFile(join(draco, "draco_decoder.wasm"), join(dist, "draco_decoder.wasm")),
   ...["index.html", "model.html", "scan.html"].map((page) => copyFile(join(root, "src/gallery", page), join(dist, page))),
   copyFile(join(root, "src/docs/docs.html"), join(dist, "docs.html")),
+  copyFile(join(root, "src/console/console.html"), join(dist, "console.html")),
 ]);

@@ -8,6 +8,6 @@ const path = (relative: string) => fileURLToPath(new URL(relative, import.meta.u
 export default defineConfig({
   root: path("../tests/web"),
   cacheDir: path("node_modules/.vite"),
-  resolve: { alias: { "@core": path("src/core"), "@docs": path("src/docs"), "@element": path("src/element"), "@gallery": path("src/gallery"), "@texts": path("src/texts"), "@three": path("src/three"), three: path("node_modules/three") } },
+  resolve: { alias: { "@console": path("src/console"), "@core": path("src/core"), "@docs": path("src/docs"), "@element": path("src/element"), "@gallery": path("src/gallery"), "@texts": path("src/texts"), "@three": path("src/three"), three: path("node_modules/three") } },
   test: { globals: true, include: ["**/*.test.ts"] },
 });

@@ -98,6 +98,7 @@ Response show_gallery(const Request& request, Services& services);
 Response show_viewer(const Request& request, Services& services);
 Response show_docs(const Request& request, Services& services);
 Response show_scan_page(const Request& request, Services& services);
+Response show_console(const Request& request, Services& services);
 Response show_asset(const Request& request, Services& services);
 
 // health.cpp

@@ -44,6 +44,13 @@ Response show_scan_page(const Request& request, Services& services) {
   return page("/scan.html", request, services);
 }
 
+// Whose buttons turn motors is framed by nobody.
+Response show_console(const Request& request, Services& services) {
+  Response response = page("/console.html", request, services);
+  response.fields = {{"X-Frame-Options", "DENY"}};
+  return response;
+}
+
 Response show_asset(const Request& request, Services& services) {
   return page(request.path, request, services);
 }

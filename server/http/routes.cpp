@@ -72,6 +72,7 @@ constexpr Route kPublic[] = {
     {kGet, "/models/{id}", show_viewer, kWorker},
     {kGet, "/scans/{id}", show_scan_page, kInline},
     {kGet, "/docs", show_docs, kInline},
+    {kGet, "/console", show_console, kInline},
     {kGet, "/iiif/{id}/manifest.json", redirect_to_iiif, kInline},
     {kGet, "/{rest}", show_asset, kInline},
 };

@@ -16,32 +16,35 @@ const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !n
 const kFault = /event=(error|critical)|terminate called|Sanitizer/;
 
 export class Daemon {
-  /** `settings`: more words of its command line. */
-  static async start(folderOfBinaries, settings = []) {
+  /** `options` are more words of the command line of the program that runs it. */
+  static async start(folderOfBinaries, options = []) {
     const bin = resolve(folderOfBinaries);
     const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
     const portFile = join(folder, "port");
     const appeared = Promise.all([watched(folder, portFile), watched(folder, join(folder, "admin-port"))]);
     const data = join(folder, "data");
-    const daemon = new Daemon(bin, folder, data, settings);
+    const daemon = new this(bin, folder, data, options);
     const ended = daemon.spawn("127.0.0.1:0", portFile);
     [daemon.port, daemon.adminPort] = await Promise.race([appeared, ended]);
     daemon.url = `http://127.0.0.1:${daemon.port}`;
     return daemon;
   }
 
-  constructor(bin, folder, data, settings) {
-    Object.assign(this, { bin, folder, data, settings, log: "" });
+  constructor(bin, folder, data, options) {
+    Object.assign(this, { bin, folder, data, options, log: "" });
+  }
+
+  /** What is started so that the daemon runs with `words`. */
+  command(words) {
+    return [join(this.bin, "vitrined"), ...words, ...this.options];
   }
 
   /** Starts the program; rejects when it ends. */
   spawn(listen, portFile) {
-    this.child = spawn(
-      join(this.bin, "vitrined"),
-      ["--listen", listen, "--admin-listen", "127.0.0.1:0", "--data", this.data, "--port-file", portFile,
-       "--admin-port-file", join(this.folder, "admin-port"), ...this.settings],
-      { cwd: this.folder, env, stdio: ["ignore", "ignore", "pipe"] },
-    );
+    const words = ["--listen", listen, "--admin-listen", "127.0.0.1:0", "--data", this.data, "--port-file", portFile,
+                   "--admin-port-file", join(this.folder, "admin-port")];
+    const [program, ...rest] = this.command(words);
+    this.child = spawn(program, rest, { cwd: this.folder, env, stdio: ["ignore", "ignore", "pipe"] });
     this.child.stderr.on("data", (text) => (this.log += text));
     this.exit = once(this.child, "close").then(([code, signal]) => code ?? signal);
     const ended = this.exit.then((code) => Promise.reject(new Error(`vitrined ended with ${code}: ${this.log}`)));

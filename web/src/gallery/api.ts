@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of the daemon's public interface that the pages read.
-export interface ModelRecord {
+export type Unit = "mm" | "cm" | "m" | "in";
+
+/** Texts beyond those that every model has (Dublin Core). */
+export type MoreTexts = Partial<Record<
+  "contributor" | "coverage" | "date" | "description" | "identifier" | "language" | "publisher" | "relation" | "source" | "subject" | "type",
+  string>>;
+
+export interface ModelRecord extends MoreTexts {
   id: string;
+  state: "published" | "draft";
   title: string;
   creator: string;
+  rights: string;
   licence: string;
+  unit: Unit | ""; // empty: unknown
+  accuracy: number | null; // in that unit
+  public_max_level: number | null;
+  created: string;
+  vertices: number;
   faces: number;
   bytes: number;
-  links: { self: string; page: string; poster: string };
+  links: { self: string; page: string; poster: string; file: string; manifest: string };
 }
 
 export type ScanState = "waiting" | "scanning" | "paused" | "meshing" | "building" | "done" | "failed" | "cancelled";
@@ -36,20 +50,21 @@ export class ApiError extends Error {
 /** Milliseconds after which nobody answers any more. */
 const kPatience = 20_000;
 
-interface ModelPage {
+export interface ModelPage {
   models: ModelRecord[];
-  next: string | null;
+  next: string | null; // the cursor of the next page
 }
 
-/** All models, newest pages as the daemon orders them. */
-export async function* models(): AsyncGenerator<ModelRecord> {
-  let cursor: string | null = null;
-  do {
-    const query: string = cursor === null ? "" : `?cursor=${encodeURIComponent(cursor)}`;
-    const page: ModelPage = await get<ModelPage>(`/api/v1/models${query}`);
-    yield* page.models;
-    cursor = page.next;
-  } while (cursor !== null);
+/** Of one page: rows of two, three and four are whole. */
+const kPage = 24;
+
+/** What is on display and has all of `words`, newest first. */
+export function models(words: string, cursor: string | null): Promise<ModelPage> {
+  return get<ModelPage>(`/api/v1/models?${modelQuery(words, cursor)}`);
+}
+
+export function modelQuery(words: string, cursor: string | null): URLSearchParams {
+  return new URLSearchParams({ limit: String(kPage), ...(words && { q: words }), ...(cursor !== null && { cursor }) });
 }
 
 export function model(id: string): Promise<ModelRecord> {

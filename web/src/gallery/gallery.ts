@@ -1,43 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "/": what is on display.
-import { count, size, texts } from "../texts.ts";
+// The page "/": what is on display, a page at a time. The address has the words that are searched for.
 import { models, type ModelRecord } from "./api.ts";
+import { byId, h, square } from "./dom.ts";
+import { count, language, size, texts } from "./texts/index.ts";
 
-const list = document.getElementById("models") as HTMLUListElement;
-const note = document.getElementById("note") as HTMLParagraphElement;
+/** Milliseconds without a letter after which a visitor has finished a word. */
+const kRest = 250;
+const kPosterSide = 480;
+
+const list = byId<HTMLUListElement>("models"), note = byId("note"), more = byId<HTMLButtonElement>("more"), form = byId<HTMLFormElement>("search");
+const input = h("input", { type: "search", name: "q", maxlength: 100, placeholder: texts.searchHint, "aria-label": texts.search, autocomplete: "off" });
 
 function card(model: ModelRecord): HTMLLIElement {
-  const item = document.createElement("li");
-  const link = item.appendChild(document.createElement("a"));
-  link.href = model.links.page;
-  link.appendChild(poster(model));
-  link.appendChild(document.createElement("h2")).textContent = model.title || texts.untitled;
-  const facts = [model.creator, texts.amount(count(model.faces), size(model.bytes)), model.licence];
-  link.appendChild(document.createElement("p")).textContent = facts.filter(Boolean).join(" · ");
-  return item;
+  const facts = [model.creator, texts.amount(count(model.faces), size(model.bytes)), model.licence].filter(Boolean);
+  return h("li", {}, h("a", { href: model.links.page },
+    h("div", { class: "poster" }, square(model.links.poster, kPosterSide)), // decoration: the title below says what it shows
+    h("h2", {}, model.title || texts.untitled), h("p", {}, facts.join(" · "))));
 }
 
-/** Decoration: the title below says what it shows. */
-function poster({ links }: ModelRecord): HTMLImageElement {
-  const image = document.createElement("img");
-  image.loading = "lazy";
-  image.alt = "";
-  image.width = image.height = 480;
-  image.src = links.poster;
-  image.onerror = () => image.remove();
-  return image;
-}
+class Display {
+  #cursor: string | null = null;
+  #asked = 0;
 
-async function fill(): Promise<void> {
-  for await (const model of models()) list.append(card(model));
-  if (list.childElementCount === 0) say(`${texts.galleryEmpty} ${texts.galleryHint}`);
+  /** From the beginning. What was asked before is not wanted any more. */
+  search(words: string): Promise<void> {
+    this.#cursor = null;
+    return this.#ask(words, true);
+  }
+
+  more(): Promise<void> {
+    return this.#ask(input.value.trim(), false);
+  }
+
+  async #ask(words: string, anew: boolean): Promise<void> {
+    const question = ++this.#asked;
+    more.disabled = true;
+    try {
+      const page = await models(words, this.#cursor);
+      if (question !== this.#asked) return;
+      this.#cursor = page.next;
+      const cards = page.models.map(card);
+      if (anew) list.replaceChildren(...cards);
+      else list.append(...cards);
+      if (!anew) cards[0]?.querySelector("a")?.focus();
+      this.#tell(words);
+    } catch {
+      if (question === this.#asked) say(texts.unreachable);
+    }
+  }
+
+  #tell(words: string): void {
+    const { childElementCount: shown } = list;
+    more.disabled = false;
+    more.hidden = this.#cursor === null;
+    if (shown > 0) say(words ? texts.found(count(shown)) : "");
+    else say(words ? texts.nothingFound(words) : `${texts.empty} ${texts.emptyHint}`);
+  }
 }
 
 function say(text: string): void {
   note.textContent = text;
-  note.hidden = false;
 }
 
-document.title = texts.galleryTitle;
-(document.getElementById("title") as HTMLElement).textContent = texts.galleryTitle;
-fill().catch(() => say(texts.galleryFailed));
+const display = new Display();
+let rest: ReturnType<typeof setTimeout>;
+
+function find(): void {
+  clearTimeout(rest);
+  const words = input.value.trim();
+  history.replaceState(null, "", words ? `?q=${encodeURIComponent(words)}` : location.pathname);
+  void display.search(words);
+}
+
+document.documentElement.lang = language;
+document.title = byId("title").textContent = texts.collection;
+more.textContent = texts.more;
+more.addEventListener("click", () => void display.more());
+form.append(input);
+form.addEventListener("submit", (event) => (event.preventDefault(), find()));
+input.addEventListener("input", () => {
+  clearTimeout(rest);
+  rest = setTimeout(find, kRest);
+});
+byId("footer").append(h("a", { href: "/console" }, texts.console), h("a", { href: "/docs" }, texts.interface));
+input.value = new URLSearchParams(location.search).get("q") ?? "";
+void display.search(input.value.trim());

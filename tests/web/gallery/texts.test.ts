@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { scanState, timeLeft } from "../../web/src/texts.ts";
+import { scanState, size, timeLeft } from "@gallery/texts/index.ts";
 
 test.each([
   [0, "a few seconds left"],
@@ -19,3 +19,9 @@ test.each([
   ["no stripe; place the object", null, "Scanning: no stripe; place the object"],
 ])("a scan with error %s and note %s is told as %s", (error, note, words) =>
   expect(scanState({ state: "scanning", error, note })).toBe(words));
+
+test.each([
+  [999, "999 B"],
+  [1500, "1.5 KB"],
+  [2_340_000, "2.3 MB"],
+])("%s bytes are %s", (bytes, words) => expect(size(bytes)).toBe(words));

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+// An operator's day at the console, in a real browser against the real daemon: from a file to an object
+// in the gallery and away again. Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+import assert from "node:assert/strict";
+import { mkdir, readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { launch } from "./browser.mjs";
+import { Desk, overflow, tokenFor, violations } from "./console_desk.mjs";
+import { Daemon } from "./daemon.mjs";
+import { FakeScanner } from "./fake_scanner.mjs";
+
+const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
+const kPiece = 8 << 20; // of an upload
+const kTetrahedron = Buffer.from("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+
+let daemon, browser, operator, admin;
+
+before(async () => {
+  await mkdir(pictures, { recursive: true });
+  daemon = await Daemon.start(bin);
+  browser = await launch();
+  operator = await tokenFor(daemon, "operator");
+  admin = await tokenFor(daemon, "admin");
+});
+
+after(async () => {
+  await browser?.close();
+  await daemon?.stop();
+});
+
+/** With an operator's token. */
+async function asked(path, { token = operator, ...options } = {}) {
+  return fetch(`${daemon.url}/api/v1${path}`, { ...options, headers: { Authorization: `Bearer ${token}`, "Content-Type": "application/json" } });
+}
+
+async function onDisplay() {
+  return (await (await fetch(`${daemon.url}/api/v1/models`)).json()).models.map(({ title }) => title);
+}
+
+test("lets in who has a token, tells others why not, and forgets it in the end", async () => {
+  const desk = await Desk.open(browser, daemon);
+  await desk.isFit("sign-in");
+  await desk.page.getByLabel("Access token").fill("vtr_nonsense");
+  await desk.press("Sign in");
+  await desk.says("The token is unknown or revoked; ask for a new one");
+  await desk.signIn(operator);
+  await desk.page.reload();
+  await desk.says("There are no models yet");
+  assert.equal(await desk.page.getByRole("link", { name: "Tokens" }).count(), 0, "for administrators alone");
+  await desk.press("Sign out");
+  await desk.page.getByLabel("Access token").waitFor();
+  assert.equal(await desk.page.evaluate(() => sessionStorage.length + localStorage.length), 0);
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("a file that is dropped becomes a draft, is published, edited, replaced, withdrawn and deleted", async () => {
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
+  await desk.drop("bust.obj", await readFile(scan));
+  const card = page.locator("li.upload");
+  await card.getByLabel("Title").fill("Bust of Demosthenes");
+  await card.getByLabel("Creator").fill("Polyeuktos");
+  await card.getByLabel("Unit").selectOption("mm");
+  await desk.press("Make the model", card);
+  await card.getByText("Done").waitFor({ timeout: 60_000 });
+  assert.deepEqual(await onDisplay(), [], "a draft is nobody's business");
+  await card.getByRole("link", { name: "Its model" }).click();
+  await page.getByRole("heading", { level: 1, name: "Bust of Demosthenes" }).waitFor();
+  await page.locator(".poster img:not(.pending)").waitFor(); // drawn for whoever has a token
+  await page.locator("svg.curve circle").first().waitFor();
+  await desk.isFit("draft");
+
+  await desk.press("Publish");
+  await page.locator("progressive-mesh").waitFor();
+  assert.deepEqual(await onDisplay(), ["Bust of Demosthenes"]);
+  await page.getByLabel("Title").fill("Demosthenes");
+  await page.getByLabel("Licence").fill("CC-BY-4.0");
+  await page.getByLabel("Accuracy of the scan").fill("0.05");
+  await desk.press("Save");
+  await page.getByRole("heading", { level: 1, name: "Demosthenes", exact: true }).waitFor();
+  const id = page.url().split("/").pop(), now = await (await asked(`/models/${id}`)).json();
+  assert.deepEqual([now.title, now.creator, now.licence, now.unit, now.accuracy], ["Demosthenes", "Polyeuktos", "CC-BY-4.0", "mm", 0.05]);
+
+  await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify({ title: "By a colleague" }) });
+  await page.getByLabel("Title").fill("Too late");
+  await desk.press("Save");
+  await desk.says("The model has changed since; read it again");
+
+  await page.reload();
+  await page.getByText("Replace the file…").click();
+  await desk.drop("small.obj", kTetrahedron);
+  await desk.press("Replace");
+  await page.getByText("4 triangles").waitFor({ timeout: 60_000 });
+  assert.equal((await (await asked(`/models/${id}`)).json()).faces, 4);
+
+  await page.reload();
+  await desk.press("Withdraw from the gallery");
+  await page.locator(".badge.draft").waitFor();
+  assert.deepEqual(await onDisplay(), []);
+  await desk.press("Delete…");
+  await page.getByRole("dialog").getByText("Delete “By a colleague”?").waitFor();
+  assert.deepEqual(await violations(page), [], "the question");
+  await desk.press("Keep it");
+  await desk.press("Delete…");
+  await desk.press("Delete", page.getByRole("dialog"));
+  await desk.says("There are no models yet");
+  assert.equal((await asked(`/models/${id}`)).status, 404);
+  await desk.go("jobs", "Jobs");
+  await page.locator("li.job").nth(1).waitFor();
+  await desk.isFit("jobs");
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("an upload goes on where it was after the page was closed", async () => {
+  const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
+  const large = { name: "large.ply", bytes: Buffer.alloc(kPiece + 1000) }, offsets = [];
+  let hold = true, secondIsHeld;
+  const held = new Promise((resolve) => (secondIsHeld = resolve));
+  await page.context().route("**/api/v1/uploads/*", (route) => {
+    if (route.request().method() !== "PATCH") return route.continue();
+    const offset = Number(route.request().headers()["upload-offset"]);
+    offsets.push(offset);
+    return hold && offset > 0 ? secondIsHeld() : route.continue(); // the second piece never comes
+  });
+  page.on("dialog", (dialog) => dialog.accept());
+  await desk.drop(large.name, large.bytes);
+  await held;
+  await page.reload();
+  await desk.says("Choose the same file again");
+  await page.screenshot({ path: join(pictures, "console-interrupted.png") });
+  hold = false;
+  await desk.drop(large.name, large.bytes);
+  await desk.says("Uploaded");
+  assert.deepEqual(offsets, [0, kPiece, kPiece]);
+  assert.equal(await page.locator("li.upload, li.interrupted").count(), 1);
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("who places the target is waited for, and sees what has come of it", async () => {
+  const scanner = new FakeScanner(3), desk = await Desk.open(browser, daemon, { token: operator, play: (context) => scanner.play(context) }), { page } = desk;
+  await desk.go("scanners", "Scanners");
+  await desk.isFit("scanners");
+  await desk.go("scanners/rig", "rig");
+  await desk.isFit("scanner");
+  await page.getByRole("link", { name: "Calibrate" }).click();
+  await page.getByLabel("Poses").fill("3");
+  await desk.press("Start");
+  for (const pose of [1, 2, 3]) {
+    await desk.says(`Place the target: pose ${pose} of 3`);
+    if (pose === 2) await desk.isFit("wizard");
+    await desk.press("The target is placed");
+  }
+  await page.getByRole("heading", { name: "Calibration no. 1" }).waitFor();
+  await desk.says("0.02 mm");
+  await desk.isFit("calibrated");
+  await page.getByRole("link", { name: "Accept" }).click();
+  await page.getByRole("heading", { level: 1, name: "rig" }).waitFor();
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("the emergency stop is in sight on every page, and says whether it was obeyed", async () => {
+  const scanner = new FakeScanner(3), desk = await Desk.open(browser, daemon, { token: operator, play: (context) => scanner.play(context), viewport: { width: 360, height: 640 } });
+  for (const [section, heading] of [["models", "Models"], ["scanners", "Scanners"], ["scans", "Scans"], ["scans/new", "New scan"], ["jobs", "Jobs"]]) {
+    await desk.go(section, heading);
+    const box = await desk.page.getByRole("button", { name: "Emergency stop" }).boundingBox();
+    assert.ok(box.y >= 0 && box.y + box.height <= 640 && box.height >= 44, section);
+  }
+  await desk.press("Emergency stop");
+  await desk.says("Stopped: rig. Laser and motor are off.");
+  assert.equal(scanner.stops, 1);
+  scanner.stopStatus = 409;
+  await desk.press("Emergency stop");
+  await desk.says("Switch the scanner off at its power supply. The board is gone; plug it in");
+  assert.deepEqual(await violations(desk.page), []);
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("administrators make and revoke tokens; a wrong one is told at its field", async () => {
+  const desk = await Desk.open(browser, daemon, { token: admin }), { page } = desk;
+  await page.getByRole("link", { name: "Tokens" }).click();
+  await page.getByLabel("Name").fill("x".repeat(2000));
+  await desk.press("Make a token");
+  await page.locator("[aria-invalid][name=label]").waitFor();
+  assert.match(await page.locator("[aria-invalid] ~ small").textContent(), /^Expected: /);
+  await page.getByLabel("Name").fill("Kiosk");
+  await page.getByLabel("Role").selectOption("viewer");
+  await desk.press("Make a token");
+  const token = await page.getByLabel("Token", { exact: true }).inputValue();
+  assert.equal((await asked("/jobs", { token })).status, 200);
+  await desk.isFit("tokens");
+  await desk.press("Revoke", page.locator("li.card", { hasText: "Kiosk" }));
+  await desk.press("Revoke", page.getByRole("dialog"));
+  await desk.says("The token is revoked.");
+  assert.equal((await asked("/jobs", { token })).status, 401);
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("speaks German, and is as fit in the dark", async () => {
+  const scanner = new FakeScanner(3);
+  const context = await browser.newContext({ locale: "de-DE", colorScheme: "dark", reducedMotion: "reduce" });
+  await scanner.play(context);
+  const desk = new Desk(await context.newPage(), daemon), { page } = desk;
+  await page.goto(`${daemon.url}/console`);
+  await page.getByLabel("Zugangs-Token").fill(admin);
+  await page.getByRole("button", { name: "Anmelden" }).click();
+  for (const [section, heading] of [["models", "Modelle"], ["scanners", "Scanner"], ["scanners/rig", "rig"], ["scans", "Aufnahmen"], ["scans/new", "Neue Aufnahme"], ["tokens", "Tokens"]]) {
+    await desk.go(section, heading);
+    await desk.isFit(`dark-${section.replaceAll("/", "-")}`);
+  }
+  assert.equal(await page.evaluate(() => document.documentElement.lang), "de");
+  assert.deepEqual(desk.complaints, []);
+  await desk.close();
+});
+
+test("the gallery is searched, and an object's page tells what is known and gives it away", async () => {
+  for (const title of ["Athena", "Hermes"]) await daemon.publish(scan, title);
+  const { models: [{ id }] } = await (await fetch(`${daemon.url}/api/v1/models?q=Hermes`)).json();
+  const words = { creator: "Praxiteles", licence: "CC0-1.0", unit: "mm", accuracy: 0.05, description: "Holds the infant Dionysos.", date: "about 340 BC" };
+  await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify(words) });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 860 }, permissions: ["clipboard-read", "clipboard-write"] }), page = await context.newPage();
+  const shoot = async (name) => {
+    for (const [width, height] of [[360, 740], [768, 1024], [1920, 1080]]) {
+      await page.setViewportSize({ width, height });
+      await page.screenshot({ path: join(pictures, `gallery-${name}-${width}.png`) });
+      assert.ok((await overflow(page)) <= 0, `${name} at ${width}`);
+    }
+    assert.deepEqual(await violations(page), [], name);
+  };
+  await page.goto(daemon.url);
+  await page.locator("#models li").nth(1).waitFor();
+  await page.waitForFunction(() => [...document.images].every(({ naturalWidth }) => naturalWidth > 0));
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    await shoot(colorScheme);
+  }
+  await page.getByRole("searchbox").fill("herm");
+  await page.getByText("Found: 1").waitFor();
+  await page.getByRole("searchbox").fill("nothing like it");
+  await page.getByText("Nothing on display matches").waitFor();
+  await page.goto(`${daemon.url}/?q=praxiteles`);
+  await page.getByRole("link", { name: "Hermes" }).click();
+  await page.getByText("Holds the infant Dionysos.").waitFor();
+  assert.equal(await page.getByRole("link", { name: "CC0-1.0" }).getAttribute("href"), "https://creativecommons.org/publicdomain/zero/1.0/");
+  await page.getByText("± 0.05 mm").waitFor();
+  await page.getByRole("button", { name: "Copy" }).click();
+  await page.getByText("Copied").waitFor();
+  assert.match(await page.evaluate(() => navigator.clipboard.readText()), new RegExp(`<progressive-mesh src="${daemon.url}/api/v1/models/${id}" alt="Hermes">`));
+  assert.equal((await page.request.get(await page.getByRole("link", { name: "IIIF manifest" }).evaluate((link) => link.href))).status(), 200);
+  await page.getByLabel("Format").selectOption("stl");
+  await page.locator("#about").getByLabel("Level of detail").selectOption("lowest");
+  const download = page.waitForEvent("download");
+  await page.getByRole("link", { name: "Download" }).click();
+  assert.ok((await readFile(await (await download).path())).length > 84);
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    await shoot(`object-${colorScheme}`);
+  }
+  await context.close();
+});
+
+test("the console is framed by nobody", async () => {
+  assert.equal((await fetch(`${daemon.url}/console`)).headers.get("x-frame-options"), "DENY");
+});

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fields, buttons, and what went wrong with them: told beside them, with its place and the next step.
+import { h } from "../gallery/dom.ts";
+import { Problem, type Fault } from "./problem.ts";
+import { texts } from "./texts/index.ts";
+
+type Control = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
+
+export interface Field {
+  name: string;
+  label: string;
+  hint?: string;
+  value?: string | number | boolean | null | undefined;
+  type?: "text" | "number" | "checkbox" | "textarea";
+  options?: [value: string, label: string][];
+  min?: number;
+  max?: number;
+  step?: number | "any";
+  required?: boolean;
+}
+
+/** Says what went wrong as soon as it is told, and nothing before. */
+export class Alert {
+  readonly element = h("div", { role: "alert", class: "alert", hidden: true });
+
+  clear(): void {
+    this.element.hidden = true;
+    this.element.replaceChildren();
+  }
+
+  show(error: unknown, faults: Fault[] = error instanceof Problem ? error.faults : []): void {
+    const list = faults.map(({ parameter, detail }) => h("li", {}, h("code", {}, parameter), `: ${detail}`));
+    const trace = error instanceof Problem && error.request ? h("p", { class: "quiet" }, texts.problem.request(error.request)) : null;
+    this.element.replaceChildren(h("p", {}, sentence(error)), ...(list.length ? [h("ul", {}, ...list)] : []), ...(trace ? [trace] : []));
+    this.element.hidden = false;
+  }
+
+  /** Does `act`; false where it went wrong. */
+  async attempt(act: () => Promise<unknown>): Promise<boolean> {
+    this.clear();
+    try {
+      await act();
+      return true;
+    } catch (error) {
+      this.show(error);
+      return false;
+    }
+  }
+}
+
+/** What went wrong and what to do, as one sentence of a person. */
+export function sentence(error: unknown): string {
+  const words = texts.problem;
+  if (error instanceof DOMException) return error.name === "TimeoutError" ? words.silent : words.interrupted;
+  if (error instanceof TypeError) return words.silent;
+  if (!(error instanceof Problem)) return String((error as Error).message);
+  if (error.detail) return capital(error.detail);
+  if (error.status === 0) return words.silent;
+  return error.status >= 500 ? words.failed : words.refused(error.status, error.title);
+}
+
+const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** A button that cannot be pressed again while it works. */
+export function button(label: string, alert: Alert, act: () => Promise<unknown>, kind = ""): HTMLButtonElement {
+  const made = h("button", { type: "button", class: kind }, label);
+  made.addEventListener("click", async () => {
+    made.disabled = true;
+    await alert.attempt(act);
+    made.disabled = false;
+  });
+  return made;
+}
+
+let fields = 0;
+
+/** A label, its field, and room for what is wrong with it. */
+export function field({ name, label, hint, value, type = "text", options, min, max, step, required }: Field): HTMLElement {
+  const id = `field-${++fields}`;
+  const shared = { id, name, required, "aria-describedby": `${id}-note` };
+  const control = options
+    ? h("select", shared, ...options.map(([key, text]) => h("option", { value: key, selected: key === String(value ?? "") }, text)))
+    : type === "textarea"
+      ? h("textarea", { ...shared, rows: 4 }, String(value ?? ""))
+      : type === "checkbox"
+        ? h("input", { ...shared, type, checked: value === true })
+        : h("input", { ...shared, type, value: value === null || value === undefined ? "" : String(value), min, max, step, autocomplete: "off" });
+  const note = h("small", { id: `${id}-note`, "data-hint": hint ?? "" }, hint);
+  return h("div", { class: `field ${type}` }, h("label", { for: id }, label), control, note);
+}
+
+export type Values = Record<string, string | number | boolean | null>;
+
+/** A form that hands on what it holds, and shows each fault beside its field. */
+export function form(all: HTMLElement[], submit: string, act: (values: Values) => Promise<unknown>, kind = ""): HTMLFormElement {
+  const alert = new Alert(), send = h("button", { type: "submit", class: kind === "inline" ? "" : "primary" }, submit);
+  const made = h("form", { class: `form ${kind}` }, ...all, h("div", { class: "actions" }, send), alert.element);
+  made.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    alert.clear();
+    for (const control of controls(made)) mark(control, "");
+    send.disabled = true;
+    await act(values(made)).catch((error) => alert.show(error, place(error, made)));
+    send.disabled = false;
+  });
+  return made;
+}
+
+function controls(within: HTMLFormElement): Control[] {
+  return [...within.querySelectorAll<Control>("input, select, textarea")].filter(({ name }) => name !== "");
+}
+
+function values(within: HTMLFormElement): Values {
+  return Object.fromEntries(controls(within).map((control) => [control.name, valueOf(control)]));
+}
+
+/** A number field that is empty is null. */
+function valueOf(control: Control): string | number | boolean | null {
+  if (control.type === "checkbox") return (control as HTMLInputElement).checked;
+  if (control.type === "number") return control.value === "" ? null : Number(control.value);
+  return control.value.trim();
+}
+
+/** Marks the fields that a problem names ("metadata.title" is "title"); returns what has no field. */
+function place(error: unknown, within: HTMLFormElement): Fault[] {
+  if (!(error instanceof Problem)) return [];
+  return error.faults.filter(({ parameter, detail }) => {
+    const control = controls(within).find(({ name }) => name === parameter.split(".").pop());
+    if (control) mark(control, detail);
+    return !control;
+  });
+}
+
+function mark(control: Control, fault: string): void {
+  control.toggleAttribute("aria-invalid", fault !== "");
+  if (fault) control.setAttribute("aria-invalid", "true");
+  const note = document.getElementById(`${control.id}-note`);
+  if (note) note.textContent = fault ? texts.problem.expected(fault) : (note.dataset["hint"] ?? "");
+}
+
+/** Asks before what cannot be undone; the safe answer has the focus. */
+export function confirmed(question: string, explanation: string, yes: string): Promise<boolean> {
+  const no = h("button", { value: "", autofocus: true }, texts.cancel);
+  const dialog = h("dialog", { "aria-labelledby": "question" },
+    h("form", { method: "dialog" }, h("h2", { id: "question" }, question), h("p", {}, explanation),
+      h("div", { class: "actions" }, no, h("button", { value: "yes", class: "danger" }, yes))));
+  document.body.append(dialog);
+  dialog.showModal();
+  return new Promise((resolve) => dialog.addEventListener("close", () => {
+    dialog.remove();
+    resolve(dialog.returnValue === "yes");
+  }));
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page "#/jobs": what the daemon does, live.
+import { h } from "../gallery/dom.ts";
+import { time } from "../gallery/texts/index.ts";
+import type { Page } from "./desk.ts";
+import type { Desk } from "./desk.ts";
+import { Alert, button, confirmed } from "./forms.ts";
+import { Bar, heading, jobBadge, jobLine } from "./parts.ts";
+import { texts } from "./texts/index.ts";
+import { isOver, type Job } from "./types.ts";
+
+const words = texts.jobs;
+
+/** A job with what can be done about it. It is told of each new state. */
+export class JobCard {
+  readonly element = h("li", { class: "card job" });
+  readonly #bar = new Bar(words.progress);
+  readonly #line = h("p", { class: "quiet" });
+  readonly #top = h("p", { class: "row" });
+  readonly #actions = h("div", { class: "actions" });
+  readonly #alert = new Alert();
+  #state = "";
+
+  constructor(private readonly desk: Desk) {
+    this.element.append(this.#top, this.#bar.element, this.#line, this.#actions, this.#alert.element);
+  }
+
+  show(job: Job): void {
+    this.#bar.value = job.progress;
+    this.#bar.element.hidden = isOver(job);
+    this.#line.textContent = jobLine(job);
+    const state = `${job.state} ${job.model}`; // buttons stay as long as they are right: one may have the focus
+    if (state === this.#state) return;
+    this.#state = state;
+    this.#top.replaceChildren(h("strong", {}, words.kinds[job.kind]), jobBadge(job), h("span", { class: "quiet" }, [job.scanner, time(job.created)].filter(Boolean).join(" · ")));
+    this.#actions.replaceChildren(...this.#choices(job));
+  }
+
+  #choices(job: Job): HTMLElement[] {
+    const after = (act: () => Promise<Job>) => async () => this.desk.jobs.put(await act());
+    const { api } = this.desk;
+    const resume = after(() => api.send<Job>("POST", `/jobs/${job.id}/resume`, {}));
+    const cancel = async () => {
+      if (await confirmed(words.cancelQuestion, words.cancelExplanation, words.cancel)) await after(() => api.send<Job>("DELETE", `/jobs/${job.id}`))();
+    };
+    return [
+      ...(job.state === "paused" || job.state === "failed" ? [button(words.resume, this.#alert, resume)] : []),
+      ...(isOver(job) ? [] : [button(words.cancel, this.#alert, cancel)]),
+      ...(job.model ? [h("a", { href: `#/models/${job.model}` }, words.model)] : []),
+      ...(job.scan ? [h("a", { href: `#/scans/${job.scan}` }, words.scan)] : []),
+    ];
+  }
+}
+
+export const jobsPage: Page = ({ desk, view, signal }) => {
+  const list = h("ul", { class: "cards" }), cards = new Map<string, JobCard>(), empty = h("p", { class: "quiet" }, words.empty);
+  view.append(heading(words.title), list, empty);
+  desk.jobs.onChange(() => {
+    const { all } = desk.jobs;
+    empty.hidden = all.length > 0;
+    for (const job of all) {
+      const card = cards.get(job.id) ?? new JobCard(desk);
+      cards.set(job.id, card);
+      card.show(job);
+    }
+    const order = all.map(({ id }) => (cards.get(id) as JobCard).element);
+    if (order.some((element, i) => list.children[i] !== element)) list.replaceChildren(...order);
+  }, signal);
+  return words.title;
+};

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pieces that several pages show.
+import { h } from "../gallery/dom.ts";
+import { count, timeLeft } from "../gallery/texts/index.ts";
+import { stageName, texts } from "./texts/index.ts";
+import { isOver, type Job, type ModelRecord } from "./types.ts";
+
+export class Bar {
+  readonly element: HTMLElement;
+  readonly #fill = h("div");
+
+  constructor(label: string) {
+    this.element = h("div", { class: "bar", role: "progressbar", "aria-label": label, "aria-valuemin": 0, "aria-valuemax": 100 }, this.#fill);
+  }
+
+  set value(share: number) {
+    this.element.setAttribute("aria-valuenow", String(Math.round(100 * share)));
+    this.#fill.style.transform = `scaleX(${share})`;
+  }
+}
+
+export function badge(text: string, kind: string): HTMLElement {
+  return h("span", { class: `badge ${kind}` }, text);
+}
+
+export function modelBadge({ state }: ModelRecord): HTMLElement {
+  return badge(texts.models.states[state], state);
+}
+
+export function jobBadge({ state }: Job): HTMLElement {
+  return badge(texts.jobs.states[state], state);
+}
+
+/** What a job does, how long it will, and why it does not. */
+export function jobLine(job: Job): string {
+  const underWay = job.state === "running" && job.eta !== null ? timeLeft(job.eta) : "";
+  const stage = !isOver(job) && job.stage ? stageName(job.stage) : "";
+  return [stage, underWay, job.note, job.error].filter(Boolean).join(" · ");
+}
+
+export function heading(text: string, ...beside: (Node | null)[]): HTMLElement {
+  return h("header", { class: "heading" }, h("h1", { tabindex: -1 }, text), ...beside);
+}
+
+export function facts(...pairs: [string, string | Node | null][]): HTMLElement {
+  return h("dl", {}, ...pairs.flatMap(([name, value]) => (value === null || value === "" ? [] : [h("dt", {}, name), h("dd", {}, value)])));
+}
+
+export function table(caption: string, heads: string[], rows: (string | Node)[][]): HTMLElement {
+  return h("div", { class: "table", tabindex: 0, role: "region", "aria-label": caption },
+    h("table", {}, h("thead", {}, h("tr", {}, ...heads.map((text) => h("th", { scope: "col" }, text)))),
+      h("tbody", {}, ...rows.map((cells) => h("tr", {}, ...cells.map((cell) => h("td", {}, cell)))))));
+}
+
+/** A list that comes a page at a time; `ask` resolves to its rows and to the cursor of the next. */
+export async function paged(list: HTMLElement, ask: (cursor: string | null) => Promise<{ rows: Node[]; next: string | null }>): Promise<number> {
+  const first = await ask(null);
+  list.replaceChildren(...first.rows);
+  let cursor = first.next;
+  const more = h("button", { type: "button", class: "more" }, texts.more);
+  more.hidden = cursor === null;
+  more.addEventListener("click", async () => {
+    more.disabled = true;
+    const { rows, next } = await ask(cursor).finally(() => (more.disabled = false));
+    list.append(...rows);
+    cursor = next;
+    more.hidden = cursor === null;
+  });
+  list.parentElement?.querySelector(":scope > .more")?.remove();
+  list.after(more);
+  return first.rows.length;
+}
+
+export const triangles = (faces: number): string => texts.models.triangles(count(faces));

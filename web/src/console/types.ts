@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the daemon's public interface answers with (/api/v1/openapi.json), as far as the console reads it.
+export type { ModelPage, ModelRecord, ScanRecord, Unit } from "../gallery/api.ts";
+import type { ScanRecord } from "../gallery/api.ts";
+
+export type JobState = "queued" | "running" | "paused" | "done" | "failed" | "cancelled";
+
+export interface Job {
+  id: string;
+  kind: "scan" | "calibrate" | "reprocess" | "publish";
+  state: JobState;
+  stage: string | null;
+  progress: number; // 0 to 1
+  eta: number | null; // seconds
+  error: string | null;
+  note: string | null;
+  scanner: string | null;
+  scan: string | null;
+  model: string | null;
+  created: string;
+  ended: string | null;
+}
+
+export interface JobPage {
+  jobs: Job[];
+  next: string | null;
+}
+
+/** As an operator sees a scan. */
+export interface Scan extends ScanRecord {
+  job: string;
+  scanner: string;
+  created: string;
+}
+
+export interface ScanPage {
+  scans: Scan[];
+  next: string | null;
+}
+
+export interface Scanner {
+  name: string;
+  state: "idle" | "busy" | "unreachable";
+  camera: { vendor: string; model: string; serial: string } | null;
+  board: { dialect: string; firmware: string } | null;
+  calibration: number | null;
+  scan: string | null;
+  problem: string | null;
+}
+
+export interface Calibration {
+  number: number;
+  created: string;
+  camera: string;
+  rms: number; // mm, over held-out poses
+  p95: number;
+  max: number;
+  coverage: number; // 0 to 1
+}
+
+export interface Calibrations {
+  calibrations: Calibration[]; // newest first
+  damaged: { number: number; problem: string }[];
+}
+
+export interface Manifest {
+  unit: string;
+  lattice: { step: number; bits: number };
+  bounding_box: { min: number[]; max: number[] };
+  levels: { vertices: number; faces: number; cumulative_bytes: number; max_error: number; rms_error: number }[];
+}
+
+export type Role = "viewer" | "operator" | "admin";
+
+export interface Token {
+  id: string;
+  role: Role;
+  label: string;
+  created: string;
+}
+
+export const isOver = ({ state }: { state: JobState }): boolean => state === "done" || state === "failed" || state === "cancelled";

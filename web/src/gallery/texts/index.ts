@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every text that a visitor reads, in the first of the browser's languages that there is.
+import { de } from "./de.ts";
+import { en } from "./en.ts";
+
+const all = { en, de };
+export type Language = keyof typeof all;
+
+const isKnown = (name: string): name is Language => name in all;
+/** Of the pages and the console. */
+export const language: Language = (globalThis.navigator?.languages ?? []).map((tag) => tag.slice(0, 2).toLowerCase()).find(isKnown) ?? "en";
+
+export const texts = all[language];
+
+const whole = new Intl.NumberFormat(language, { maximumFractionDigits: 0 });
+const short = new Intl.NumberFormat(language, { maximumFractionDigits: 1 });
+const precise = new Intl.NumberFormat(language, { maximumSignificantDigits: 3 });
+const day = new Intl.DateTimeFormat(language, { dateStyle: "medium" });
+const moment = new Intl.DateTimeFormat(language, { dateStyle: "medium", timeStyle: "short" });
+
+export const count = (value: number): string => whole.format(value);
+/** Three significant digits. */
+export const measure = (value: number): string => precise.format(value);
+export const date = (stamp: string): string => day.format(new Date(stamp));
+export const time = (stamp: string): string => moment.format(new Date(stamp));
+
+export function size(bytes: number): string {
+  if (bytes < 1000) return `${bytes} B`;
+  return bytes < 1e6 ? `${short.format(bytes / 1000)} KB` : `${short.format(bytes / 1e6)} MB`;
+}
+
+/** A time to wait, as precise as a guess may be. */
+export function timeLeft(seconds: number): string {
+  const { left } = texts, minutes = Math.round(seconds / 60), hours = Math.round(seconds / 3600);
+  if (seconds < 10) return left.seconds;
+  if (seconds < 45) return left.halfAMinute;
+  if (minutes <= 1) return left.aMinute;
+  if (minutes < 60) return left.minutes(minutes);
+  return hours <= 1 ? left.anHour : left.hours(hours);
+}
+
+/** What a scan does, and why it has failed or what it waits for. */
+export function scanState({ state, error, note }: { state: keyof typeof texts.scan.states; error: string | null; note: string | null }): string {
+  const why = error ?? note;
+  return why === null ? texts.scan.states[state] : `${texts.scan.states[state]}: ${why}`;
+}
