@@ -41,8 +41,10 @@ const char* next_step(int error) {
 namespace {
 
 Unexpected refused(const char* what, const fs::path& path, int error) {
-  return fail(ErrorCode::kIo, fmt::format("cannot {} {}: {}; {}", what, path.string(),
-                                          std::strerror(error), next_step(error)));
+  const bool is_full = error == ENOSPC || error == EDQUOT;
+  return fail(is_full ? ErrorCode::kLimit : ErrorCode::kIo,
+              fmt::format("cannot {} {}: {}; {}", what, path.string(), std::strerror(error),
+                          next_step(error)));
 }
 
 fs::path temporary_name(const fs::path& path) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that are whole or absent: temporary in the same folder, write, fsync, rename, fsync folder.
+// Whatever fails with kIo fails with kLimit where the disk is full.
 #pragma once
 
 #include <cstdint>

@@ -127,10 +127,11 @@ class Daemon {
         workers_(threads_, kMaxExports),
         public_(io_, services_, workers_, public_options()),
         admin_(io_, services_, workers_, admin_options()),
-        signals_(io_, SIGTERM, SIGINT),
-        reload_signals_(io_, SIGHUP, SIGUSR1),
-        deadline_(io_),
-        watchdog_(io_) {}
+        control_(asio::make_strand(io_)),
+        signals_(control_, SIGTERM, SIGINT),
+        reload_signals_(control_, SIGHUP, SIGUSR1),
+        deadline_(control_),
+        watchdog_(control_) {}
 
   Expected<void> open() {
     if (auto bound = bind(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
@@ -298,6 +299,7 @@ class Daemon {
 
   void drain() {
     services_.ready = false;
+    reload_signals_.cancel();  // which are of no use any more, and are not heeded
     tell_service_manager(ServicePhase::kStopping);
     events_.event(Severity::kInfo, "stopping: finishing what is under way");
     signals_.async_wait([this](const boost::system::error_code& error, int) {
@@ -312,7 +314,7 @@ class Daemon {
     public_.drain([this] { io_.stop(); });
   }
 
-  Configuration configuration_;  // of the thread that handles signals, once they are awaited
+  Configuration configuration_;  // of control_, once signals are awaited
   LiveSettings live_;
   const std::shared_ptr<LiveTls> tls_;  // null: without TLS
   const bool at_terminal_ = ::isatty(STDIN_FILENO) == 1;
@@ -337,6 +339,7 @@ class Daemon {
   Workers workers_;
   HttpServer public_;
   HttpServer admin_;
+  asio::strand<asio::io_context::executor_type> control_;  // of what follows
   asio::signal_set signals_;
   asio::signal_set reload_signals_;
   asio::steady_timer deadline_;

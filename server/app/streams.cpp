@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/app/streams.h"
 
+#include "server/config/networks.h"
 #include "server/http/published.h"
 #include "server/stream/websocket.h"
 
@@ -28,21 +29,29 @@ struct Asker {
   std::optional<Caller> caller;
 
   bool may_ask() const {
-    return host.rate_limit.take(address).count() == 0 &&
+    return host.rate_limit.take(network_of(address)).count() == 0 &&
            (!caller || host.rate_limit.take(caller->token.to_string()).count() == 0);
   }
 };
 
-Expected<StreamedModel> find_now(const Asker& asker, const ModelId& id) {
+// With a token that may have been revoked since.
+FoundModel look_up(const Asker& asker, const ModelId& id) {
   Services& services = asker.host.services;
-  VisibleModel visible = find_visible(id, asker.caller.has_value(), services.models);
-  if (!visible.model) {
-    services.errors.event(Severity::kError,
-                          "request " + asker.request_id + ": " + visible.model.error().message);
+  Expected<bool> has_token = false;
+  if (asker.caller) has_token = services.tokens.is_in_force(*asker.caller);
+  if (!has_token) return Unexpected(has_token.error());
+  return find_visible(id, *has_token, services.models).model;
+}
+
+Expected<StreamedModel> find_now(const Asker& asker, const ModelId& id) {
+  FoundModel model = look_up(asker, id);
+  if (!model) {
+    asker.host.services.errors.event(Severity::kError,
+                                     "request " + asker.request_id + ": " + model.error().message);
     return fail(ErrorCode::kIo, "the server cannot look it up; try again later");
   }
-  if (!*visible.model) return fail(ErrorCode::kBadInput, "there is no such model");
-  return std::move(*visible.model);
+  if (!*model) return fail(ErrorCode::kBadInput, "there is no such model");
+  return model;
 }
 
 asio::awaitable<Expected<StreamedModel>> find(const Asker& asker, const ModelId& id) {
@@ -58,6 +67,14 @@ asio::awaitable<Expected<StreamedModel>> find_further(const Asker& asker, std::s
   co_return co_await find(asker, *id);
 }
 
+// Most visitors are answered from memory.
+asio::awaitable<bool> is_current(const Asker& asker, StreamedModel model) {
+  const ModelRecord& opened = model->record();
+  if (!asker.caller && asker.host.services.models.held(opened.id) == model) co_return true;
+  const auto now = co_await find(asker, opened.id);
+  co_return now && (*now)->record().file == opened.file;
+}
+
 StreamOptions options_of(const StreamCall& call, const Asker& asker) {
   const auto connection = call.connection;
   Services& services = asker.host.services;
@@ -66,6 +83,7 @@ StreamOptions options_of(const StreamCall& call, const Asker& asker) {
   options.patience = patience;
   options.head = call.head;
   options.find = [asker](std::string id) { return find_further(asker, std::move(id)); };
+  options.is_current = [asker](StreamedModel model) { return is_current(asker, std::move(model)); };
   options.waits_for_peer = [connection, patience](bool waits) {
     waits ? connection->expires_after(patience) : connection->never_expires();
   };

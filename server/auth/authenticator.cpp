@@ -54,4 +54,10 @@ Expected<std::optional<Caller>> Authenticator::find(std::string_view text) const
   return std::nullopt;
 }
 
+Expected<bool> Authenticator::is_in_force(const Caller& caller) const {
+  const auto tokens = catalogue_.tokens();
+  if (!tokens) return Unexpected(tokens.error());
+  return std::ranges::find(*tokens, caller.token, &TokenRecord::id) != tokens->end();
+}
+
 }  // namespace vitrine

@@ -33,6 +33,9 @@ class Authenticator {
   // Whose token `text` is; nothing where it is nobody's. kIo where the catalogue refuses.
   Expected<std::optional<Caller>> find(std::string_view text) const;
 
+  // Whether the token has not been revoked since. kIo where the catalogue refuses.
+  Expected<bool> is_in_force(const Caller& caller) const;
+
   // To be told of each token that was nobody's. A token in force is never throttled: behind a proxy
   // operators and strangers may share an address, and an emergency stop must get through.
   Throttle& throttle() { return throttle_; }

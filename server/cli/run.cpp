@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
 
 #include "server/cli/command.h"
 #include "server/cli/console.h"
@@ -73,10 +76,24 @@ Outcome dispatch(std::span<const std::string_view> words) {
   return unknown_command(words[0]);
 }
 
+// What is thrown ends the command as a fault does, and what it holds is let go on the way: a laser
+// goes off.
+Outcome dispatch_and_catch(std::span<const std::string_view> words) {
+  try {
+    return dispatch(words);
+  } catch (const std::bad_alloc&) {
+    return failed("memory has run out; free some, or take a machine that has more");
+  } catch (const nlohmann::json::exception&) {
+    return failed("what was answered is no JSON of Vitrine's; check the address");
+  } catch (const std::exception& fault) {
+    return failed(fmt::format("{}; try again", fault.what()));
+  }
+}
+
 }  // namespace
 
 int run(std::span<const std::string_view> words) {
-  const Outcome outcome = dispatch(words);
+  const Outcome outcome = dispatch_and_catch(words);
   if (outcome) return 0;
   if (outcome.error().exit_code != kNobodyReads) print_fault(outcome.error().message);
   return outcome.error().exit_code;

@@ -142,7 +142,7 @@ constexpr std::string_view kComponents = R"json({
     "degrees": {"type": "number", "minimum": -36000, "maximum": 36000}}},
   "LaserSwitch": {"type": "object", "required": ["on"], "additionalProperties": false, "properties": {"on": {"type": "boolean"}}},
   "CalibrationOrder": {"type": "object", "additionalProperties": false, "properties": {
-    "poses": {"type": "integer", "minimum": 3, "maximum": 200, "default": 20}}},
+    "poses": {"type": "integer", "minimum": 3, "maximum": 200, "default": 20}, "webhook": {"$ref": "#/components/schemas/Webhook"}}},
   "CalibrationList": {"type": "object", "required": ["calibrations", "damaged"], "properties": {
     "calibrations": {"type": "array", "items": {"type": "object", "required": ["number", "rms"], "properties": {
       "number": {"type": "integer"}, "created": {"type": "string"}, "camera": {"type": "string"}, "region": {"type": "object"},
@@ -155,11 +155,12 @@ constexpr std::string_view kComponents = R"json({
     "contributor": {"type": "string"}, "coverage": {"type": "string"}, "date": {"type": "string"}, "description": {"type": "string"},
     "identifier": {"type": "string"}, "language": {"type": "string"}, "publisher": {"type": "string"}, "relation": {"type": "string"},
     "source": {"type": "string"}, "subject": {"type": "string"}, "type": {"type": "string"}}},
+  "Webhook": {"type": "string", "description": "A URL that is posted the job when it ends; its host has to be among the setting webhook-hosts"},
   "ModelOrder": {"type": "object", "required": ["upload"], "additionalProperties": false, "properties": {
     "upload": {"$ref": "#/components/schemas/Id"}, "metadata": {"$ref": "#/components/schemas/Metadata"},
     "publish": {"type": "boolean", "default": false, "description": "Else it ends as a draft"},
     "replace": {"anyOf": [{"$ref": "#/components/schemas/Id"}, {"type": "null"}], "description": "The model whose place it takes"},
-    "webhook": {"type": "string", "description": "Is told of the job's end; its host has to be among the setting webhook-hosts"},
+    "webhook": {"$ref": "#/components/schemas/Webhook"},
     "bits": {"anyOf": [{"const": "auto"}, {"const": 0}, {"type": "integer", "minimum": 10, "maximum": 16}], "default": "auto"},
     "placement": {"enum": ["midpoint", "pyramid"]}, "unit": {"enum": ["mm", "cm", "m", "in"], "description": "Where the file states none"},
     "up": {"enum": ["y", "z"], "default": "y"}}},
@@ -188,7 +189,7 @@ constexpr std::string_view kComponents = R"json({
     "largest_angle": {"type": "number", "minimum": 0}, "largest_hole": {"type": "number", "minimum": 0, "description": "mm"},
     "bits": {"anyOf": [{"const": "auto"}, {"const": 0}, {"type": "integer", "minimum": 10, "maximum": 16}], "default": "auto"},
     "placement": {"enum": ["midpoint", "pyramid"]}, "metadata": {"$ref": "#/components/schemas/Metadata"},
-    "publish": {"type": "boolean", "default": false, "description": "Else it ends as a draft"}}},
+    "publish": {"type": "boolean", "default": false, "description": "Else it ends as a draft"}, "webhook": {"$ref": "#/components/schemas/Webhook"}}},
   "ScanOrder": {"required": ["scanner"], "unevaluatedProperties": false, "allOf": [{"$ref": "#/components/schemas/Processing"}],
     "type": "object", "properties": {
     "scanner": {"type": "string", "description": "Its name"}, "steps": {"type": "integer", "default": 720},

@@ -57,6 +57,8 @@ Response start_calibration(const Request& request, Services& services) {
   return with_scanner(request, services, [&](ScannerStation& scanner) {
     const auto order = parse_calibration_order(request.body);
     if (!order) return invalid(order.error(), request);
+    if (const auto faults = check_webhook(order->webhook, services); !faults.empty())
+      return invalid(faults, request);
     const auto once = once_key(request);
     if (!once) return once.error();
     const auto job = services.scans.calibrate(scanner, *order, *once);

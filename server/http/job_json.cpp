@@ -159,6 +159,16 @@ tl::expected<std::optional<OnceKey>, Response> once_key(const Request& request) 
   return OnceKey{fmt::format("{} {}", caller, key), sha256(text_bytes(about))};
 }
 
+tl::expected<Query, Response> read_query(const Request& request,
+                                         std::span<const std::string_view> known) {
+  auto query = Query::parse(request.query);
+  if (!query) return tl::unexpected(problem(400, "the query is malformed", request.id));
+  const auto unknown = query->unknown(known);
+  if (!unknown) return std::move(*query);
+  return tl::unexpected(problem(400, "a parameter is unknown", request.id,
+                                {{std::string(*unknown), "unknown here"}}));
+}
+
 tl::expected<PageOf, std::vector<ParameterFault>> read_page(const Query& query) {
   PageOf page;
   std::vector<ParameterFault> faults;
@@ -176,6 +186,15 @@ tl::expected<PageOf, std::vector<ParameterFault>> read_page(const Query& query) 
   }
   if (!faults.empty()) return tl::unexpected(std::move(faults));
   return page;
+}
+
+tl::expected<PageOf, Response> read_page(const Request& request) {
+  constexpr std::string_view kKnown[] = {"limit", "cursor"};
+  const auto query = read_query(request, kKnown);
+  if (!query) return tl::unexpected(query.error());
+  auto page = read_page(*query);
+  if (page) return *page;
+  return tl::unexpected(problem(400, "a parameter is out of range", request.id, page.error()));
 }
 
 Response token_needed(const Request& request) {

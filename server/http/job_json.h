@@ -39,8 +39,14 @@ Response invalid(const FieldFaults& faults, const Request& request);
 // The error is the answer.
 tl::expected<std::optional<OnceKey>, Response> once_key(const Request& request);
 
+// The request's query, which has no parameters but `known`. The error is the answer.
+tl::expected<Query, Response> read_query(const Request& request,
+                                         std::span<const std::string_view> known);
+
 // ?limit= &cursor= of a list; the errors name the parameter.
 tl::expected<PageOf, std::vector<ParameterFault>> read_page(const Query& query);
+// The same of a list that takes nothing else. The error is the answer.
+tl::expected<PageOf, Response> read_page(const Request& request);
 
 // 401: somebody with a token may.
 Response token_needed(const Request& request);

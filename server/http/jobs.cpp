@@ -5,7 +5,6 @@
 #include "server/http/handlers.h"
 #include "server/http/job_json.h"
 #include "server/http/published.h"
-#include "server/http/query.h"
 
 namespace vitrine {
 namespace {
@@ -52,10 +51,8 @@ Response with_job(const Request& request, Services& services, Answer&& answer) {
 }  // namespace
 
 Response list_jobs(const Request& request, Services& services) {
-  const auto query = Query::parse(request.query);
-  if (!query) return problem(400, "the query is malformed", request.id);
-  const auto page = read_page(*query);
-  if (!page) return problem(400, "a parameter is out of range", request.id, page.error());
+  const auto page = read_page(request);
+  if (!page) return page.error();
   const auto jobs = services.scans.jobs().list(*page);
   if (!jobs) return internal_error(jobs.error(), request, services);
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -89,11 +86,12 @@ Response resume_job(const Request& request, Services& services) {
 }
 
 Response show_job_events(const Request& request, Services& services) {
+  // First: a job without a run is found at its end then, and nobody waits for one that has passed.
+  const auto run = services.scans.jobs().run(request.parameters.id);
   return with_job(request, services, [&](const JobStatus& job) {
     Response response;
     response.type = "text/event-stream";
-    response.events = std::make_shared<JobEvents>(job, services.scans.jobs().run(job.record.id),
-                                                  request.caller.has_value());
+    response.events = std::make_shared<JobEvents>(job, run, request.caller.has_value());
     return response;
   });
 }

@@ -18,7 +18,7 @@ constexpr double kMostAccuracy = 1e6;  // of the model's unit
 
 // What is wrong with the order as things stand; the upload's token is the caller's.
 FieldFaults check(const ModelOrder& order, const Request& request, Services& services) {
-  FieldFaults faults;
+  FieldFaults faults = check_webhook(order.webhook, services);
   const auto upload = services.uploads.find(order.upload);
   const bool is_own =
       upload && (upload->token == request.caller->token || request.caller->role >= Role::kAdmin);
@@ -28,8 +28,6 @@ FieldFaults check(const ModelOrder& order, const Request& request, Services& ser
     faults.push_back({"upload", fmt::format("an upload that is whole; {} of {} bytes have come",
                                             upload->offset, upload->length)});
   }
-  if (!order.webhook.empty() && !services.webhooks.allows(order.webhook))
-    faults.push_back({"webhook", "a URL at a host of the setting webhook-hosts"});
   if (!order.replace) return faults;
   const auto model = services.catalogue.find(*order.replace);
   if (!model || !*model) faults.push_back({"replace", "the id of a model that is there"});

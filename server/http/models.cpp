@@ -64,8 +64,9 @@ Response in_state(ModelState state, const Request& request, Services& services) 
 }  // namespace
 
 Response list_models(const Request& request, Services& services) {
-  const auto query = Query::parse(request.query);
-  if (!query) return problem(400, "the query is malformed", request.id);
+  constexpr std::string_view kKnown[] = {"q", "limit", "cursor", "drafts"};
+  const auto query = read_query(request, kKnown);
+  if (!query) return query.error();
   Faults faults;
   const ModelQuery wanted = read_query(*query, faults);
   if (!faults.empty()) return problem(400, "a parameter is out of range", request.id, faults);

@@ -31,6 +31,12 @@ inline bool is_public(const ScanEntry& scan, Services& services) {
   return model && *model != nullptr;
 }
 
+// What is wrong with telling `url` of the end of a job; an empty one is told nothing.
+inline FieldFaults check_webhook(const std::string& url, Services& services) {
+  if (url.empty() || services.webhooks.allows(url)) return {};
+  return {{"webhook", "a URL at a host of the setting webhook-hosts"}};
+}
+
 using FoundModel = Expected<std::shared_ptr<const PublishedModel>>;  // null: there is none
 
 // Calls `answer(model)`, or answers 404 or 500.

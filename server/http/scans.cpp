@@ -55,14 +55,6 @@ Response unknown_calibration(const Request& request) {
   return invalid({{"calibration", "the number of one of the scanner's calibrations"}}, request);
 }
 
-bool allows_webhook(const ScanOrder& order, Services& services) {
-  return order.webhook.empty() || services.webhooks.allows(order.webhook);
-}
-
-Response forbidden_webhook(const Request& request) {
-  return invalid({{"webhook", "a URL at a host of the setting webhook-hosts"}}, request);
-}
-
 std::string little_endian(std::span<const std::array<float, 3>> points) {
   static_assert(std::endian::native == std::endian::little);
   return {reinterpret_cast<const char*>(points.data()), points.size_bytes()};
@@ -76,7 +68,8 @@ Response start_scan(const Request& request, Services& services) {
   if (services.scans.scanner(order->scanner) == nullptr)
     return invalid({{"scanner", "the name of one of /api/v1/scanners"}}, request);
   if (!knows_calibration(*order, services)) return unknown_calibration(request);
-  if (!allows_webhook(*order, services)) return forbidden_webhook(request);
+  if (const auto faults = check_webhook(order->webhook, services); !faults.empty())
+    return invalid(faults, request);
   const auto once = once_key(request);
   if (!once) return once.error();
   const auto scan = services.scans.scan(*order, *once);
@@ -84,10 +77,8 @@ Response start_scan(const Request& request, Services& services) {
 }
 
 Response list_scans(const Request& request, Services& services) {
-  const auto query = Query::parse(request.query);
-  if (!query) return problem(400, "the query is malformed", request.id);
-  const auto page = read_page(*query);
-  if (!page) return problem(400, "a parameter is out of range", request.id, page.error());
+  const auto page = read_page(request);
+  if (!page) return page.error();
   const auto scans = services.scans.list(*page);
   if (!scans) return internal_error(scans.error(), request, services);
   auto list = nlohmann::ordered_json::array();
@@ -105,8 +96,10 @@ Response show_scan(const Request& request, Services& services) {
 
 Response show_points(const Request& request, Services& services) {
   return with_scan(request, services, [&](const ScanInfo& scan) {
-    const auto query = Query::parse(request.query);
-    const auto from = query ? read_from(*query) : std::nullopt;
+    constexpr std::string_view kKnown[] = {"from"};
+    const auto query = read_query(request, kKnown);
+    if (!query) return query.error();
+    const auto from = read_from(*query);
     if (!from)
       return problem(400, "a parameter is out of range", request.id,
                      {{"from", "a whole number, 0 or more"}});
@@ -154,7 +147,8 @@ Response reprocess_scan(const Request& request, Services& services) {
     const auto order = parse_reprocess_order(request.body, *before);
     if (!order) return invalid(order.error(), request);
     if (!knows_calibration(*order, services)) return unknown_calibration(request);
-    if (!allows_webhook(*order, services)) return forbidden_webhook(request);
+    if (const auto faults = check_webhook(order->webhook, services); !faults.empty())
+      return invalid(faults, request);
     const auto once = once_key(request);
     if (!once) return once.error();
     const auto job = services.scans.reprocess(scan.entry, *order, *once);

@@ -7,7 +7,6 @@
 #include "server/http/handlers.h"
 #include "server/http/job_json.h"
 #include "server/http/published.h"
-#include "server/http/query.h"
 #include "server/http/timestamp.h"
 
 namespace vitrine {
@@ -42,10 +41,8 @@ nlohmann::ordered_json token_json(const TokenRecord& token) {
 }  // namespace
 
 Response list_tokens(const Request& request, Services& services) {
-  const auto query = Query::parse(request.query);
-  if (!query) return problem(400, "the query is malformed", request.id);
-  const auto page = read_page(*query);
-  if (!page) return problem(400, "a parameter is out of range", request.id, page.error());
+  const auto page = read_page(request);
+  if (!page) return page.error();
   const auto tokens = services.catalogue.tokens();
   if (!tokens) return internal_error(tokens.error(), request, services);
   auto first = tokens->begin();
@@ -64,7 +61,7 @@ Response add_token(const Request& request, Services& services) {
   const auto token = create_token(services.catalogue, order->role, order->label);
   if (!token && token.error().code == ErrorCode::kBadInput)
     return invalid({{"label", token.error().message}}, request);
-  if (!token) return internal_error(token.error(), request, services);
+  if (!token) return refused(token.error(), request, services);
   Response response = json_answer({{"id", token->id.to_string()},
                                    {"role", name_of(order->role)},
                                    {"label", order->label},
@@ -78,7 +75,7 @@ Response revoke_token(const Request& request, Services& services) {
   const auto revoked = services.catalogue.revoke_token(request.parameters.id);
   if (!revoked && revoked.error().code == ErrorCode::kState)
     return problem(404, "there is no such token in force", request.id);
-  if (!revoked) return internal_error(revoked.error(), request, services);
+  if (!revoked) return refused(revoked.error(), request, services);
   Response response;
   response.status = 204;
   return response;

@@ -92,17 +92,18 @@ tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const Json& body,
 }
 
 tl::expected<CalibrationOrder, FieldFaults> parse_calibration_order(const Json& body) {
-  constexpr std::string_view kKnown[] = {"poses"};
+  constexpr std::string_view kKnown[] = {"poses", "webhook"};
   FieldFaults faults;
   Fields fields(body, "", faults);
   CalibrationOrder order;
   fields.only(kKnown);
   fields.whole("poses", kLeastPoses, kMostPoses, order.poses);
-  return order_or_faults(order, std::move(faults));
+  fields.text("webhook", order.webhook);
+  return order_or_faults(std::move(order), std::move(faults));
 }
 
 std::string to_json_text(const CalibrationOrder& order) {
-  return Json{{"poses", order.poses}}.dump();
+  return Json{{"poses", order.poses}, {"webhook", order.webhook}}.dump();
 }
 
 tl::expected<ScanOrder, FieldFaults> parse_kept_order(const Json& kept) {

@@ -30,7 +30,8 @@ struct ScanOrder {
 inline constexpr int kLeastPoses = 3, kMostPoses = 200;
 
 struct CalibrationOrder {
-  int poses = 20;  // of the target, that somebody places by hand
+  int poses = 20;            // of the target, that somebody places by hand
+  std::string webhook = {};  // as in ScanOrder
 };
 
 // A new scan. All faults at once; a field that is not known is one.

@@ -209,6 +209,7 @@ Expected<JobRecord> ScanService::calibrate(ScannerStation& scanner, const Calibr
                                            const std::optional<OnceKey>& once) {
   JobRecord job = new_job(JobKind::kCalibrate, scanner.name());
   job.parameters = to_json_text(order);
+  job.webhook = order.webhook;
   return queue_.add(job, std::nullopt, once, scanner.backend().stops());
 }
 
@@ -277,6 +278,7 @@ Expected<void> ScanService::resume(const ScanEntry& scan) {
     if (auto unused = check_unused(scan); !unused) return unused;
     JobRecord next = new_job(JobKind::kScan, scan.scanner);
     next.progress = (*job)->record.progress;
+    next.webhook = (*job)->record.webhook;
     const auto added = add(next, scan, std::nullopt);
     return added ? Expected<void>{} : Unexpected(added.error());
   }

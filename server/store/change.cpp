@@ -80,6 +80,17 @@ void take_text(std::string& text, const std::string& given) {
   if (!given.empty()) text = given;
 }
 
+// Those that are given.
+ModelRecord with_texts(ModelRecord record, const ModelMetadata& metadata) {
+  take_text(record.title, metadata.title);
+  take_text(record.creator, metadata.creator);
+  take_text(record.rights, metadata.rights);
+  take_text(record.licence, metadata.licence);
+  for (const auto& [name, text] : metadata.more)
+    record.more[name] = text;
+  return record;
+}
+
 }  // namespace
 
 ModelRecord public_view(ModelRecord record) {
@@ -99,21 +110,17 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
   if (auto good = check_texts(metadata); !good) return tl::unexpected(good.error());
   const auto lock = store.lock();
   if (!lock) return tl::unexpected(lock.error());
-  auto found = catalogue.find(as.id.value_or(ModelId()));
-  if (!found) return tl::unexpected(found.error());
-  if (!*found) return fail(ErrorCode::kState, "the model to replace is gone; publish a new one");
-  const ModelRecord& before = **found;
-  ModelRecord record = before;
-  take_text(record.title, metadata.title);
-  take_text(record.creator, metadata.creator);
-  take_text(record.rights, metadata.rights);
-  take_text(record.licence, metadata.licence);
-  for (const auto& [name, text] : metadata.more)
-    record.more[name] = text;
-  if (as.state == ModelState::kPublished) record.state = as.state;
-  if (auto done = store_files(store, catalogue, before, record, pmesh, as); !done)
-    return tl::unexpected(done.error());
-  return Publication{.id = record.id};
+  for (;;) {
+    const auto found = catalogue.find(as.id.value_or(ModelId()));
+    if (!found) return tl::unexpected(found.error());
+    if (!*found) return fail(ErrorCode::kState, "the model to replace is gone; publish a new one");
+    ModelRecord record = with_texts(**found, metadata);
+    if (as.state == ModelState::kPublished) record.state = as.state;
+    const auto done = store_files(store, catalogue, **found, record, pmesh, as);
+    if (done) return Publication{.id = record.id};
+    // Who publishes or hides it meanwhile holds no lock: then it is replaced as it is now.
+    if (done.error().code != ErrorCode::kState) return tl::unexpected(done.error());
+  }
 }
 
 Expected<void> remove(ObjectStore& store, Catalogue& catalogue, const ModelId& id,

@@ -25,6 +25,13 @@ Unexpected refused(const char* what, const fs::path& path, const char* why) {
               fmt::format("cannot {} {}: {}; check the data folder", what, path.string(), why));
 }
 
+// Without the path, which is not for those who send the bytes.
+Unexpected full() {
+  return fail(ErrorCode::kLimit,
+              fmt::format("cannot store a file: {}; free some space or choose another data folder",
+                          std::strerror(ENOSPC)));
+}
+
 // Where a disk does not give them back they are not there.
 bool holds(const Object& object, std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kPiece = 1 << 18;
@@ -41,8 +48,9 @@ bool holds(const Object& object, std::span<const std::uint8_t> bytes) {
 // Creates `folder` below `parent`; both names are durable afterwards.
 Expected<void> create_folder(const fs::path& folder) {
   if (::mkdir(folder.c_str(), 0777) == 0) return sync_folder(folder.parent_path());
-  if (errno != EEXIST) return refused("create", folder, std::strerror(errno));
-  return {};
+  if (errno == EEXIST) return {};
+  if (errno == ENOSPC || errno == EDQUOT) return full();
+  return refused("create", folder, std::strerror(errno));
 }
 
 bool is_temporary(const fs::path& path) {
@@ -93,7 +101,9 @@ Expected<bool> FileStore::put(const Sha256& name, std::span<const std::uint8_t> 
     if (auto made = create_folder(needed); !made) return tl::unexpected(made.error());
   }
   const auto written = write_file_atomically(path, bytes);
-  return written ? Expected<bool>(true) : tl::unexpected(written.error());
+  if (written) return true;
+  if (written.error().code == ErrorCode::kLimit) return full();
+  return tl::unexpected(written.error());
 }
 
 Expected<std::shared_ptr<const void>> FileStore::lock() {

@@ -41,7 +41,7 @@ class ObjectStore {
 
   // Stores `bytes` durably and under `name`, or not at all. False where they were there already,
   // and nothing changes; what is there and damaged is replaced. Fails with kBadInput where the
-  // bytes do not have that name, kIo where the disk refuses.
+  // bytes do not have that name, kLimit where the disk is full, kIo where it refuses.
   virtual Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) = 0;
 
   // Whoever puts an object and has it named, or takes it away, holds this meanwhile: nobody else,

@@ -203,13 +203,28 @@ Expected<PublishedModels::Model> PublishedModels::load(const ModelId& id) {
 Expected<PublishedModels::Model> PublishedModels::open(const ModelId& id) {
   const auto before = catalogue_.revision();
   if (!before) return tl::unexpected(before.error());
-  auto record = catalogue_.find(id);
-  if (!record) return tl::unexpected(record.error());
-  if (!*record || (*record)->state != ModelState::kPublished) return nullptr;
-  auto model = PublishedModel::open(store_, public_view(std::move(**record)));
-  if (!model) return model;
-  remember(*model, *before);
+  auto model = open_newest(id, [](ModelRecord record) -> std::optional<ModelRecord> {
+    if (record.state != ModelState::kPublished) return std::nullopt;
+    return public_view(std::move(record));
+  });
+  if (model && *model) remember(*model, *before);
   return model;
+}
+
+// As `view` shows its record; null where it shows none. A file that was not there may have lost its
+// name, and been collected, since the record was read: a fault is one where the record is the same.
+template <class View>
+Expected<PublishedModels::Model> PublishedModels::open_newest(const ModelId& id, const View& view) {
+  for (std::optional<std::uint64_t> failed;;) {
+    auto record = catalogue_.find(id);
+    if (!record) return tl::unexpected(record.error());
+    auto seen = *record ? view(std::move(**record)) : std::nullopt;
+    if (!seen) return nullptr;
+    const std::uint64_t version = seen->version;
+    auto model = PublishedModel::open(store_, std::move(*seen));
+    if (model || failed == version) return model;
+    failed = version;
+  }
 }
 
 void PublishedModels::remember(const Model& model, std::uint64_t revision) {
@@ -287,10 +302,7 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const Mode
 }
 
 Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_whole(const ModelId& id) {
-  auto record = catalogue_.find(id);
-  if (!record) return tl::unexpected(record.error());
-  if (!*record) return nullptr;
-  return PublishedModel::open(store_, std::move(**record));
+  return open_newest(id, [](ModelRecord record) { return std::optional(std::move(record)); });
 }
 
 void PublishedModels::refresh() {

@@ -142,6 +142,8 @@ class PublishedModels {
   Expected<std::vector<const PublishedModel*>> unchanged(const std::vector<Model>& models);
   Expected<Model> load(const ModelId& id);
   Expected<Model> open(const ModelId& id);
+  template <class View>
+  Expected<Model> open_newest(const ModelId& id, const View& view);
   void remember(const Model& model, std::uint64_t revision);
   HeldModels::iterator drop(HeldModels::iterator model);  // with the lock held
   void make_room();                                       // likewise

@@ -134,6 +134,8 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
       received = Unexpected(message.error());
     } else if (const auto* wanted = std::get_if<OpenMessage>(&*message)) {
       received = co_await find_and_open(*wanted);
+    } else if (const auto* wish = std::get_if<WantMessage>(&*message)) {
+      received = co_await take_wish(*wish);
     } else {
       received = act_on(*message);
     }
@@ -144,6 +146,15 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
     auto model = co_await options_.find(wanted.id);
     co_return model ? open(wanted, std::move(*model))
                     : answer(ClosedMessage{wanted.model, model.error().message});
+  }
+
+  // Of a model that was hidden or replaced the next connection tells what there is now.
+  asio::awaitable<Expected<void>> take_wish(const WantMessage& wish) {
+    const auto model = models_.find(wish.model);
+    bool is_current = true;
+    if (model != models_.end()) is_current = co_await options_.is_current(model->second);
+    if (!is_current) close_with(websocket::close_code::service_restart);
+    co_return state_.receive(wish, now());
   }
 
   Expected<void> act_on(const ClientMessage& message) {

@@ -22,6 +22,9 @@ struct StreamOptions {
   bool head = false;                  // the model's head comes first
   // A model that this client may see; fails with what the client is told. Off the socket's strand.
   std::function<boost::asio::awaitable<Expected<StreamedModel>>(std::string id)> find;
+  // Whether this client may still see the model, and its file is the one that was opened. Asked at
+  // each `want`: where it is not, the connection ends (close 1012). Off the socket's strand.
+  std::function<boost::asio::awaitable<bool>(StreamedModel model)> is_current;
   // Called once with what to call on the socket's strand when the daemon stops (close 1012).
   std::function<void(std::function<void()> stop)> on_drain;
   std::function<void(std::uint64_t bytes)> sent;  // called with the chunk bytes of each slice

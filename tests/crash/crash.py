@@ -229,6 +229,12 @@ class Look:
         return self.stored() == names
 
 
+def check_log(daemon):
+    """A daemon that was killed has told of no error before."""
+    if faults := [line for line in daemon.printed if "event=error" in line or "terminate called" in line]:
+        raise AssertionError("".join(faults))
+
+
 def main():
     binaries = Path(sys.argv[1])
     kills = int(sys.argv[2]) if len(sys.argv) > 2 else 20
@@ -256,11 +262,13 @@ def main():
             work.join()
             if work.fault:
                 raise work.fault
+            check_log(daemon)
         daemon = Daemon(binaries, data)
         try:
             look.at(Client(daemon, token), known)
         finally:
             code = daemon.stop()
+        check_log(daemon)
         print(f"ok: {len(look.verified)} files verified, {len(known.made - known.deleted)} models kept, {len(known.uploads)} uploads open")
         return code if look.verified else "no model was made"
 

@@ -67,9 +67,10 @@ def a_full_disk(binaries, data):
                 pass
         except OSError:
             pass
-    order = {"upload": mesh.rsplit("/", 1)[1], "publish": True}
-    status, problem = client.json("POST", "/api/v1/models", order)
-    assert status == 507 and "free some space" in problem["detail"] and str(data) not in str(problem), problem
+    for method, address, order in (("POST", "/api/v1/models", {"upload": mesh.rsplit("/", 1)[1], "publish": True}),
+                                   ("PATCH", f"/api/v1/models/{model}", {"unit": "cm"})):
+        status, problem = client.json(method, address, order)
+        assert status == 507 and "free some space" in problem["detail"] and str(data) not in str(problem), (status, problem)
     assert is_served(client, model), "after a job was refused"
     filler.unlink()
     job = job_of(client, mesh)

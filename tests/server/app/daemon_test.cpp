@@ -56,6 +56,9 @@ TEST_F(DaemonTest, RefusesParametersOutOfRangeByName) {
   EXPECT_EQ(problem["errors"][0]["parameter"], "limit");
   EXPECT_EQ(problem["errors"][1]["parameter"], "cursor");
   EXPECT_EQ(get("/api/v1/models?q=%zz").status, 400);
+  const HttpAnswer unknown = get("/api/v1/models?draft=true");
+  EXPECT_EQ(unknown.status, 400);
+  EXPECT_EQ(Json::parse(unknown.body)["errors"][0]["parameter"], "draft");
 }
 
 TEST_F(DaemonTest, DescribesAModelAndItsManifest) {
@@ -74,6 +77,16 @@ TEST_F(DaemonTest, DescribesAModelAndItsManifest) {
       get(model_url() + "/manifest", "If-None-Match: " + answer.field("etag") + "\r\n");
   EXPECT_EQ(again.status, 304);
   EXPECT_EQ(again.body, "");
+}
+
+TEST_F(DaemonTest, PagesRunNothingThatSomebodyHasWrittenIntoATitle) {
+  const std::string policy = get("/models/" + id).field("content-security-policy");
+  EXPECT_NE(policy.find("default-src 'self'; script-src 'self' 'wasm-unsafe-eval';"),
+            std::string::npos)
+      << policy;
+  const HttpAnswer data = get(model_url());
+  EXPECT_EQ(data.field("content-security-policy"), "");
+  EXPECT_EQ(data.field("x-content-type-options"), "nosniff");
 }
 
 TEST_F(DaemonTest, ServesHeadChunkAndFile) {

@@ -36,9 +36,8 @@ class ServedFolder {
     return id->id.to_string();
   }
 
-  std::string token(Role role) {
-    return create_token(*installation_.catalogue, role, "").value().text;
-  }
+  std::string token(Role role) { return new_token(role).text; }
+  NewToken new_token(Role role) { return create_token(*installation_.catalogue, role, "").value(); }
 
  private:
   TemporaryFolder folder_;

@@ -247,8 +247,11 @@ TEST(Stop, WhileItStopsItIsAliveAndNotReady) {
   EXPECT_EQ(stuck.receive().close_code(), 1012);
   EXPECT_EQ(http_get(daemon.admin_port(), "/readyz").status, 503);
   EXPECT_EQ(http_get(daemon.admin_port(), "/livez").status, 200);
+  daemon.signal(SIGHUP);
   daemon.signal(SIGTERM);
-  EXPECT_EQ(daemon.wait().exit_code, 0);
+  const ProgramResult result = daemon.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output.find("read again"), std::string::npos) << "it is not ready any more";
 }
 
 TEST(Stop, TheDeadlineCutsWhatDoesNotEnd) {

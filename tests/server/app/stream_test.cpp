@@ -21,6 +21,14 @@ class StreamTest : public ::testing::Test {
   WebSocketClient connect(const std::string& query = "", const std::string& fields = "") const {
     return {daemon.port(), url() + query, "pmesh.v1", fields};
   }
+  std::string bearer(Role role) { return bearer(folder.token(role)); }
+  static std::string bearer(const std::string& token) {
+    return "Authorization: Bearer " + token + "\r\n";
+  }
+  void hide() const {
+    const std::string target = "/api/v1/models/" + id + "/unpublish";
+    EXPECT_EQ(http_get(daemon.port(), target, operator_, "POST").status, 200);
+  }
   // The next text frame.
   static Json told(WebSocketClient& client) {
     WebSocketFrame frame = client.receive();
@@ -45,6 +53,7 @@ class StreamTest : public ::testing::Test {
   const ChunkInfo& chunk = served_pmesh().manifest.chunks[0];
   ServedFolder folder;
   const std::string id = folder.publish("A small bust");
+  const std::string operator_ = bearer(Role::kOperator);
   Daemon daemon{folder.path()};
 };
 
@@ -156,6 +165,30 @@ TEST_F(StreamTest, PagesOfOtherSitesMayStreamUnlessSomeAreListed) {
        {"https://museum.example.evil.example", "http://museum.example", "null", ""}) {
     EXPECT_EQ(status("Origin: " + std::string(wrong) + "\r\n"), "no upgrade: 403") << wrong;
   }
+}
+
+TEST_F(StreamTest, AModelThatWasHiddenIsStreamedNoFurther) {
+  WebSocketClient visitor = connect(), owner = connect("", operator_);
+  told(visitor), told(owner);
+  hide();
+  visitor.send_text(R"({"type":"want","level":1})");
+  EXPECT_EQ(visitor.receive().close_code(), 1012);
+  EXPECT_THROW(connect(), std::runtime_error);
+  owner.send_text(R"({"type":"want","level":1})");
+  EXPECT_EQ(owner.receive().kind, WebSocketFrame::kBinary);
+}
+
+TEST_F(StreamTest, ARevokedTokenIsStreamedNoDrafts) {
+  hide();
+  const NewToken token = folder.new_token(Role::kViewer);
+  WebSocketClient client = connect("", bearer(token.text));
+  told(client);
+  const std::string target = "/api/v1/tokens/" + token.id.to_string();
+  EXPECT_EQ(http_get(daemon.port(), target, bearer(Role::kAdmin), "DELETE").status, 204);
+  client.send_text(R"({"type":"open","model":1,"id":")" + id + "\"}");
+  EXPECT_EQ(told(client)["reason"], "there is no such model");
+  client.send_text(R"({"type":"want","level":1})");
+  EXPECT_EQ(client.receive().close_code(), 1012);
 }
 
 TEST_F(StreamTest, SkipsWhatTheClientHolds) {

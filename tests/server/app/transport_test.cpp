@@ -172,6 +172,24 @@ TEST(Limits, AllOfAnIpv6NetworkShareOnesBudget) {
   EXPECT_EQ(client.get(model, from("2001:db8:0:1::")).status, 200);
 }
 
+// Few enough that they do not use the budget up by themselves.
+TEST(Limits, ModelsThatAreOpenedOnAStreamAreOfItsNetworksBudget) {
+  ServedFolder folder;
+  const std::string model = "/api/v1/models/" + folder.publish("A small bust");
+  const Daemon daemon(folder.path(), {"--request-rate", "1", "--trusted-proxies", "127.0.0.1"});
+  WebSocketClient stream(daemon.port(), model + "/stream", "pmesh.v1", from("2001:db8::1"));
+  stream.receive();
+  for (int i = 0; i < 5; ++i) {
+    std::string answer;
+    while (answer.find("too many") == std::string::npos) {
+      stream.send_text(R"({"type":"open","model":1,"id":"none"})");
+      answer = stream.receive().payload;
+    }
+    if (http_get(daemon.port(), model, from("2001:db8::2")).status == 429) return;
+  }
+  FAIL() << "another address of the network has a budget of its own";
+}
+
 TEST(Limits, AStreamBehindAProxyCountsForItsVisitor) {
   ServedFolder folder;
   const std::string stream = "/api/v1/models/" + folder.publish("A small bust") + "/stream";

@@ -40,6 +40,7 @@ class LocalServer {
   }
 
   std::uint16_t port() const { return port_; }
+  Services& services() { return services_; }
   ScanService& scans() { return scans_; }
   const std::filesystem::path& data() const { return folder_.path(); }
   JobCatalogue& jobs() { return *installation_.jobs; }

@@ -12,6 +12,8 @@
 #include "server/http/handlers.h"
 #include "server/http/route_docs.h"
 #include "server/http/routes.h"
+#include "server/jobs/model_order.h"
+#include "server/jobs/scan_order.h"
 #include "support/http_client.h"
 
 namespace vitrine::test {
@@ -85,6 +87,28 @@ TEST_F(OpenapiTest, WhatIsReferredToIsThereAndNothingIsThereInVain) {
     for (const auto& [name, value] : document["components"][kind].items())
       EXPECT_TRUE(used.contains(std::string("#/components/") + kind + "/" + name)) << name;
   }
+}
+
+// `order`: with all that it may say.
+TEST_F(OpenapiTest, EveryMemberOfAnOrderIsDescribed) {
+  const auto is_described = [&](const std::string& schema, const std::string& order) {
+    const nlohmann::json& schemas = document["components"]["schemas"];
+    nlohmann::json members = schemas[schema]["properties"];
+    if (schemas[schema].contains("allOf")) members.update(schemas["Processing"]["properties"]);
+    for (const auto& [name, value] : nlohmann::json::parse(order).items())
+      EXPECT_TRUE(members.contains(name)) << schema << ": " << name;
+  };
+  ScanOrder scan;
+  scan.request.exposure_us = 1;
+  scan.calibration = 1;
+  scan.webhook = "http://a";
+  is_described("ScanOrder", to_json_text(scan));
+  is_described("CalibrationOrder", to_json_text(CalibrationOrder{.webhook = "http://a"}));
+  ModelOrder model;
+  model.replace = ModelId();
+  model.webhook = "http://a";
+  model.unit = "mm";
+  is_described("ModelOrder", to_json_text(model));
 }
 
 TEST_F(OpenapiTest, ARoleIsToldAndATokenAskedFor) {

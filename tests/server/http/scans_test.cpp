@@ -245,7 +245,8 @@ TEST_F(ScanRoutes, AScanIsSeenToGrowAndEndsAsADraft) {
   EXPECT_EQ(first[0], 4);
   EXPECT_EQ(first[1], 8);
   EXPECT_EQ(get(scan_path(started) + "/points?from=50").body, "");
-  EXPECT_EQ(get(scan_path(started) + "/points?from=x").status, 400);
+  for (const std::string wrong : {"from=x", "form=1", "from=%"})
+    EXPECT_EQ(get(scan_path(started) + "/points?" + wrong).status, 400) << wrong;
   EXPECT_EQ(json::parse(get(scan_path(started) + "/profile").body),
             json::parse("[[12.5,3],[12.25,4]]"));
   held.open();
@@ -380,6 +381,18 @@ TEST_F(ScanRoutes, AKeyMakesARequestHaveItsEffectOnce) {
   settle("");
 }
 
+TEST_F(ScanRoutes, TheEndOfACalibrationIsToldToHostsThatAreNamedAlone) {
+  const auto calibrate = [&](const std::string& webhook) {
+    return post("/scanners/rig/calibrations", {{"poses", 3}, {"webhook", webhook}});
+  };
+  EXPECT_EQ(fault_of(calibrate("http://elsewhere.example/")), "webhook");
+  const HttpAnswer begun = calibrate("http://127.0.0.1/");
+  ASSERT_EQ(begun.status, 202) << begun.body;
+  const auto job = JobId::parse(json::parse(begun.body)["job"].get<std::string>());
+  EXPECT_EQ(server_.jobs().find_job(*job).value()->webhook, "http://127.0.0.1/");
+  settle();
+}
+
 TEST_F(ScanRoutes, EventsTellAJobToItsEnd) {
   HeldAtStep held(world_, 3);
   const json started = begin();
@@ -410,7 +423,8 @@ TEST_F(ScanRoutes, WhatIsNotThereIsNotFound) {
     EXPECT_EQ(get(path).status, 404) << path;
   EXPECT_EQ(post("/scans/" + id + "/pause").status, 404);
   EXPECT_EQ(ask("DELETE", "/jobs/" + id, operator_).status, 404);
-  EXPECT_EQ(get("/jobs?limit=0").status, 400);
+  for (const std::string wrong : {"limit=0", "limits=1", "from=%"})
+    EXPECT_EQ(get("/jobs?" + wrong).status, 400) << wrong;
 }
 
 TEST_F(ScanRoutes, AStopIsObeyedWhateverItsBodyIs) {

@@ -85,10 +85,11 @@ TEST(ScanOrder, each_fault_names_its_field) {
   EXPECT_EQ(fault_in({{"scanner", "rig"}, {"metadata", {{"colour", "1"}}}}), "metadata.colour");
 }
 
-TEST(CalibrationOrder, says_how_many_poses_there_will_be) {
-  const auto order = parse_calibration_order({{"poses", 7}});
+TEST(CalibrationOrder, says_how_many_poses_there_will_be_and_whom_to_tell) {
+  const auto order = parse_calibration_order({{"poses", 7}, {"webhook", "http://museum.example"}});
   ASSERT_TRUE(order);
   EXPECT_EQ(order->poses, 7);
+  EXPECT_EQ(order->webhook, "http://museum.example");
   EXPECT_EQ(parse_calibration_order(Json::parse(to_json_text(*order)))->poses, 7);
   EXPECT_TRUE(parse_calibration_order(Json::object()));
   for (const Json& wrong : {Json{{"poses", 2}}, Json{{"poses", "many"}}, Json{{"places", 7}}})

@@ -400,7 +400,9 @@ TEST_F(Scans, a_scan_that_failed_can_be_gone_on_with_as_a_new_job) {
     if (step < 3) return std::nullopt;
     return Error{ErrorCode::kIo, "camera 42 is gone; check its cable"};
   };
-  const auto started = begin(order_);
+  ScanOrder order = order_;
+  order.webhook = "http://museum.example/";
+  const auto started = begin(order);
   settle();
   ScanInfo scan = info(started.scan);
   EXPECT_EQ(scan.job.record.state, JobState::kFailed);
@@ -412,6 +414,7 @@ TEST_F(Scans, a_scan_that_failed_can_be_gone_on_with_as_a_new_job) {
   scan = info(started.scan);
   EXPECT_NE(scan.entry.job, started.job);
   EXPECT_EQ(scan.job.record.state, JobState::kDone);
+  EXPECT_EQ(scan.job.record.webhook, order.webhook);
   EXPECT_EQ(world_.steps, 12);
 }
 

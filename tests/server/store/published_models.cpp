@@ -5,8 +5,10 @@
 #include <atomic>
 #include <latch>
 #include <thread>
+#include <utility>
 
 #include "server/catalogue/sqlite_catalogue.h"
+#include "server/store/change.h"
 #include "server/store/file_store.h"
 #include "server/store/publish.h"
 #include "server/store/published_model.h"
@@ -145,6 +147,47 @@ TEST_F(PublishedModelsTest, who_asks_while_a_model_is_opened_waits_for_it) {
   }
   visitors.clear();
   EXPECT_EQ(store_.opened, 1);
+}
+
+TEST_F(PublishedModelsTest, a_file_that_is_collected_before_it_is_open_was_an_old_records) {
+  const ModelId one = add("one"), two = add("two");
+  const test::TinyPmesh newer = test::tiny_pmesh("another base", "another");
+  bool is_first = true;
+  const auto before_the_first = [&](const ModelId& id, const auto& change) {
+    is_first = true;
+    store_.before_opening = [&, id, change] {
+      if (!std::exchange(is_first, false)) return;
+      const Sha256 old = catalogue_->find(id).value()->file;
+      change();
+      ASSERT_TRUE(store_.remove(old));
+    };
+  };
+  before_the_first(
+      one, [&] { ASSERT_TRUE(replace(store_, *catalogue_, newer.bytes, {}, {.id = one})); });
+  EXPECT_EQ(models_.find(one).value()->record().file, sha256(newer.bytes));
+  before_the_first(two, [&] { ASSERT_TRUE(catalogue_->remove(two, std::nullopt)); });
+  EXPECT_EQ(models_.open_whole(two).value(), nullptr);
+}
+
+TEST_F(PublishedModelsTest, a_model_that_is_hidden_while_it_is_replaced_is_replaced_and_hidden) {
+  const ModelId id = add("one");
+  const test::TinyPmesh newer = test::tiny_pmesh("another base", "another");
+  bool is_first = true;
+  store_.before_opening = [&] {
+    if (!std::exchange(is_first, false)) return;
+    ASSERT_TRUE(catalogue_->set_state(id, ModelState::kDraft));
+  };
+  ASSERT_TRUE(
+      replace(store_, *catalogue_, newer.bytes, {}, {.state = ModelState::kDraft, .id = id}));
+  const auto record = catalogue_->find(id).value();
+  EXPECT_EQ(record->file, sha256(newer.bytes));
+  EXPECT_EQ(record->state, ModelState::kDraft);
+}
+
+TEST_F(PublishedModelsTest, a_file_that_is_lost_is_a_fault) {
+  const ModelId id = add("one");
+  ASSERT_TRUE(store_.remove(catalogue_->find(id).value()->file));
+  EXPECT_EQ(models_.find(id).error().code, ErrorCode::kState);
 }
 
 TEST_F(PublishedModelsTest, the_catalogue_is_asked_elsewhere_while_visitors_are_answered) {

@@ -39,6 +39,7 @@ class WebsocketTest : public ::testing::TestWithParam<bool> {
       throw std::bad_alloc();
       co_return StreamedModel();
     };
+    options.is_current = [](const StreamedModel&) -> asio::awaitable<bool> { co_return true; };
     options.on_drain = [](const auto&) {};
     options.sent = [](std::uint64_t) {};
     options.waits_for_peer = [](bool) {};

@@ -30,6 +30,10 @@ class FakeSocket {
     this.onmessage?.({ data });
   }
 
+  model(sha256: string): void {
+    this.onmessage?.({ data: JSON.stringify({ type: "model", model: 0, sha256 }) });
+  }
+
   done(turn = 1): void {
     this.onmessage?.({ data: JSON.stringify({ type: "done", model: 0, turn, bytes: 1, triangles: 1 }) });
   }
@@ -136,6 +140,20 @@ describe("StreamSource", () => {
     const bytes = source.getBytes(chunk(1, 3), never);
     FakeSocket.last.onclose?.();
     expect(await bytes).toEqual(new Uint8Array([9, 9, 9]));
+  });
+
+  test("hangs up where another connection brings another file", () => {
+    const source = new StreamSource("http://host/api/v1", "m1");
+    source.want({ level: 1 }, []);
+    const first = FakeSocket.last;
+    first.model("a");
+    first.readyState = 3;
+    for (const sha256 of ["a", "b"]) {
+      source.want({ level: 1 }, []);
+      FakeSocket.last.model(sha256);
+      expect(FakeSocket.last.closed).toBe(sha256 === "b");
+      FakeSocket.last.readyState = 3;
+    }
   });
 
   test("ends a wait when aborted", async () => {

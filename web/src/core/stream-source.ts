@@ -31,6 +31,7 @@ export class StreamSource implements Source {
   #queue: object[] = [];
   #busy = false; // a want is being served
   #turn = 0; // of that want
+  #sha256 = ""; // of the model's file
   readonly #parts = new Map<string, Part>();
 
   constructor(
@@ -94,7 +95,11 @@ export class StreamSource implements Source {
   }
 
   #told(text: string): void {
-    const message = JSON.parse(text) as { type?: unknown; turn?: unknown };
+    const message = JSON.parse(text) as { type?: unknown; turn?: unknown; sha256?: unknown };
+    if (message.type === "model") {
+      if (this.#sha256 && message.sha256 !== this.#sha256) return this.#socket?.close(1000); // its chunks are others
+      this.#sha256 = String(message.sha256);
+    }
     if (message.type === "done" && message.turn === this.#turn) this.#miss();
   }
 
