@@ -9,12 +9,11 @@ namespace vitrine {
 
 Response problem(unsigned status, std::string_view detail, std::string_view request_id,
                  const std::vector<ParameterFault>& errors) {
-  using Json = nlohmann::ordered_json;
   const auto title = beast::http::obsolete_reason(static_cast<beast::http::status>(status));
-  Json json = {{"type", "about:blank"},
-               {"title", std::string(title)},
-               {"status", status},
-               {"request_id", request_id}};
+  nlohmann::ordered_json json = {{"type", "about:blank"},
+                                 {"title", std::string(title)},
+                                 {"status", status},
+                                 {"request_id", request_id}};
   const bool is_told = status < 500 || status == 507;
   if (is_told && !detail.empty()) json["detail"] = detail;
   for (const ParameterFault& error : errors) {
@@ -24,7 +23,7 @@ Response problem(unsigned status, std::string_view detail, std::string_view requ
   response.status = status;
   response.type = "application/problem+json";
   // A client's text may be in here: what is not UTF-8 is replaced.
-  response.body = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  response.body = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   return response;
 }
 
