@@ -95,7 +95,8 @@ TEST_F(OpenapiTest, EveryMemberOfAnOrderIsDescribed) {
     const nlohmann::json& schemas = document["components"]["schemas"];
     nlohmann::json members = schemas[schema]["properties"];
     if (schemas[schema].contains("allOf")) members.update(schemas["Processing"]["properties"]);
-    for (const auto& [name, value] : nlohmann::json::parse(order).items())
+    const nlohmann::json said = nlohmann::json::parse(order);
+    for (const auto& [name, value] : said.items())
       EXPECT_TRUE(members.contains(name)) << schema << ": " << name;
   };
   ScanOrder scan;
