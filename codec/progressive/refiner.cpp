@@ -161,6 +161,11 @@ std::uint32_t Refiner::level_of(VertexId v) const {
 std::uint32_t Refiner::region_of(VertexId v) const {
   return state_->mesh.vertex[v].region;
 }
+VertexId Refiner::parent_of(VertexId v) const {
+  const ChunkSplits& splits = state_->newest.splits;
+  const bool split_off = v >= splits.first_vertex && v - splits.first_vertex < splits.size();
+  return split_off ? splits.v(v - splits.first_vertex) : v;
+}
 const Connectivity& Refiner::connectivity() const {
   return state_->mesh.connectivity;
 }

@@ -53,6 +53,8 @@ class Refiner {
   std::uint32_t face_count() const;           // real faces
   std::uint32_t level_of(VertexId v) const;   // level that the vertex' region has reached
   std::uint32_t region_of(VertexId v) const;  // the first leaf of its region (region_tree.h)
+  // Whose split by the chunk applied last brought v; v itself where none did.
+  VertexId parent_of(VertexId v) const;
 
   // The surface as coded: lattice units. All slots of `connectivity()` are live; faces with a
   // virtual corner (is_virtual) close boundary loops and are not part of the surface.

@@ -98,8 +98,8 @@ VITRINE_EXPORT(want) int want(Model* model, std::uint32_t kind, double value) {
   return succeeded(restarted) ? (*restarted ? 1 : 0) : -1;
 }
 
-// The goal of a camera: 20 numbers, those of View up to pixel_error in its order. Returns what
-// want() does.
+// The goal of a camera: 22 numbers, those of View in its order and the most triangles to
+// hold. Returns what want() does.
 VITRINE_EXPORT(want_view) int want_view(Model* model, const double* numbers) {
   vitrine::View view;
   std::copy_n(numbers, view.camera.size(), view.camera.begin());
@@ -107,11 +107,12 @@ VITRINE_EXPORT(want_view) int want_view(Model* model, const double* numbers) {
   view.width = numbers[17];
   view.height = numbers[18];
   view.pixel_error = numbers[19];
+  view.bytes = numbers[20];
   if (!is_sane(view)) {
     last_error() = "the camera is impossible: its numbers must be finite, its sizes above 0";
     return -1;
   }
-  const auto restarted = model->want(view);
+  const auto restarted = model->want(view, numbers[21]);
   return succeeded(restarted) ? (*restarted ? 1 : 0) : -1;
 }
 
@@ -142,6 +143,10 @@ VITRINE_EXPORT(bytes_held) double bytes_held(Model* model) {
 }
 VITRINE_EXPORT(vertex_count) std::uint32_t vertex_count(Model* model) {
   return model->refiner().vertex_count();
+}
+// Whose split by the chunk applied last brought the vertex; itself where none did.
+VITRINE_EXPORT(parent_of) std::uint32_t parent_of(Model* model, std::uint32_t vertex) {
+  return model->refiner().parent_of(vertex);
 }
 VITRINE_EXPORT(face_count) std::uint32_t face_count(Model* model) {
   return model->refiner().face_count();

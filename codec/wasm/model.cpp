@@ -2,6 +2,7 @@
 #include "codec/wasm/model.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "codec/progressive/colour.h"
@@ -101,7 +102,21 @@ Expected<bool> Model::want(std::uint32_t kind, double value) {
 Expected<bool> Model::want(const Want& goal) {
   if (!refiner_)
     return fail(ErrorCode::kState, "the base mesh must come first; give it before the chunks");
-  const bool back = trimmed_ || exceeds(goal);
+  most_triangles_ = std::numeric_limits<double>::infinity();
+  return pursue(goal, trimmed_ || exceeds(goal));
+}
+
+// A camera never asks for less, for what it has left behind may come into sight again, unless more
+// is held than there is room for.
+Expected<bool> Model::want(const View& view, double most_triangles) {
+  if (!refiner_)
+    return fail(ErrorCode::kState, "the base mesh must come first; give it before the chunks");
+  most_triangles_ = most_triangles;
+  const bool crowded = bytes_held() > view.bytes || refiner_->face_count() > most_triangles;
+  return pursue(view, trimmed_ || crowded);
+}
+
+Expected<bool> Model::pursue(const Want& goal, bool back) {
   if (back) {
     if (auto done = restart(); !done) return Unexpected(done.error());
   }
@@ -117,9 +132,7 @@ Expected<bool> Model::want(const Want& goal) {
   return back;
 }
 
-// A camera never asks for less: what it has left behind may come into sight again.
 bool Model::exceeds(const Want& goal) const {
-  if (std::holds_alternative<View>(goal)) return false;
   Planner plan(*manifest_);
   plan.want(goal);
   std::vector<bool> wanted(applied_.size());
@@ -138,7 +151,8 @@ int Model::next_chunk() {
   const auto chunk = planner_->next();
   if (!chunk) return -1;
   planner_->have(*chunk);
-  return static_cast<int>(*chunk);
+  if (static_cast<double>(planner_->faces_held()) > most_triangles_) planner_.reset();
+  return planner_ ? static_cast<int>(*chunk) : -1;
 }
 
 Expected<void> Model::apply(std::size_t chunk, std::span<const std::uint8_t> bytes) {

@@ -35,6 +35,7 @@ class Model {
   // something that the want leaves out.
   Expected<bool> want(std::uint32_t kind, double value);
   Expected<bool> want(const Want& goal);
+  Expected<bool> want(const View& view, double most_triangles);
   int next_chunk();  // -1: none
   Expected<void> apply(std::size_t chunk, std::span<const std::uint8_t> bytes);
   void trim();
@@ -61,6 +62,7 @@ class Model {
 
  private:
   Expected<void> restart();
+  Expected<bool> pursue(const Want& goal, bool back);
   bool exceeds(const Want& goal) const;  // the surface is finer than that somewhere
   Vec3 shown(VertexId v) const;
   Vec3 normal(VertexId v) const;
@@ -72,6 +74,7 @@ class Model {
   std::optional<Refiner> refiner_;
   std::optional<Planner> planner_;
   std::optional<std::uint32_t> triangles_;  // of the want, where it is one for triangles
+  double most_triangles_ = 0;               // of the want, where it is a view
   std::vector<bool> applied_;
   bool trimmed_ = false;  // or failed: nothing can be applied until restart()
 

@@ -15,14 +15,30 @@ export function launch() {
 
 const kEvents = ["first-paint", "refine", "progress", "load", "error", "camera-change"];
 
+/** Sets attributes of each viewer as soon as the page has it. */
+function dress(attributes) {
+  new MutationObserver(() => {
+    for (const viewer of document.querySelectorAll("progressive-mesh:not([data-dressed])")) {
+      viewer.dataset.dressed = "";
+      for (const [name, value] of Object.entries(attributes)) viewer.setAttribute(name, value);
+    }
+  }).observe(document, { childList: true, subtree: true });
+}
+
 /** A page with one <progressive-mesh>, its events, requests and complaints. */
 export class ViewerPage {
-  /** `init` runs in the page before its own scripts. */
-  static async open(browser, url, { colorScheme = "light", width = 1100, height = 760, init } = {}) {
-    const context = await browser.newContext({ viewport: { width, height }, colorScheme });
+  /**
+   * `init` runs in the page before its own scripts. `attributes` are the viewer's, before it is one: with none
+   * it shows all there is.
+   */
+  static async open(browser, url, {
+    colorScheme = "light", reducedMotion = "reduce", width = 1100, height = 760, init, attributes = { "pixel-error": "0" },
+  } = {}) {
+    const context = await browser.newContext({ viewport: { width, height }, colorScheme, reducedMotion });
     const viewer = new ViewerPage(await context.newPage());
     await viewer.#listen();
     if (init) await viewer.page.addInitScript(init);
+    await viewer.page.addInitScript(dress, attributes);
     await viewer.page.goto(url, { waitUntil: "commit" });
     return viewer;
   }
@@ -31,6 +47,7 @@ export class ViewerPage {
   held = [];
   holding = true;
   askedChunks = 0; // exact once their effect is seen: each request passes through here
+  origins = []; // of all requests
   finishedChunks = 0; // as the browser tells: may lag behind what the page shows
 
   constructor(page) {
@@ -121,6 +138,7 @@ export class ViewerPage {
     const { page } = this;
     page.on("pageerror", (error) => this.errors.push(String(error)));
     page.on("console", (message) => message.type() === "error" && this.errors.push(message.text()));
+    page.on("request", (request) => request.url().startsWith("http") && this.origins.push(new URL(request.url()).origin));
     page.on("requestfinished", (request) => request.url().includes("/chunks/") && ++this.finishedChunks);
     await page.context().route("**/api/v1/chunks/*", (route) => {
       ++this.askedChunks;

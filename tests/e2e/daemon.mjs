@@ -54,8 +54,17 @@ export class Daemon {
 
   /** As after a power cut; at the same address. */
   async killAndStartAgain() {
+    await this.kill();
+    await this.startAgain();
+  }
+
+  async kill() {
     this.child.kill("SIGKILL");
     await this.exit;
+  }
+
+  /** At the same address. */
+  async startAgain() {
     const portFile = join(this.folder, "port-again");
     const appeared = watched(this.folder, portFile);
     await Promise.race([appeared, this.spawn(`127.0.0.1:${this.port}`, portFile)]);

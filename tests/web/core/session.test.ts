@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { DamagedError } from "@core/decoder.ts";
 import { Session } from "@core/session.ts";
-import { ModelError } from "@core/types.ts";
+import { DamagedError, ModelError, UnreachableError } from "@core/types.ts";
 import { ControlledSource, FakeDecoder, RecordingSink, fakeInfo, kHeader, settle } from "../support/fake_model.ts";
 
 const base = { positions: new Int32Array(), faces: new Uint32Array(), colours: undefined };
@@ -10,8 +9,11 @@ function setUp(chunks: number, headBytes?: number) {
   const source = new ControlledSource(headBytes);
   const decoder = new FakeDecoder(fakeInfo(chunks));
   const sink = new RecordingSink();
-  const session = new Session(source, decoder, async () => base, sink);
-  return { source, decoder, sink, session };
+  const waits: number[] = [];
+  let go: () => void = () => undefined;
+  const wait = (milliseconds: number) => new Promise<void>((resolve) => (waits.push(milliseconds), (go = resolve)));
+  const session = new Session(source, decoder, async () => base, sink, wait);
+  return { source, decoder, sink, session, waits, go: () => go() };
 }
 
 async function opened(chunks: number) {
@@ -94,9 +96,10 @@ describe("Session", () => {
     await settle();
     for (const chunk of [0, 1, 2]) source.answer(chunk);
     await fine;
+    sink.triangles.length = 0;
     expect(await session.refine({ level: 1 })).toBe(true);
     expect(decoder.applied).toEqual([0]);
-    expect(sink.triangles.at(-1)).toBe(200);
+    expect(sink.triangles).toEqual([200]); // not by way of the base mesh
     expect(await session.refine({ level: 3 })).toBe(true);
     expect(source.asked).toEqual([0, 1, 2]);
     expect(sink.triangles.at(-1)).toBe(400);
@@ -152,14 +155,55 @@ describe("Session", () => {
     expect(source.asked).toEqual([0]);
   });
 
-  test("tries a lost request once more", async () => {
-    const { source, session } = await opened(1);
-    const done = session.refine({ level: 1 });
-    await settle();
-    source.find(0).fail(new ModelError("the connection broke"));
+  test("waits for a server that is gone, longer each time, and goes on where it was", async () => {
+    const { source, session, sink, waits, go, decoder } = await opened(2);
+    const done = session.refine({ level: 2 });
     await settle();
     source.answer(0);
+    await settle();
+    for (let i = 0; i < 7; ++i) {
+      source.find(1).fail(new UnreachableError("nobody answers"));
+      await settle();
+      go();
+      await settle();
+    }
+    expect(waits).toEqual([500, 1000, 2000, 4000, 8000, 15000, 15000]);
+    source.answer(1);
     expect(await done).toBe(true);
+    expect(decoder.applied).toEqual([0, 1]);
+    expect(source.asked.filter((chunk) => chunk === 0)).toEqual([0]);
+    expect(source.wants.at(-1)).toEqual({ want: { level: 2 }, have: [0] });
+    expect(sink.reasons).toEqual([...Array<string>(7).fill("nobody answers"), undefined]);
+  });
+
+  test("does not ask again for what is not there", async () => {
+    const { source, session } = await opened(1);
+    const failure = expect(session.refine({ level: 1 })).rejects.toThrow("not there");
+    await settle();
+    source.find(0).fail(new ModelError("not there"));
+    await failure;
+    expect(source.asked).toEqual([0]);
+  });
+
+  test("leaves what is on display until it is as far again", async () => {
+    const { source, session, sink } = setUp(3);
+    await session.open(true);
+    const done = session.refine({ level: 3 });
+    await settle();
+    source.answer(0);
+    source.answer(1);
+    await settle();
+    expect(sink.triangles).toEqual([]);
+    source.answer(2);
+    expect(await done).toBe(true);
+    expect(sink.triangles).toEqual([400]);
+  });
+
+  test("asks a stream for no more bytes than a view's plan has", async () => {
+    const { source, session } = await opened(2);
+    const view = { camera: [], fov: 30, width: 10, height: 10, pixels: 1, bytes: Infinity, triangles: 5 };
+    await session.refine({ view });
+    expect(source.wants.at(-1)?.want).toEqual({ view: { ...view, bytes: 24 } });
   });
 
   test("ends its requests and closes its source", async () => {

@@ -3,7 +3,7 @@
 // every interleaving can be played without a clock.
 import type { ModelDecoder, Sink } from "@core/session.ts";
 import type { ByteRange, Source } from "@core/source.ts";
-import type { ModelInfo, Surface, Want } from "@core/types.ts";
+import type { Change, ModelInfo, Surface, Want } from "@core/types.ts";
 
 export const kHeader = 16, kBase = 8, kChunk = 10;
 
@@ -34,6 +34,7 @@ export class FakeDecoder implements ModelDecoder {
 
   headerLength = () => kHeader;
   open = () => this.info;
+  readonly parents = new Uint32Array();
   checkBase = () => undefined;
   start = () => void ++this.starts;
   trim = () => undefined;
@@ -85,12 +86,15 @@ export interface Request {
 export class ControlledSource implements Source {
   readonly requests: Request[] = [];
   closed = false;
+  readonly wants: { want: Want; have: number[] }[] = [];
 
   constructor(private readonly headBytes = kHeader + kBase) {}
 
   head(): Promise<Uint8Array> {
     return Promise.resolve(new Uint8Array(this.headBytes));
   }
+
+  want = (want: Want, have: number[]) => void this.wants.push({ want, have });
 
   getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
     return new Promise((resolve, reject) => {
@@ -127,9 +131,12 @@ export class RecordingSink implements Sink {
 
   opened = () => undefined;
   progress = () => undefined;
+  readonly reasons: (string | undefined)[] = [];
 
-  show(surface: Surface): Promise<void> {
-    this.triangles.push(surface.triangles);
+  stalled = (reason: string | undefined) => void this.reasons.push(reason);
+
+  show(change: Change): Promise<void> {
+    this.triangles.push(change.triangles);
     return this.hold ? new Promise((resolve) => (this.#release = resolve)) : Promise.resolve();
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The daemon's HTTP interface: one request for the head, one URL per chunk, no Range.
 import { readAll, unreachable, type ByteRange, type Source } from "./source.ts";
-import { ModelError } from "./types.ts";
+import { DamagedError, ModelError } from "./types.ts";
 
 export class ApiSource implements Source {
   /** `api` is the address of /api/v1 without a slash at its end. */
@@ -18,7 +18,7 @@ export class ApiSource implements Source {
     if (!range.sha256) throw new ModelError("the daemon sent an incomplete head: reload the page");
     const bytes = await this.#get(`${this.api}/chunks/${range.sha256}`, "a part of the model", signal);
     if (bytes.length === range.length) return bytes;
-    throw new ModelError(`a part of the model has ${bytes.length} bytes instead of ${range.length}`);
+    throw new DamagedError(`a part of the model has ${bytes.length} bytes instead of ${range.length}`);
   }
 
   /** Every request ends by its own signal. */

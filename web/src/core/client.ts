@@ -1,21 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's side of the worker. All models of a page share one worker; it ends with the last.
 import workerText from "./worker.ts?text";
+import { Budget, type Amount } from "./budget.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import type { Transport } from "./source.ts";
-import { ModelError, type ModelInfo, type Progress, type Surface, type Want } from "./types.ts";
+import { ModelError, type Change, type ModelInfo, type Progress, type Want } from "./types.ts";
 
 export interface ModelListener {
   opened(info: ModelInfo): void;
-  /** Call `shown` once the surface is on display: the next one comes after that. */
-  surface(surface: Surface, shown: () => void): void;
+  /** Call `shown` once the change is on display: the next one comes after that. */
+  change(change: Change, shown: () => void): void;
   progress(progress: Progress): void;
+  /** The server does not answer, and why; undefined once it does again. */
+  stalled(reason: string | undefined): void;
   failed(error: ModelError): void;
 }
 
 interface Turn {
+  want: Want;
   resolve(reached: boolean): void;
   reject(error: ModelError): void;
+}
+
+const budget = new Budget();
+
+/** The most that all models of the page may hold together of what their cameras see (ProgressiveMesh.refineFor). */
+export function setBudget(most: Amount): void {
+  budget.most = most;
 }
 
 const models = new Map<number, RemoteModel>();
@@ -35,32 +46,39 @@ export function assetsBeside(moduleUrl: string): Assets {
 /** A model whose session lives in the worker. */
 export class RemoteModel {
   readonly #id = ++lastId;
+  readonly #url: string;
   readonly #turns = new Map<number, Turn>();
   #turn = 0;
+  #last: Want | undefined;
+  #ready = false;
+  #stops = 0; // of its decoder, since it last reached what was wanted
   #lost: ModelError | undefined;
 
   constructor(
     url: string,
-    transport: Transport,
-    assets: Assets,
+    private readonly transport: Transport,
+    private readonly assets: Assets,
     private readonly listener: ModelListener,
   ) {
+    this.#url = new URL(url, document.baseURI).href;
     models.set(this.#id, this);
-    send({ type: "open", id: this.#id, url: new URL(url, document.baseURI).href, transport, assets });
+    this.#open(false);
   }
 
   /** Resolves with true when `want` is reached and shown, with false when superseded or closed. */
   refine(want: Want): Promise<boolean> {
     if (this.#lost) return Promise.reject(this.#lost);
     const turn = ++this.#turn;
+    this.#last = want;
     return new Promise((resolve, reject) => {
-      this.#turns.set(turn, { resolve, reject });
-      send({ type: "refine", id: this.#id, turn, want });
+      this.#turns.set(turn, { want, resolve, reject });
+      this.#ask(turn, want);
     });
   }
 
   close(): void {
     if (!models.delete(this.#id)) return;
+    budget.release(this);
     for (const turn of this.#turns.values()) turn.resolve(false);
     send({ type: "close", id: this.#id });
     if (models.size === 0) {
@@ -71,25 +89,57 @@ export class RemoteModel {
 
   receive(message: FromWorker): void {
     if (message.type === "opened") this.listener.opened(message.info);
+    else if (message.type === "ready") this.#ready = true;
     else if (message.type === "progress") this.listener.progress(message.progress);
-    else if (message.type === "surface") {
-      this.listener.surface(message.surface, () => models.has(this.#id) && send({ type: "shown", id: this.#id }));
-    } else if (message.type === "settled") this.#settle(message.turn)?.resolve(message.reached);
+    else if (message.type === "stalled") this.listener.stalled(message.reason);
+    else if (message.type === "change") this.#show(message.change);
+    else if (message.type === "settled") this.#reach(message.turn, message.reached);
     else if (message.type === "failed") this.#fail(message.turn, new ModelError(message.message));
+    else this.stop("a fault in the model");
   }
 
-  /** The session is gone with its worker. */
-  lose(error: ModelError): void {
-    this.#lost = error;
-    for (const turn of this.#turns.values()) turn.reject(error);
+  /** Its decoder has stopped. Once it has shown something, it gets a new one, and what it shows stays until that is as far. */
+  stop(reason: string | undefined): void {
+    if (this.#ready && ++this.#stops === 1) return this.#restart();
+    this.#lost = new ModelError(`the viewer's decoder stopped${reason ? ` (${reason})` : ""}: reload the page`);
+    models.delete(this.#id);
+    budget.release(this);
+    for (const turn of this.#turns.values()) turn.reject(this.#lost);
     this.#turns.clear();
-    this.listener.failed(error);
+    this.listener.failed(this.#lost);
+  }
+
+  #open(again: boolean): void {
+    const { transport, assets } = this;
+    send({ type: "open", id: this.#id, url: this.#url, transport, assets, again });
+  }
+
+  #restart(): void {
+    this.#open(true);
+    if (!this.#turns.has(this.#turn) && this.#last) this.refine(this.#last).catch(() => undefined); // the listener is told
+    else for (const [turn, { want }] of this.#turns) this.#ask(turn, want);
+  }
+
+  #ask(turn: number, want: Want): void {
+    const most = budget.room(this);
+    const limited = "view" in want ? { view: { ...most, ...want.view } } : want;
+    send({ type: "refine", id: this.#id, turn, want: limited });
+  }
+
+  #show(change: Change): void {
+    budget.hold(this, { triangles: change.triangles, bytes: change.bytes });
+    this.listener.change(change, () => models.has(this.#id) && send({ type: "shown", id: this.#id }));
   }
 
   #settle(turn: number): Turn | undefined {
     const found = this.#turns.get(turn);
     this.#turns.delete(turn);
     return found;
+  }
+
+  #reach(turn: number, reached: boolean): void {
+    if (reached) this.#stops = 0;
+    this.#settle(turn)?.resolve(reached);
   }
 
   #fail(turn: number | undefined, error: ModelError): void {
@@ -111,17 +161,14 @@ function startWorker(): Worker {
   started.onmessage = ({ data }: MessageEvent<FromWorker>) => models.get(data.id)?.receive(data);
   started.onerror = (event) => {
     event.preventDefault(); // the models tell
-    if (started === worker) lose(event.message);
+    if (started === worker) stop(event.message);
   };
   return started;
 }
 
 /** The worker cannot start (the page's security policy forbids it) or has stopped (out of memory). */
-function lose(reason: string | undefined): void {
+function stop(reason: string | undefined): void {
   worker?.terminate();
   worker = undefined;
-  const error = new ModelError(`the viewer's decoder stopped${reason ? ` (${reason})` : ""}: reload the page`);
-  const lost = [...models.values()];
-  models.clear();
-  for (const model of lost) model.lose(error);
+  for (const model of [...models.values()]) model.stop(reason);
 }

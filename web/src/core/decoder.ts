@@ -2,7 +2,7 @@
 // The C++ decoder and planner (codec/wasm) behind a typed interface. Each model has an instance of
 // its own: closing it gives all its memory back, and a fault in one cannot reach another.
 import { linearColours } from "./colours.ts";
-import { ModelError, type ModelInfo, type Surface, type View, type Want } from "./types.ts";
+import { DamagedError, ModelError, type ModelInfo, type Surface, type View, type Want } from "./types.ts";
 
 type Pointer = number;
 
@@ -27,6 +27,7 @@ interface Exports {
   apply(model: Pointer, chunk: number, data: Pointer, size: number): number;
   trim(model: Pointer): number;
   bytes_held(model: Pointer): number;
+  parent_of(model: Pointer, vertex: number): number;
   vertex_count(model: Pointer): number;
   face_count(model: Pointer): number;
   display(model: Pointer): void;
@@ -53,15 +54,12 @@ export interface LatticeSurface {
   colours: Uint8Array | undefined;
 }
 
-/** Bytes that differ from what their name says: worth a second try. */
-export class DamagedError extends ModelError {
-  override name = "DamagedError";
-}
-
 export class Decoder {
   readonly #wasm: Exports;
   #model: Pointer = 0;
   #info: ModelInfo | undefined;
+  #parents = new Uint32Array(0);
+  #known = 0; // vertices that have a parent
 
   private constructor(instance: WebAssembly.Instance) {
     this.#wasm = instance.exports as unknown as Exports;
@@ -100,18 +98,21 @@ export class Decoder {
             this.#model, points, positions.length / 3, corners, faces.length / 3, colours ? tints : 0))));
     if (!started) throw this.#error();
     if (this.#info) this.#info.centre = this.#readInfo().centre;
+    this.#adopt();
   }
 
   /** Sets the goal. True where the surface went back to the base mesh to reach it. */
   want(want: Want): boolean {
     const answer = "view" in want ? this.#wantView(want.view) : this.#wantAmount(want);
     if (answer < 0) throw this.#error();
+    if (answer === 1) this.#known = 0;
+    this.#adopt();
     return answer === 1;
   }
 
-  #wantView({ camera, fov, width, height, pixels }: View): number {
-    const numbers = Float64Array.of(...camera.slice(0, 16), fov, width, height, pixels);
-    if (numbers.length !== 20) throw new ModelError("the camera must have 16 numbers");
+  #wantView({ camera, fov, width, height, pixels, bytes = Infinity, triangles = Infinity }: View): number {
+    const numbers = Float64Array.of(...camera.slice(0, 16), fov, width, height, pixels, bytes, triangles);
+    if (numbers.length !== 22) throw new ModelError("the camera must have 16 numbers");
     return this.#lend(numbers, (data) => this.#wasm.want_view(this.#model, data));
   }
 
@@ -140,6 +141,23 @@ export class Decoder {
   apply(chunk: number, bytes: Uint8Array): void {
     const applied = this.#lend(bytes, (data, size) => this.#wasm.apply(this.#model, chunk, data, size));
     if (!applied) throw this.#error();
+    this.#adopt();
+  }
+
+  /** Of each vertex the one whose split brought it; those of the base mesh, and what is born whole, name themselves. */
+  get parents(): Uint32Array {
+    return this.#parents;
+  }
+
+  /** Takes down who split, for the chunk applied last. */
+  #adopt(): void {
+    const count = this.#wasm.vertex_count(this.#model);
+    if (count > this.#parents.length) {
+      const longer = new Uint32Array(Math.max(count, 2 * this.#parents.length));
+      longer.set(this.#parents);
+      this.#parents = longer;
+    }
+    for (; this.#known < count; ++this.#known) this.#parents[this.#known] = this.#wasm.parent_of(this.#model, this.#known);
   }
 
   /** At the goal: takes back the splits beyond it. */

@@ -2,9 +2,13 @@
 // One model being refined: asks the source for the chunks that the planner names, several at a
 // time, applies them in that order and offers each state for display. A new want supersedes the
 // one before at the next chunk; what was fetched is kept, so going back is free of charge.
-import { DamagedError, type BaseMesh, type LatticeSurface } from "./decoder.ts";
+import { Shown } from "./change.ts";
+import type { BaseMesh, LatticeSurface } from "./decoder.ts";
 import type { Source } from "./source.ts";
-import { ModelError, type Chunk, type Level, type ModelInfo, type Progress, type Surface, type Want } from "./types.ts";
+import {
+  DamagedError, ModelError, UnreachableError,
+  type Change, type Chunk, type Level, type ModelInfo, type Progress, type Surface, type Want,
+} from "./types.ts";
 
 /** What a session needs of the WebAssembly decoder (decoder.ts). */
 export interface ModelDecoder {
@@ -18,6 +22,7 @@ export interface ModelDecoder {
   apply(chunk: number, bytes: Uint8Array): void;
   trim(): void;
   readonly bytesHeld: number;
+  readonly parents: Uint32Array;
   surface(): Surface;
   latticeSurface(): LatticeSurface;
 }
@@ -26,10 +31,14 @@ export interface ModelDecoder {
 export interface Sink {
   /** The header and base mesh are here; the first surface follows. */
   opened(info: ModelInfo): void;
-  /** Resolves when the surface is on display; the next one is sent after that. */
-  show(surface: Surface): Promise<void>;
+  /** Resolves when the change is on display; the next one is sent after that. */
+  show(change: Change): Promise<void>;
   progress(progress: Progress): void;
+  /** Nobody answers, and why; undefined once somebody does again. */
+  stalled(reason: string | undefined): void;
 }
+
+export type Wait = (milliseconds: number) => Promise<void>;
 
 export type BaseDecoder = (bytes: Uint8Array, level: Level) => Promise<BaseMesh>;
 
@@ -37,6 +46,8 @@ export type BaseDecoder = (bytes: Uint8Array, level: Level) => Promise<BaseMesh>
 const kWindow = 6;
 /** Bytes of a header and base mesh that a browser accepts. */
 const kMaxHead = 256 * 1024 * 1024;
+/** Milliseconds before a lost request is tried again: twice as long each time. */
+const kFirstWait = 500, kLongestWait = 15_000;
 
 interface Fetch {
   bytes: Promise<Uint8Array>;
@@ -51,17 +62,23 @@ export class Session {
   #turn = 0;
   #showing: Promise<void> | undefined;
   #stale = false;
+  readonly #shown = new Shown();
+  #anew = false; // since the last state shown the decoder started over
+  #behind = false; // what is shown is further than the decoder
+  #stalled = false;
 
   constructor(
     private readonly source: Source,
     private readonly decoder: ModelDecoder,
     private readonly decodeBase: BaseDecoder,
     private readonly sink: Sink,
+    private readonly wait: Wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds)),
   ) {}
 
   /** Fetches header and base mesh and shows the base mesh: resolves when it is on display. Requests
-   * no enhancement layer. */
-  async open(): Promise<void> {
+   * no enhancement layer. With `again` something finer is on display already, which stays until a
+   * want is reached. */
+  async open(again = false): Promise<void> {
     const { signal } = this.#life;
     let head = await this.source.head(signal);
     head = await this.#extend(head, this.decoder.headerLength(head));
@@ -73,6 +90,7 @@ export class Session {
     this.decoder.start(await this.decodeBase(base, this.#level(0)));
     signal.throwIfAborted();
     this.sink.opened(info);
+    this.#behind = again;
     this.#present();
     await this.#showing;
   }
@@ -80,20 +98,22 @@ export class Session {
   /** Refines (or coarsens) to `want`. True when it is reached and shown, false when superseded. */
   async refine(want: Want): Promise<boolean> {
     const turn = ++this.#turn;
-    this.decoder.want(want);
+    if (this.decoder.want(want)) this.#anew = this.#behind = true;
     const plan = this.#plan();
-    this.source.want?.(want, this.#held());
-    this.#abandon(plan);
     const total = plan.reduce((sum, chunk) => sum + this.#chunk(chunk).length, this.decoder.bytesHeld);
+    const ask = () => this.source.want?.("view" in want ? { view: { ...want.view, bytes: total } } : want, this.#held());
+    ask();
+    this.#abandon(plan);
     for (let i = 0; i < plan.length; ++i) {
       for (const chunk of plan.slice(i, i + kWindow)) this.#fetch(chunk);
-      if (!(await this.#apply(plan[i] as number, () => turn === this.#turn))) return false;
+      if (!(await this.#apply(plan[i] as number, ask, () => turn === this.#turn))) return false;
       this.sink.progress({ bytes: this.decoder.bytesHeld, total });
       this.#present();
       await breathe();
       if (turn !== this.#turn) return false;
     }
     this.decoder.trim();
+    this.#behind = false;
     this.sink.progress({ bytes: this.decoder.bytesHeld, total });
     this.#present();
     while (this.#showing) await this.#showing;
@@ -157,27 +177,39 @@ export class Session {
     }
   }
 
-  /** False where the want was superseded meanwhile. A damaged or lost chunk is fetched once more. */
-  async #apply(chunk: number, current: () => boolean): Promise<boolean> {
-    for (let attempt = 1; ; ++attempt) {
-      let arrived = false;
+  /** False where the want was superseded meanwhile. A damaged chunk is fetched once more, a lost
+   * one until it comes. */
+  async #apply(chunk: number, ask: () => void, current: () => boolean): Promise<boolean> {
+    for (let damaged = 0, lost = 0; ; ) {
       try {
         const bytes = await this.#fetch(chunk);
-        arrived = true;
         if (!current()) return false;
+        this.#stall(undefined);
         this.decoder.checkChunk(chunk, bytes);
         this.decoder.apply(chunk, bytes);
         return true;
       } catch (error) {
         if (!current()) return false;
         this.#fetches.delete(chunk);
-        if (attempt === 2 || (arrived && !(error instanceof DamagedError))) throw error;
+        if (error instanceof DamagedError ? ++damaged === 2 : !(error instanceof UnreachableError)) throw error;
+        if (error instanceof DamagedError) continue;
+        this.#stall((error as Error).message);
+        await this.wait(Math.min(kFirstWait * 2 ** lost++, kLongestWait));
+        if (!current()) return false;
+        ask();
       }
     }
   }
 
-  /** Shows the present state, or as soon as the one on its way to the screen is there. */
+  #stall(reason: string | undefined): void {
+    if (this.#stalled || reason !== undefined) this.sink.stalled(reason);
+    this.#stalled = reason !== undefined;
+  }
+
+  /** Shows the present state, or as soon as the one on its way to the screen is there; none that is
+   * coarser than what is shown, if it is only on the way to something. */
   #present(): void {
+    if (this.#behind) return;
     this.#stale = true;
     this.#showing ??= this.#show().finally(() => (this.#showing = undefined));
     this.#showing.catch(() => undefined); // whoever waits for the surface sees the failure
@@ -186,7 +218,9 @@ export class Session {
   async #show(): Promise<void> {
     while (this.#stale && !this.#life.signal.aborted) {
       this.#stale = false;
-      await this.sink.show(this.decoder.surface());
+      const change = this.#shown.change(this.decoder.surface(), this.decoder.parents, this.#anew);
+      this.#anew = false;
+      await this.sink.show(change);
     }
   }
 

@@ -3,7 +3,7 @@
 import { FileSource } from "./file-source.ts";
 import { ApiSource } from "./api-source.ts";
 import { StreamSource } from "./stream-source.ts";
-import { ModelError, type Want } from "./types.ts";
+import { ModelError, UnreachableError, type Want } from "./types.ts";
 
 /** How the daemon is asked: a URL per chunk, or a stream. "auto" is "http". */
 export type Transport = "auto" | "http" | "ws";
@@ -46,11 +46,12 @@ export async function readAll(response: Response, what: string): Promise<Uint8Ar
 }
 
 export function refused(status: number, what: string): ModelError {
+  if (status === 429 || status >= 500) return new UnreachableError(`${what} was refused with status ${status}: try again later`);
   const reason = status === 404 ? "is not there (404): check the address" : `was refused with status ${status}`;
   return new ModelError(`${what} ${reason}`);
 }
 
 export function unreachable(error: unknown, what: string): unknown {
   if (error instanceof ModelError || (error as Error).name === "AbortError") return error;
-  return new ModelError(`${what} cannot be reached: check the connection and try again`);
+  return new UnreachableError(`${what} cannot be reached: check the connection and try again`);
 }

@@ -12,6 +12,9 @@ export interface View {
   height: number;
   /** The error that may be seen, device pixels. */
   pixels: number;
+  /** The most to hold, header and base mesh included. */
+  bytes?: number;
+  triangles?: number;
 }
 
 /** How much of a model is asked for. `error` is in model units; level 0 is the base mesh. */
@@ -54,7 +57,7 @@ export interface ModelInfo {
   centre: [number, number, number];
 }
 
-/** A state of the surface, ready for display. All arrays are the receiver's own. */
+/** A state of the surface, ready for display. */
 export interface Surface {
   triangles: number;
   vertices: number;
@@ -70,6 +73,23 @@ export interface Surface {
   indices: Uint32Array;
 }
 
+/**
+ * What a state of the surface has new against the one before. Runs are pairs, ascending: where the
+ * run begins and how many vertices or faces it has; the arrays hold theirs one behind the other, in
+ * the layout of Surface. All arrays are the receiver's own.
+ */
+export interface Change extends Omit<Surface, "indices"> {
+  /** Counts the changes from 1 on. */
+  number: number;
+  vertexRuns: Uint32Array;
+  /** 4 a vertex: where it moves from, and `number`. */
+  fromPositions: Float32Array;
+  /** As `normals`. */
+  fromNormals: Int16Array;
+  faceRuns: Uint32Array;
+  indices: Uint32Array;
+}
+
 export interface Progress {
   /** Bytes of the state on the way, and of the state asked for. */
   bytes: number;
@@ -78,5 +98,15 @@ export interface Progress {
 
 /** A failure that a person can act on. */
 export class ModelError extends Error {
-  override name = "ModelError";
+  override name: string = "ModelError";
+}
+
+/** Bytes that differ from what their name says: worth a second try. */
+export class DamagedError extends ModelError {
+  override name = "DamagedError";
+}
+
+/** Nobody answers, or with "later": worth a try once some time has passed. */
+export class UnreachableError extends ModelError {
+  override name = "UnreachableError";
 }

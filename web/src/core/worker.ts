@@ -5,7 +5,7 @@ import { decodeBase, type DracoModule } from "./draco.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import { Session, type Sink } from "./session.ts";
 import { openSource, type Source } from "./source.ts";
-import { ModelError, type Surface } from "./types.ts";
+import { ModelError, type Change } from "./types.ts";
 
 declare const self: {
   onmessage: ((event: MessageEvent<ToWorker>) => void) | null;
@@ -16,6 +16,8 @@ declare const DracoDecoderModule: (options: { locateFile: () => string }) => Pro
 
 interface Model {
   session: Promise<Session>;
+  /** Its base mesh is there. */
+  opened: Promise<void>;
   shown: () => void;
 }
 
@@ -30,11 +32,11 @@ self.onmessage = ({ data }) => {
   else close(data.id);
 };
 
-function open({ id, url, transport, assets }: Extract<ToWorker, { type: "open" }>): void {
-  const model: Model = { session: create(id, () => openSource(url, transport), assets), shown: () => undefined };
-  models.set(id, model);
-  model.session
-    .then((session) => session.open())
+function open({ id, url, transport, assets, again }: Extract<ToWorker, { type: "open" }>): void {
+  const session = create(id, () => openSource(url, transport), assets);
+  const opened = session.then((created) => created.open(again));
+  models.set(id, { session, opened, shown: () => undefined });
+  opened
     .then(() => self.postMessage({ type: "ready", id }))
     .catch((error) => fail(id, undefined, error));
 }
@@ -54,20 +56,22 @@ function sink(id: number): Sink {
   return {
     opened: (info) => self.postMessage({ type: "opened", id, info }),
     progress: (progress) => self.postMessage({ type: "progress", id, progress }),
-    show: (surface) =>
+    stalled: (reason) => self.postMessage({ type: "stalled", id, reason }),
+    show: (change) =>
       new Promise((resolve) => {
         const model = models.get(id);
         if (!model) return resolve();
         model.shown = resolve;
-        self.postMessage({ type: "surface", id, surface }, buffers(surface));
+        self.postMessage({ type: "change", id, change }, buffers(change));
       }),
   };
 }
 
 async function refine({ id, turn, want }: Extract<ToWorker, { type: "refine" }>): Promise<void> {
   try {
-    const session = await models.get(id)?.session;
-    const reached = (await session?.refine(want)) ?? false;
+    const model = models.get(id);
+    await model?.opened;
+    const reached = (await (await model?.session)?.refine(want)) ?? false;
     self.postMessage({ type: "settled", id, turn, reached });
   } catch (error) {
     fail(id, turn, error);
@@ -83,10 +87,11 @@ function close(id: number): void {
 
 function fail(id: number, turn: number | undefined, error: unknown): void {
   if (!models.has(id)) return;
-  const message =
-    error instanceof ModelError ? error.message
-    : error instanceof WebAssembly.RuntimeError ? "the decoder stopped on this model: reload the page"
-    : `the model cannot be shown: ${(error as Error).message}`;
+  if (error instanceof WebAssembly.RuntimeError) {
+    close(id);
+    return self.postMessage({ type: "stopped", id });
+  }
+  const message = error instanceof ModelError ? error.message : `the model cannot be shown: ${(error as Error).message}`;
   self.postMessage({ type: "failed", id, turn, message });
 }
 
@@ -101,7 +106,6 @@ async function loadDraco(assets: Assets): Promise<DracoModule> {
   return DracoDecoderModule({ locateFile: () => assets.dracoWasm });
 }
 
-function buffers(surface: Surface): Transferable[] {
-  const arrays = [surface.positions, surface.normals, surface.indices, surface.colours];
-  return arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : []));
+function buffers(change: Change): Transferable[] {
+  return Object.values(change).flatMap((value) => (ArrayBuffer.isView(value) ? [value.buffer as ArrayBuffer] : []));
 }

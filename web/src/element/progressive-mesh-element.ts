@@ -1,32 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// <progressive-mesh src poster alt max-triangles max-bytes target-error pixel-error transport>
+// <progressive-mesh src poster alt>
 import { assetsBeside } from "../core/client.ts";
 import type { Transport } from "../core/source.ts";
-import type { Level, Want } from "../core/types.ts";
+import { ModelError, type Level, type Want } from "../core/types.ts";
 import { textsFor, type Texts } from "../texts/index.ts";
 import { Panel } from "./panel.ts";
-import type { Stage } from "./stage.ts";
+import type { CameraWords, Stage } from "./stage.ts";
 import type { Toolbox } from "./tools/toolbox.ts";
 
-/** Milliseconds without a move after which a camera rests. */
-const kRest = 100;
+/** Milliseconds between two looks at what a moving camera needs. */
+const kLook = 200;
+
+const kCamera = ["camera-orbit", "camera-target", "field-of-view"];
+const kAmounts = ["max-triangles", "max-bytes", "target-error", "pixel-error"];
 
 /**
- * Shows one model and sharpens it. `src`, `poster` and `alt` are properties too. Events: `first-paint` (the base mesh is on the screen, no
- * enhancement layer has been asked for yet), `progress` {bytes, total}, `refine` {triangles,
- * vertices, bytes} for each state shown, `load` (the level asked for is reached), `error`
- * {message}, `camera-change`. With `pixel-error` it fetches what its camera sees, to an error of
- * so many pixels, and goes on when that has moved.
+ * Shows one model and sharpens it. Attributes, all of which may change at any time; those without
+ * a word about them are as in model-viewer:
+ * - `src` (the URL of a .pmesh file, a model page or an API model), `poster`, `alt`, which are properties, too;
+ * - `loading` (eager, or lazy: once it is near the viewport), `reveal` (auto, or manual: the poster stays until dismissPoster());
+ * - `camera-controls`, `touch-action` (pan-y), `camera-orbit`, `camera-target`, `field-of-view`, `auto-rotate`;
+ * - `pixel-error` (1): fetches what its camera sees, to an error of so many device pixels, and goes on as that moves;
+ *   0 is all there is. One of `max-triangles`, `max-bytes` and `target-error` (model units) asks for a fixed state instead;
+ * - `transport` (auto, http or ws).
+ * Events: `first-paint` (the base mesh is on the screen, no enhancement layer has been asked for
+ * yet), `progress` {bytes, total}, `refine` {triangles, vertices, bytes} for each state shown,
+ * `load` (what was asked for is reached), `error` {message}, `camera-change` {source}.
  */
 export class ProgressiveMeshElement extends HTMLElement {
-  static readonly observedAttributes = ["src", "poster", "alt", "max-triangles", "max-bytes", "target-error", "pixel-error"];
+  static readonly observedAttributes = [
+    "src", "poster", "alt", "transport", "loading", "reveal", "camera-controls", "touch-action", "auto-rotate", ...kCamera, ...kAmounts,
+  ];
 
   readonly #panel = new Panel(this.attachShadow({ mode: "open" }));
   readonly #size = new ResizeObserver(() => this.#fit());
+  readonly #near = new IntersectionObserver((seen) => seen.some(({ isIntersecting }) => isIntersecting) && void this.#load(), { rootMargin: "50%" });
   #stage: Stage | undefined;
   #painted = false; // the stage shows its base mesh: it can be refined and dressed
   #loads = 0;
-  #resting: ReturnType<typeof setTimeout> | undefined;
+  #looking: ReturnType<typeof setTimeout> | undefined;
+  #chosen = false; // by the visitor: the camera does not ask for anything else
   #texts!: Texts;
   #tools: Toolbox | undefined;
 
@@ -49,17 +62,39 @@ export class ProgressiveMeshElement extends HTMLElement {
     this.setAttribute("alt", text);
   }
 
+  /** Where the camera stands: radians, and model units from what it looks at. */
+  getCameraOrbit(): { theta: number; phi: number; radius: number } | undefined {
+    return this.#painted ? this.#stage?.orbit : undefined;
+  }
+
+  /** What the camera looks at, in model coordinates. */
+  getCameraTarget(): [number, number, number] | undefined {
+    return this.#painted ? this.#stage?.target : undefined;
+  }
+
+  /** Degrees, from bottom to top. */
+  getFieldOfView(): number | undefined {
+    return this.#painted ? this.#stage?.fieldOfView : undefined;
+  }
+
+  /** Shows the model where `reveal` is manual. */
+  dismissPoster(): void {
+    if (this.#painted) this.#panel.hidePoster();
+    else this.setAttribute("reveal", "auto");
+  }
+
   connectedCallback(): void {
     this.#adopt();
     this.#panel.texts = this.#texts = textsFor(this);
-    this.#panel.onDetail = (fraction) => void this.#refine(this.#wantAt(fraction));
-    this.#panel.onChoose = (want) => void this.#refine(want);
+    this.#panel.onDetail = (fraction) => void this.#choose(this.#wantAt(fraction));
+    this.#panel.onChoose = (want) => void this.#choose(want);
     this.#size.observe(this.#panel.view);
-    void this.#load();
+    this.#begin();
   }
 
   disconnectedCallback(): void {
     this.#size.disconnect();
+    this.#near.disconnect();
     this.#clear();
   }
 
@@ -67,8 +102,25 @@ export class ProgressiveMeshElement extends HTMLElement {
     if (name === "alt") this.#panel.alt = value ?? "";
     else if (name === "poster") this.#panel.poster = value;
     else if (!this.isConnected || before === value) return;
-    else if (name === "src") void this.#load();
-    else if (this.#painted) void this.#sharpen();
+    else if (["src", "transport", "loading"].includes(name)) this.#begin();
+    else if (this.#painted) this.#obey(name);
+  }
+
+  /** An attribute has changed while a model is shown. */
+  #obey(name: string): void {
+    const stage = this.#stage as Stage;
+    if (kCamera.includes(name)) stage.frame(this.#camera);
+    else if (kAmounts.includes(name)) void this.#sharpen();
+    else if (name === "reveal") this.#reveal();
+    else this.#move(stage);
+  }
+
+  /** Loads now, or once it comes near the viewport. */
+  #begin(): void {
+    this.#near.disconnect();
+    this.#clear();
+    if (this.getAttribute("loading") === "lazy") this.#near.observe(this);
+    else void this.#load();
   }
 
   /** Properties that were set before this class was known hide the accessors. */
@@ -82,7 +134,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   }
 
   async #load(): Promise<void> {
-    this.#clear();
+    this.#near.disconnect();
     const src = this.getAttribute("src");
     if (!src) return;
     const load = this.#loads;
@@ -95,7 +147,7 @@ export class ProgressiveMeshElement extends HTMLElement {
       await this.#firstPaint(stage);
       if (load !== this.#loads) return;
       this.#painted = true;
-      this.#panel.hidePoster();
+      this.#reveal();
       this.#emit("first-paint");
       this.#equip(stage).catch(() => undefined); // the browser tells; the model is shown all the same
       await this.#sharpen();
@@ -106,10 +158,12 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   #open(stage: Stage): Stage {
     this.#stage = stage;
-    stage.onCamera = () => {
-      this.#emit("camera-change");
+    stage.onCamera = (byVisitor) => {
+      this.#emit("camera-change", { source: byVisitor ? "user-interaction" : "none" });
       this.#follow();
     };
+    stage.mesh.addEventListener("stalled", ({ reason }) => (this.#panel.message = reason ?? ""));
+    stage.mesh.addEventListener("error", ({ error }) => this.#painted && this.#fail(error));
     stage.mesh.addEventListener("progress", ({ bytes, total }) => this.#progress(bytes, total));
     stage.mesh.addEventListener("refine", ({ surface }) => this.#show(surface));
     return stage;
@@ -117,7 +171,8 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   async #firstPaint(stage: Stage): Promise<void> {
     this.#fit();
-    stage.frame();
+    stage.frame(this.#camera);
+    this.#move(stage);
     this.#panel.enable(stage.mesh.info);
     await stage.draw();
   }
@@ -127,22 +182,43 @@ export class ProgressiveMeshElement extends HTMLElement {
     const { Toolbox } = await import("./tools/toolbox.ts");
     if (stage !== this.#stage) return;
     this.#tools ??= new Toolbox(this, this.#panel, this.#texts);
-    this.#tools.attach(stage, { frame: () => stage.frame(), sharpen: () => void this.#sharpen() });
+    this.#tools.attach(stage, { frame: () => stage.frame(this.#camera), sharpen: () => void this.#sharpen() });
+  }
+
+  #reveal(): void {
+    if (this.getAttribute("reveal") !== "manual") this.#panel.hidePoster();
+  }
+
+  /** Who may move the camera: the visitor, or time. */
+  #move(stage: Stage): void {
+    stage.control(this.hasAttribute("camera-controls"), this.getAttribute("touch-action") ?? "pan-y");
+    stage.turning = this.hasAttribute("auto-rotate") && !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  }
+
+  get #camera(): CameraWords {
+    const [orbit, target, fieldOfView] = kCamera.map((name) => this.getAttribute(name));
+    return { orbit: orbit ?? null, target: target ?? null, fieldOfView: fieldOfView ?? null };
   }
 
   /** Towards what the attributes ask for. */
   #sharpen(): Promise<void> {
-    const pixels = this.#number("pixel-error");
-    return this.#reach((stage) => (pixels > 0 ? stage.refine(pixels) : stage.mesh.refine(this.#goal())));
+    this.#chosen = false;
+    const goal = this.#goal();
+    return this.#reach((stage) => (goal ? stage.mesh.refine(goal) : stage.refine(this.#pixels)));
   }
 
-  /** Where the camera decides what is fetched, it does so anew once it rests. */
+  /** Where the camera decides what is fetched, it does so anew while it moves and once it rests. */
   #follow(): void {
-    clearTimeout(this.#resting);
-    if (this.#painted && this.#number("pixel-error") > 0) this.#resting = setTimeout(() => void this.#sharpen(), kRest);
+    if (!this.#painted || this.#chosen || this.#goal()) return;
+    this.#looking ??= setTimeout(() => {
+      this.#looking = undefined;
+      if (!this.#chosen) void this.#sharpen();
+    }, kLook);
   }
 
-  #refine(want: Want): Promise<void> {
+  /** What the visitor asks for holds wherever the camera goes. */
+  #choose(want: Want): Promise<void> {
+    this.#chosen = true;
     return this.#reach((stage) => stage.mesh.refine(want));
   }
 
@@ -152,16 +228,17 @@ export class ProgressiveMeshElement extends HTMLElement {
     this.#panel.choice.begin();
     try {
       if (!(await refine(stage)) || stage !== this.#stage) return;
-      await stage.draw();
+      await stage.still();
+      if (stage !== this.#stage) return;
       this.#panel.progress = 1;
       this.#emit("load");
     } catch (error) {
-      if (stage === this.#stage) this.#fail(error as Error);
+      if (!(error instanceof ModelError)) throw error; // of those the mesh's "error" event has told
     }
   }
 
   #show(surface: { triangles: number; vertices: number; bytes: number }): void {
-    this.#panel.choice.show(surface, !(this.#number("pixel-error") > 0));
+    this.#panel.choice.show(surface, this.#chosen || this.#goal() !== undefined);
     this.#panel.follow(this.#fractionOf(surface.triangles));
     this.#emit("refine", surface);
   }
@@ -185,7 +262,9 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   #clear(): void {
     ++this.#loads;
-    clearTimeout(this.#resting);
+    clearTimeout(this.#looking);
+    this.#looking = undefined;
+    this.#chosen = false;
     this.#tools?.detach();
     this.#stage?.dispose();
     this.#stage = undefined;
@@ -202,13 +281,19 @@ export class ProgressiveMeshElement extends HTMLElement {
     return Number.parseFloat(this.getAttribute(name) ?? "");
   }
 
-  /** What the attributes ask for; without them full resolution. */
-  #goal(): Want {
+  /** Device pixels of error that may be seen; 0: none at all. */
+  get #pixels(): number {
+    const pixels = this.#number("pixel-error");
+    return pixels >= 0 ? pixels : 1;
+  }
+
+  /** The state that the attributes ask for; undefined where the camera decides. */
+  #goal(): Want | undefined {
     const triangles = this.#number("max-triangles"), bytes = this.#number("max-bytes"), error = this.#number("target-error");
     if (triangles >= 0) return { triangles };
     if (bytes >= 0) return { bytes };
     if (error >= 0) return { error };
-    return { level: this.#info.levels.length - 1 };
+    return this.#pixels > 0 ? undefined : { level: this.#info.levels.length - 1 };
   }
 
   /** The slider runs over the logarithm of the triangle count. */

@@ -2,18 +2,27 @@
 // The scene around one progressive mesh: camera, light, orbit controls. Draws only when something
 // has changed.
 import {
-  Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, WebGLRenderer,
+  Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, Spherical, Vector3,
+  WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ProgressiveMesh } from "../three/progressive-mesh.ts";
 import type { Assets } from "../core/messages.ts";
 import type { Transport } from "../core/source.ts";
+import { fieldOfViewOf, orbitOf, targetOf, type Orbit, type Point } from "./camera.ts";
 import { distanceFor, kFieldOfView, kViewpoint } from "./viewpoint.ts";
+
+/** The attributes that say where the camera stands; null where there is none. */
+export interface CameraWords {
+  orbit: string | null;
+  target: string | null;
+  fieldOfView: string | null;
+}
 
 export class Stage {
   readonly mesh: ProgressiveMesh;
   /** Called after each change of the camera. */
-  onCamera: () => void = () => undefined;
+  onCamera: (byVisitor: boolean) => void = () => undefined;
   /** Called after each picture. */
   onDraw: () => void = () => undefined;
 
@@ -24,6 +33,8 @@ export class Stage {
   readonly #lamp = new DirectionalLight(0xfffaf2, 2.2);
   readonly #wires: Mesh;
   #frame = 0;
+  #placing = false;
+  #turned = 0; // when the camera was last turned by itself
   #drawn: (() => void)[] = [];
 
   /** Throws where WebGL is missing. */
@@ -36,12 +47,14 @@ export class Stage {
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.addEventListener("change", () => {
       this.draw();
-      this.onCamera();
+      this.onCamera(!this.#placing);
     });
     this.mesh = new ProgressiveMesh(url, assets, transport);
-    this.mesh.addEventListener("refine", () => this.draw());
+    this.mesh.drawBy(this.#renderer);
+    for (const type of ["refine", "morph"] as const) this.mesh.addEventListener(type, () => this.draw());
     this.#wires = new Mesh(this.mesh.geometry, new MeshBasicMaterial({ color: 0x1f4e5f, wireframe: true, transparent: true, opacity: 0.45 }));
     this.#wires.visible = false;
+    this.mesh.morph(this.#wires.material as MeshBasicMaterial);
     this.#light();
     this.#scene.add(this.mesh, this.#wires, this.#camera);
   }
@@ -58,6 +71,12 @@ export class Stage {
     return drawn;
   }
 
+  /** Resolves when all vertices are in their places and the picture of them is on the screen. */
+  async still(): Promise<void> {
+    do await this.draw();
+    while (this.mesh.morphing);
+  }
+
   /** Refines what the camera sees to an error of so many pixels. */
   refine(pixels: number): Promise<boolean> {
     const { width, height } = this.#renderer.domElement;
@@ -72,18 +91,59 @@ export class Stage {
     void this.draw();
   }
 
-  /** The camera looks at the whole model. */
-  frame(): void {
+  /** The camera looks at the whole model, or as the words say. */
+  frame(words: CameraWords = { orbit: null, target: null, fieldOfView: null }): void {
+    const { centre, unit } = this.mesh.info;
     const radius = this.mesh.geometry.boundingSphere?.radius ?? 1;
-    const distance = distanceFor(radius, this.#camera.aspect);
+    this.#camera.fov = fieldOfViewOf(words.fieldOfView, kFieldOfView);
+    const distance = distanceFor(radius, this.#camera.aspect, this.#camera.fov);
     this.#camera.near = radius / 100;
     this.#camera.far = distance + 20 * radius;
-    this.#camera.position.copy(kViewpoint).multiplyScalar(distance);
     this.#camera.updateProjectionMatrix();
-    this.#controls.target.set(0, 0, 0);
     this.#controls.minDistance = radius * 0.2;
     this.#controls.maxDistance = 6 * distance;
+    const around = new Spherical().setFromVector3(kViewpoint);
+    const orbit = orbitOf(words.orbit, { theta: around.theta, phi: around.phi, radius: distance }, unit);
+    this.#stand(orbit, targetOf(words.target, centre, unit));
+  }
+
+  /** Where the camera stands. */
+  get orbit(): Orbit {
+    const { theta, phi, radius } = new Spherical().setFromVector3(this.#camera.position.clone().sub(this.#controls.target));
+    return { theta, phi, radius };
+  }
+
+  /** What it looks at, in model coordinates. */
+  get target(): Point {
+    return this.#controls.target.clone().add(new Vector3(...this.mesh.info.centre)).toArray();
+  }
+
+  /** Degrees, from bottom to top. */
+  get fieldOfView(): number {
+    return this.#camera.fov;
+  }
+
+  /** Whether the visitor may move the camera, and which gestures are left to the page: a value of CSS' touch-action. */
+  control(on: boolean, touchAction: string): void {
+    this.#controls.enabled = on;
+    const { style } = this.#renderer.domElement;
+    style.touchAction = on ? touchAction : "auto";
+    style.cursor = on ? "" : "default";
+  }
+
+  /** The camera turns around the model by itself. */
+  set turning(on: boolean) {
+    this.#controls.autoRotate = on;
+    this.#turned = performance.now();
+    void this.draw();
+  }
+
+  #stand({ theta, phi, radius }: Orbit, target: Point): void {
+    this.#controls.target.fromArray(target).sub(new Vector3(...this.mesh.info.centre));
+    this.#camera.position.setFromSphericalCoords(radius, phi, theta).add(this.#controls.target);
+    this.#placing = true;
     this.#controls.update();
+    this.#placing = false;
     void this.draw();
   }
 
@@ -126,9 +186,19 @@ export class Stage {
 
   #render(): void {
     this.#frame = 0;
+    if (this.#controls.autoRotate) this.#turn();
     this.#renderer.render(this.#scene, this.#camera);
     this.onDraw();
     const drawn = this.#drawn.splice(0);
     if (drawn.length !== 0) requestAnimationFrame(() => drawn.forEach((resolve) => resolve()));
+  }
+
+  #turn(): void {
+    const now = performance.now();
+    this.#placing = true;
+    this.#controls.update((now - this.#turned) / 1000);
+    this.#placing = false;
+    this.#turned = now;
+    void this.draw();
   }
 }

@@ -7,7 +7,7 @@ export const kFieldOfView = 35;
 export const kViewpoint = new Vector3(0.35, 0.15, 1).normalize();
 
 /** How far from its centre a sphere is seen whole, but for a little that objects leave empty. */
-export function distanceFor(radius: number, aspect: number): number {
-  const half = Math.atan(Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, aspect));
+export function distanceFor(radius: number, aspect: number, fieldOfView = kFieldOfView): number {
+  const half = Math.atan(Math.tan((fieldOfView * Math.PI) / 360) * Math.min(1, aspect));
   return (radius * 0.9) / Math.sin(half);
 }

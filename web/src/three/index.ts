@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 export { ProgressiveMesh, type ProgressiveMeshEventMap } from "./progressive-mesh.ts";
 export { ProgressiveMeshLoader } from "./progressive-mesh-loader.ts";
+export { setBudget } from "../core/client.ts";
+export type { Amount } from "../core/budget.ts";
 export type { Assets } from "../core/messages.ts";
 export { ModelError, type Chunk, type Level, type ModelInfo, type Progress, type Surface, type View, type Want } from "../core/types.ts";

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is drawn: base, middle and full against stored pictures, no crack in any state on the way,
+// and many models that share one worker and one budget.
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { promisify } from "node:util";
+import { launch } from "./browser.mjs";
+import { writeBlob } from "./models.mjs";
+import { openScene } from "./scene.mjs";
+import { StaticHost } from "./static_host.mjs";
+
+const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
+const stored = new URL("pictures/", import.meta.url);
+
+let folder, browser, host, blob, bust;
+
+before(async () => {
+  folder = await mkdtemp(join(tmpdir(), "vitrine-"));
+  await mkdir(pictures, { recursive: true });
+  browser = await launch();
+  host = await StaticHost.start();
+  const mesh = join(folder, "blob.ply");
+  await writeBlob(mesh, 80);
+  blob = await serve(mesh, "blob");
+  bust = await serve(scan, "bust");
+});
+after(async () => {
+  await browser?.close();
+  host?.stop();
+  await rm(folder, { recursive: true });
+});
+
+async function serve(mesh, name) {
+  const file = join(folder, `${name}.pmesh`);
+  await promisify(execFile)(join(bin, "vitrine"), ["build", mesh, "-o", file]);
+  return host.add(`${name}.pmesh`, await readFile(file));
+}
+
+/** Runs in the page: pixels of background that the surface encloses, in one picture. */
+function holes() {
+  const { data, width, height } = window.scene.pixels();
+  const background = (i) => data[4 * i] === 255 && data[4 * i + 1] === 0 && data[4 * i + 2] === 255;
+  const outside = new Uint8Array(width * height), queue = [];
+  const visit = (x, y) => {
+    const i = y * width + x;
+    if (x < 0 || y < 0 || x >= width || y >= height || outside[i] || !background(i)) return;
+    outside[i] = 1;
+    queue.push([x, y]);
+  };
+  for (let i = 0; i < width; ++i) for (const j of [0, height - 1]) visit(i, j), visit(j, i);
+  while (queue.length > 0) {
+    const [x, y] = queue.pop();
+    visit(x + 1, y), visit(x - 1, y), visit(x, y + 1), visit(x, y - 1);
+  }
+  let enclosed = 0, covered = 0;
+  for (let i = 0; i < width * height; ++i) background(i) ? (enclosed += 1 - outside[i]) : ++covered;
+  return { enclosed, covered };
+}
+
+for (const reducedMotion of ["reduce", "no-preference"]) {
+  test(`no state of a watertight model lets the background through, ${reducedMotion === "reduce" ? "at once" : "while it moves"}`, async () => {
+    const page = await openScene(browser, host, { reducedMotion });
+    await page.evaluate(`window.holes = ${holes}`);
+    const seen = await page.evaluate(async (url) => {
+      const mesh = await scene.load(url), { THREE } = scene;
+      mesh.material.side = THREE.FrontSide; // through a crack one would see the inside of the far wall
+      const states = [];
+      const look = async () => {
+        for (const distance of [3.2, 1.6]) {
+          scene.look(mesh, states.length, distance);
+          states.push({ triangles: mesh.geometry.index.count / 3, distance, ...holes() });
+        }
+      };
+      mesh.addEventListener("refine", look);
+      mesh.addEventListener("morph", look);
+      const near = new THREE.PerspectiveCamera(35, 1, 0.001, 100);
+      for (const [theta, pixels] of [[0, 1], [2, 1], [2, 0.3], [4, 0.3]]) {
+        near.position.setFromSphericalCoords(1.3 * mesh.geometry.boundingSphere.radius, 1.3, theta);
+        near.lookAt(0, 0, 0);
+        await mesh.refineFor(near, 600, 600, pixels);
+      }
+      const mixed = mesh.geometry.index.count / 3;
+      await mesh.refine({ level: mesh.info.levels.length - 1 });
+      while (mesh.morphing) await scene.frame();
+      await look();
+      return { states, mixed, faces: mesh.info.levels.at(-1).faces, levels: mesh.info.levels.map(({ faces }) => faces) };
+    }, blob);
+    const cracked = seen.states.filter(({ enclosed, covered }) => enclosed > 0 || covered === 0);
+    assert.deepEqual(cracked, []);
+    assert.ok(seen.mixed < seen.faces && !seen.levels.includes(seen.mixed), `${seen.mixed} triangles: regions at several levels`);
+    assert.equal(seen.states.at(-1).triangles, seen.faces);
+    assert.ok(seen.states.length > 10);
+    await page.screenshot({ path: join(pictures, `blob-${reducedMotion}.png`) });
+    await page.context().close();
+  });
+}
+
+test("base, middle and full are drawn as in the stored pictures", async () => {
+  const page = await openScene(browser, host);
+  for (const [name, want] of [["base", { level: 0 }], ["middle", { triangles: 8000 }], ["full", { level: 99 }]]) {
+    await page.evaluate(async ([url, wanted]) => {
+      const [mesh = await scene.load(url)] = scene.meshes;
+      await mesh.refine(wanted);
+      scene.look(mesh, 0.3, 3.2);
+      scene.draw();
+    }, [bust, want]);
+    const picture = await page.screenshot({ path: join(pictures, `drawing-${name}.png`) });
+    const file = new URL(`${name}.png`, stored);
+    if (process.env.VITRINE_STORE_PICTURES) await writeFile(file, picture);
+    const { mean, far } = await difference(page, picture, await readFile(file));
+    assert.ok(mean < 1 && far < 0.01, `${name}: ${mean} of 255 on average, ${100 * far} % of all pixels clearly`);
+  }
+  await page.context().close();
+});
+
+/** Of two pictures: the mean over all channels, and the share of pixels that differ by more than 32. */
+function difference(page, ...pngs) {
+  return page.evaluate(async (both) => {
+    const [one, two] = await Promise.all(both.map(async (base64) => {
+      const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+      const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+      context.drawImage(image, 0, 0);
+      return context.getImageData(0, 0, image.width, image.height).data;
+    }));
+    if (one.length !== two.length) return { mean: 255, far: 1 };
+    let sum = 0, far = 0;
+    for (let i = 0; i < one.length; i += 4) {
+      const off = [0, 1, 2].map((k) => Math.abs(one[i + k] - two[i + k]));
+      sum += off[0] + off[1] + off[2];
+      if (Math.max(...off) > 32) ++far;
+    }
+    return { mean: sum / (0.75 * one.length), far: far / (one.length / 4) };
+  }, pngs.map((png) => png.toString("base64")));
+}
+
+test("models share a worker, and a budget that moves to where the camera looks", async () => {
+  const page = await openScene(browser, host);
+  const held = await page.evaluate(async (urls) => {
+    const { vitrine, camera } = scene;
+    vitrine.setBudget({ triangles: 40_000, bytes: Infinity });
+    const count = (mesh) => mesh.geometry.index.count / 3;
+    const first = await scene.load(urls[0]), second = await scene.load(urls[1]);
+    const states = [];
+    scene.look(first, 0, 1.5);
+    await first.refineFor(camera, 2000, 2000);
+    states.push([count(first), count(second)]);
+    await second.refineFor(camera, 2000, 2000);
+    await first.refineFor(camera, 2000, 2000);
+    await second.refineFor(camera, 2000, 2000);
+    states.push([count(first), count(second)]);
+    return states;
+  }, [blob, blob.replace(/$/, "?again")]);
+  assert.equal(page.workers().length, 1);
+  assert.ok(held[0][0] > 24_000, `alone the first may take nearly all: ${held}`);
+  for (const both of held) assert.ok(both[0] + both[1] <= 42_000, `${held} triangles`);
+  assert.ok(held[1][1] > 12_000, `then the second gets its share: ${held}`);
+  await page.evaluate(() => scene.meshes.forEach((mesh) => mesh.dispose()));
+  while (page.workers().length > 0) await page.evaluate(() => scene.frame());
+  await page.context().close();
+});
+
+test("new vertices move to their places, and stand still then", async () => {
+  const page = await openScene(browser, host, { reducedMotion: "no-preference" });
+  const [start, moved, end, attributes] = await page.evaluate(async (url) => {
+    const mesh = await scene.load(url);
+    scene.look(mesh, 0.3, 2);
+    const before = scene.pixels().data;
+    await mesh.refine({ level: 3 });
+    const first = mesh.morphing;
+    while (mesh.morphing) await scene.frame();
+    const after = scene.pixels().data;
+    const differ = before.some((value, i) => value !== after[i]);
+    return [first, differ, mesh.morphing, Object.keys(mesh.geometry.attributes)];
+  }, bust);
+  assert.deepEqual([start, moved, end], [true, true, false]);
+  assert.deepEqual(attributes.sort(), ["normal", "position"]);
+  await page.context().close();
+});

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Shown } from "@core/change.ts";
+import type { Surface } from "@core/types.ts";
+
+/** `count` vertices and faces; vertex i lies at (i, height(i), 0). */
+function surface(count: number, height: (i: number) => number = () => 0): Surface {
+  const positions = new Float32Array(3 * count), normals = new Int16Array(4 * count);
+  for (let i = 0; i < count; ++i) {
+    positions.set([i, height(i), 0], 3 * i);
+    normals.set([i % 1000, 0, 1, 0], 4 * i);
+  }
+  const indices = Uint32Array.from({ length: 3 * count }, (_, i) => i);
+  return { vertices: count, triangles: count, bytes: count, positions, normals, colours: undefined, indices };
+}
+
+const noParents = (count: number) => Uint32Array.from({ length: count }, (_, i) => i);
+
+/** What a page has that applies each change. */
+class Mirror {
+  positions = new Float32Array(3 * 20_000);
+  indices = new Uint32Array(3 * 20_000);
+
+  take({ vertexRuns, positions, faceRuns, indices }: ReturnType<Shown["change"]>): void {
+    Mirror.put(this.positions, positions, vertexRuns);
+    Mirror.put(this.indices, indices, faceRuns);
+  }
+
+  private static put(to: Float32Array | Uint32Array, from: Float32Array | Uint32Array, runs: Uint32Array): void {
+    for (let i = 0, at = 0; i < runs.length; i += 2) {
+      const size = 3 * runs[i + 1]!;
+      to.set(from.subarray(at, at + size), 3 * runs[i]!);
+      at += size;
+    }
+  }
+}
+
+describe("Shown", () => {
+  test("gives all of the first state", () => {
+    const change = new Shown().change(surface(10), noParents(10), false);
+    expect([...change.vertexRuns, ...change.faceRuns]).toEqual([0, 10, 0, 10]);
+    expect(change.positions).toEqual(surface(10).positions);
+    expect(change.number).toBe(1);
+  });
+
+  test("gives nothing where nothing has changed", () => {
+    const shown = new Shown();
+    shown.change(surface(5000), noParents(5000), false);
+    const change = shown.change(surface(5000), noParents(5000), false);
+    expect([change.vertexRuns.length, change.positions.length, change.faceRuns.length]).toEqual([0, 0, 0]);
+  });
+
+  test("gives what is new and the neighbourhood of what has moved, and no more", () => {
+    const shown = new Shown();
+    shown.change(surface(10_000), noParents(10_000), false);
+    const change = shown.change(surface(12_000, (i) => (i === 5000 ? 1 : 0)), noParents(12_000), false);
+    expect([...change.vertexRuns]).toEqual([4096, 2048, 8192, 3808]);
+    expect([...change.faceRuns]).toEqual([8192, 3808]);
+  });
+
+  test("leads a page through every state", () => {
+    const shown = new Shown(), mirror = new Mirror();
+    for (const [count, moved] of [[100, 0], [9000, 50], [15_000, 8999], [15_001, 3], [7000, 6000]] as const) {
+      const state = surface(count, (i) => (i === moved ? 7 : 0));
+      mirror.take(shown.change(state, noParents(count), false));
+      expect(mirror.positions.subarray(0, 3 * count)).toEqual(state.positions);
+      expect(mirror.indices.subarray(0, 3 * count)).toEqual(state.indices);
+    }
+  });
+
+  test("lets a new vertex part from its nearest ancestor that was shown", () => {
+    const shown = new Shown();
+    shown.change(surface(3, () => 5), noParents(3), false);
+    const parents = Uint32Array.of(0, 1, 2, 1, 3, 5); // 4 is a child of 3, that of 1; 5 was born whole
+    const { fromPositions } = shown.change(surface(6), parents, false);
+    const from = Array.from({ length: 6 }, (_, i) => [...fromPositions.subarray(4 * i, 4 * i + 4)]);
+    expect(from).toEqual([[0, 5, 0, 2], [1, 5, 0, 2], [2, 5, 0, 2], [1, 5, 0, 2], [1, 5, 0, 2], [5, 0, 0, 2]]);
+  });
+
+  test("lets nothing move where the vertices are numbered anew", () => {
+    const shown = new Shown();
+    shown.change(surface(3, () => 5), noParents(3), false);
+    const { fromPositions, positions } = shown.change(surface(3), noParents(3), true);
+    expect([fromPositions[1], fromPositions[5]]).toEqual([positions[1], positions[4]]);
+  });
+});
