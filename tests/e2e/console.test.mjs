@@ -248,14 +248,15 @@ test("the gallery is searched, and an object's page tells what is known and give
   await page.getByText("Holds the infant Dionysos.").waitFor();
   assert.equal(await page.getByRole("link", { name: "CC0-1.0" }).getAttribute("href"), "https://creativecommons.org/publicdomain/zero/1.0/");
   await page.getByText("± 0.05 mm").waitFor();
-  await page.getByRole("button", { name: "Copy" }).click();
-  await page.getByText("Copied").waitFor();
+  const about = page.locator("#about");
+  await about.getByRole("button", { name: "Copy" }).click();
+  await about.getByText("Copied").waitFor();
   assert.match(await page.evaluate(() => navigator.clipboard.readText()), new RegExp(`<progressive-mesh src="${daemon.url}/api/v1/models/${id}" alt="Hermes">`));
-  assert.equal((await page.request.get(await page.getByRole("link", { name: "IIIF manifest" }).evaluate((link) => link.href))).status(), 200);
-  await page.getByLabel("Format").selectOption("stl");
-  await page.locator("#about").getByLabel("Level of detail").selectOption("lowest");
+  assert.equal((await page.request.get(await about.getByRole("link", { name: "IIIF manifest" }).evaluate((link) => link.href))).status(), 200);
+  await about.getByLabel("Format").selectOption("stl");
+  await about.getByLabel("Level of detail").selectOption("lowest");
   const download = page.waitForEvent("download");
-  await page.getByRole("link", { name: "Download" }).click();
+  await about.getByRole("link", { name: "Download" }).click();
   assert.ok((await readFile(await (await download).path())).length > 84);
   for (const colorScheme of ["light", "dark"]) {
     await page.emulateMedia({ colorScheme });

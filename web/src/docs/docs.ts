@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page "/docs": the interface as its OpenAPI document tells it. Nothing is loaded from elsewhere.
-import { texts } from "../texts.ts";
 import { callsOf, type Call, type Document, type Field } from "./openapi.ts";
-
-const words = texts.docs;
+import { texts as words } from "./texts.ts";
 
 function element<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every text that a visitor reads, in the first of the browser's languages that there is.
+import { formats } from "../../texts/formats.ts";
 import { de } from "./de.ts";
 import { en } from "./en.ts";
 
@@ -12,22 +13,15 @@ export const language: Language = (globalThis.navigator?.languages ?? []).map((t
 
 export const texts = all[language];
 
-const whole = new Intl.NumberFormat(language, { maximumFractionDigits: 0 });
-const short = new Intl.NumberFormat(language, { maximumFractionDigits: 1 });
 const precise = new Intl.NumberFormat(language, { maximumSignificantDigits: 3 });
 const day = new Intl.DateTimeFormat(language, { dateStyle: "medium" });
 const moment = new Intl.DateTimeFormat(language, { dateStyle: "medium", timeStyle: "short" });
 
-export const count = (value: number): string => whole.format(value);
+export const { count, size } = formats(language);
 /** Three significant digits. */
 export const measure = (value: number): string => precise.format(value);
 export const date = (stamp: string): string => day.format(new Date(stamp));
 export const time = (stamp: string): string => moment.format(new Date(stamp));
-
-export function size(bytes: number): string {
-  if (bytes < 1000) return `${bytes} B`;
-  return bytes < 1e6 ? `${short.format(bytes / 1000)} KB` : `${short.format(bytes / 1e6)} MB`;
-}
 
 /** A time to wait, as precise as a guess may be. */
 export function timeLeft(seconds: number): string {
