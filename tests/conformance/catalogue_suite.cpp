@@ -7,6 +7,8 @@
 #include <thread>
 #include <tuple>
 
+#include "conformance/id_of.h"
+
 namespace vitrine::test {
 namespace {
 
@@ -14,12 +16,6 @@ Sha256 digest(std::uint8_t value) {
   Sha256 sha256{};
   sha256.fill(value);
   return sha256;
-}
-
-ModelId id_of(std::uint8_t value) {
-  std::array<std::uint8_t, 16> bytes{};
-  bytes[0] = value;
-  return ModelId::from_bytes(bytes);
 }
 
 ModelRecord model(std::uint8_t value, const std::string& title = "A skull",

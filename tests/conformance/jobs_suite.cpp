@@ -6,14 +6,10 @@
 #include <array>
 #include <thread>
 
+#include "conformance/id_of.h"
+
 namespace vitrine::test {
 namespace {
-
-ModelId id_of(std::uint8_t value) {
-  std::array<std::uint8_t, 16> bytes{};
-  bytes[0] = value;
-  return ModelId::from_bytes(bytes);
-}
 
 JobRecord job(std::uint8_t value, JobState state = JobState::kRunning) {
   return {.id = id_of(value),

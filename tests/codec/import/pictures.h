@@ -9,7 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "codec/core/vec.h"
+
 namespace vitrine::testing {
+
+// The pixels of red_and_blue(), and what is halfway between them in light.
+inline constexpr Colour kRed{255, 0, 0}, kBlue{0, 0, 255}, kBetween{188, 0, 188};
 
 // `pixels` are RGB, rows from the top.
 inline std::string png_of(const std::vector<std::uint8_t>& pixels, std::uint32_t width) {

@@ -10,12 +10,13 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using vitrine::testing::GlbBuilder;
 using vitrine::testing::jpeg_of;
+using vitrine::testing::kBetween;
+using vitrine::testing::kBlue;
+using vitrine::testing::kRed;
 using vitrine::testing::read_text;
 using vitrine::testing::red_and_blue;
 using vitrine::testing::refusal;
 using Json = nlohmann::json;
-
-constexpr Colour kRed{255, 0, 0}, kBlue{0, 0, 255}, kBetween{188, 0, 188};
 
 // One triangle whose corners are at u = 0.25, 0.75 and 1.25 of `picture`.
 GlbBuilder textured(const std::string& picture) {

@@ -10,10 +10,11 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using vitrine::testing::as_bytes;
+using vitrine::testing::kBetween;
+using vitrine::testing::kBlue;
+using vitrine::testing::kRed;
 using vitrine::testing::read_text;
 using vitrine::testing::red_and_blue;
-
-constexpr Colour kRed{255, 0, 0}, kBlue{0, 0, 255}, kBetween{188, 0, 188};
 
 const std::string kPicture = red_and_blue();
 
