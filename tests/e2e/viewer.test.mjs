@@ -31,6 +31,11 @@ after(async () => {
   await daemon?.stop();
 });
 
+test("pages run nothing that somebody has written into a title", async () => {
+  const { headers } = await fetch(pages.plain);
+  assert.match(headers.get("content-security-policy"), /^default-src 'self'; script-src 'self' 'wasm-unsafe-eval';/);
+});
+
 for (const kind of ["plain", "coloured"]) {
   describe(`the ${kind} model`, () => {
     let viewer;

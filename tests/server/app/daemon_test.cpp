@@ -79,16 +79,6 @@ TEST_F(DaemonTest, DescribesAModelAndItsManifest) {
   EXPECT_EQ(again.body, "");
 }
 
-TEST_F(DaemonTest, PagesRunNothingThatSomebodyHasWrittenIntoATitle) {
-  const std::string policy = get("/models/" + id).field("content-security-policy");
-  EXPECT_NE(policy.find("default-src 'self'; script-src 'self' 'wasm-unsafe-eval';"),
-            std::string::npos)
-      << policy;
-  const HttpAnswer data = get(model_url());
-  EXPECT_EQ(data.field("content-security-policy"), "");
-  EXPECT_EQ(data.field("x-content-type-options"), "nosniff");
-}
-
 TEST_F(DaemonTest, ServesHeadChunkAndFile) {
   const HttpAnswer head = get(model_url() + "/head");
   EXPECT_EQ(head.body, file_bytes(0, manifest.head_bytes()));
