@@ -48,7 +48,7 @@ class Pacer {
   static constexpr Duration kLeastTime{0.2};  // shorter bursts tell of buffers, not of the link
   static constexpr Duration kSample{0.02};    // samples lie apart by this or more
   static constexpr Duration kSliceTime{0.04};
-  static constexpr Duration kQueue{0.06};              // what may queue beyond the link's own delay
+  static constexpr Duration kQueue{0.08};              // what may queue beyond the link's own delay
   static constexpr Duration kShortQueue{0.03};         // less than this: the link may take more
   static constexpr Duration kBaseAge{10};              // the link's delay is measured anew
   static constexpr std::uint64_t kEnough = 64 * 1024;  // arrived: measured, however fast
