@@ -24,7 +24,7 @@ before(async () => {
   browser = await launch();
   host = await StaticHost.start();
   const mesh = join(folder, "blob.ply");
-  await writeBlob(mesh, 80);
+  await writeBlob(mesh, 120);
   blob = await serve(mesh, "blob");
   bust = await serve(scan, "bust");
 });
@@ -78,7 +78,7 @@ for (const reducedMotion of ["reduce", "no-preference"]) {
       mesh.addEventListener("refine", look);
       mesh.addEventListener("morph", look);
       const near = new THREE.PerspectiveCamera(35, 1, 0.001, 100);
-      for (const [theta, pixels] of [[0, 1], [2, 1], [2, 0.3], [4, 0.3]]) {
+      for (const [theta, pixels] of [[0, 2], [4, 0.7], [2, 0.5]]) {
         near.position.setFromSphericalCoords(1.3 * mesh.geometry.boundingSphere.radius, 1.3, theta);
         near.lookAt(0, 0, 0);
         await mesh.refineFor(near, 600, 600, pixels);
