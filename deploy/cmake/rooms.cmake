@@ -12,7 +12,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 # What is optimised as a whole is in an archive as machine code, too, for tests. Its index must name
 # what that defines: with gcc's plugin it names functions that are inlined away there, and a linker that looks
 # for one takes the same member twice.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+if(VITRINE_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(CMAKE_CXX_ARCHIVE_CREATE_IPO "<CMAKE_AR> --plugin=/dev/null cr <TARGET> <LINK_FLAGS> <OBJECTS>")
   set(CMAKE_CXX_ARCHIVE_FINISH_IPO "<CMAKE_RANLIB> --plugin=/dev/null <TARGET>")
 endif()
