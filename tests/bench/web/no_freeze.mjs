@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // no_freeze.mjs BIN_FOLDER MESH|FILE.pmesh: refines a model to its last triangle in Chromium, slowed
 // down four times, and traces the page's main thread. Prints how much of its CPU time goes to taking
-// over what the decoder sends, and fails where one task spends more than 12 ms on it. What three.js
-// and the software renderer take to draw is printed beside it and not judged.
+// over what the decoder sends, and fails where one task spends more than 12 ms on it. The browser's
+// garbage collection, and what three.js and the software renderer take to draw, are printed beside
+// it and not judged.
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -11,7 +12,8 @@ import { ViewerPage, launch } from "../../e2e/browser.mjs";
 import { StaticHost } from "../../e2e/static_host.mjs";
 
 const kSlowDown = 4, kMost = 12; // ms
-const kCategories = ["toplevel", "devtools.timeline", "blink.user_timing"];
+const kCategories = ["toplevel", "devtools.timeline", "blink.user_timing", "v8"];
+const kCollection = /^(MajorGC|MinorGC|V8\.GCIncrementalMarking.*)$/;
 
 const [bin, mesh] = process.argv.slice(2);
 if (!mesh) {
@@ -39,6 +41,7 @@ try {
   const changes = (await viewer.seen()).filter(({ type }) => type === "refine").length;
   console.log(`${await viewer.triangles()} triangles in ${changes} changes, ${tasks.length} tasks, main thread at 1/${kSlowDown} of its speed`);
   console.log(`taking over: longest task ${longest("ours").toFixed(1)} ms of CPU time (at most ${kMost}), all ${sum("ours").toFixed(0)} ms`);
+  console.log(`garbage collection within: longest ${longest("collection").toFixed(1)} ms, all ${sum("collection").toFixed(0)} ms`);
   console.log(`all of those tasks, drawing included: longest ${longest("whole").toFixed(1)} ms, all ${sum("whole").toFixed(0)} ms`);
   process.exitCode = longest("ours") <= kMost ? 0 : 1;
 } finally {
@@ -65,21 +68,32 @@ async function traced(tracing, work) {
   return events;
 }
 
-/** The tasks of the page's main thread that take something over, in ms of CPU time: `ours` and `whole`. */
+/** The tasks of the page's main thread that take something over, in ms of CPU time: `ours`, the `collection` of garbage within that, and the `whole`. */
 function judge(events) {
   const isMark = ({ name }) => name.startsWith("progressive-mesh:");
   const { pid, tid } = events.find(isMark) ?? fail("the trace has no mark of the viewer");
   const main = events.filter((event) => event.pid === pid && event.tid === tid && event.tts !== undefined);
-  const spans = main.filter(({ name, ph }) => name === "HandlePostMessage" && ph === "X").map(({ tts, tdur }) => [tts, tdur]);
+  const complete = (named) => main.filter(({ name, ph }) => ph === "X" && named(name)).map(({ tts, tdur }) => [tts, tdur]);
+  const spans = complete((name) => name === "HandlePostMessage");
   const marks = main.filter(isMark).sort((a, b) => a.tts - b.tts);
   for (let i = 0; i + 1 < marks.length; ++i) {
     if (marks[i].name.endsWith("begin")) spans.push([marks[i].tts, marks[i + 1].tts - marks[i].tts]);
   }
-  const tasks = main.filter(({ name, ph }) => name.endsWith("RunTask") && ph === "X" );
-  return tasks.map(({ tts, tdur }) => {
-    const within = spans.filter(([at]) => at >= tts && at < tts + tdur);
-    return { ours: within.reduce((all, [, length]) => all + length, 0) / 1000, whole: tdur / 1000 };
+  const collections = outermost(complete((name) => kCollection.test(name)));
+  const length = (found) => found.reduce((all, [, one]) => all + one, 0) / 1000;
+  return complete((name) => name.endsWith("RunTask")).map((task) => {
+    const ours = inside(task, spans);
+    const collection = length(ours.flatMap((span) => inside(span, collections)));
+    return { ours: length(ours) - collection, collection, whole: task[1] / 1000 };
   }).filter(({ ours }) => ours > 0);
+}
+
+function inside([from, length], spans) {
+  return spans.filter(([at]) => at >= from && at < from + length);
+}
+
+function outermost(spans) {
+  return spans.filter((span) => !spans.some((other) => other !== span && other[1] > span[1] && inside(other, [span]).length > 0));
 }
 
 function fail(reason) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Shown } from "@core/change.ts";
-import type { Surface } from "@core/types.ts";
+import { kBlockBytes, Shown } from "@core/change.ts";
+import type { Part, Surface } from "@core/types.ts";
 
 /** `count` vertices and faces; vertex i lies at (i, height(i), 0). */
 function surface(count: number, height: (i: number) => number = () => 0): Surface {
@@ -15,46 +15,59 @@ function surface(count: number, height: (i: number) => number = () => 0): Surfac
 
 const noParents = (count: number) => Uint32Array.from({ length: count }, (_, i) => i);
 
-/** What a page has that applies each change. */
+type Way = ReturnType<Shown["change"]>;
+
+/** What a page has that puts each piece to its place. */
 class Mirror {
   positions = new Float32Array(3 * 20_000);
+  normals = new Int16Array(4 * 20_000);
   indices = new Uint32Array(3 * 20_000);
+  fromPositions = new Float32Array(4 * 20_000);
+  fromNormals = new Int16Array(4 * 20_000);
 
-  take({ vertexRuns, positions, faceRuns, indices }: ReturnType<Shown["change"]>): void {
-    Mirror.put(this.positions, positions, vertexRuns);
-    Mirror.put(this.indices, indices, faceRuns);
-  }
-
-  private static put(to: Float32Array | Uint32Array, from: Float32Array | Uint32Array, runs: Uint32Array): void {
-    for (let i = 0, at = 0; i < runs.length; i += 2) {
-      const size = 3 * runs[i + 1]!;
-      to.set(from.subarray(at, at + size), 3 * runs[i]!);
-      at += size;
+  take({ pieces }: Way): this {
+    const buffer = new ArrayBuffer(kBlockBytes);
+    for (const { part, first, count, write } of pieces) {
+      write(buffer);
+      if (part === "colours") throw new Error("there are none");
+      const values = this[part], width = part.startsWith("from") || part === "normals" ? 4 : 3;
+      values.set(new (values.constructor as Float32ArrayConstructor)(buffer, 0, width * count), width * first);
     }
+    return this;
   }
+}
+
+/** Where the pieces of a part begin and how many vertices or faces they have. */
+function places({ pieces }: Way, part: Part): number[][] {
+  return pieces.filter((piece) => piece.part === part).map(({ first, count }) => [first, count]);
 }
 
 describe("Shown", () => {
   test("gives all of the first state", () => {
-    const change = new Shown().change(surface(10), noParents(10), false);
-    expect([...change.vertexRuns, ...change.faceRuns]).toEqual([0, 10, 0, 10]);
-    expect(change.positions).toEqual(surface(10).positions);
-    expect(change.number).toBe(1);
+    const way = new Shown().change(surface(10), noParents(10), false);
+    expect([places(way, "positions"), places(way, "indices")]).toEqual([[[0, 10]], [[0, 10]]]);
+    expect(new Mirror().take(way).positions.subarray(0, 30)).toEqual(surface(10).positions);
+    expect([way.change.number, way.change.blocks]).toEqual([1, way.pieces.length]);
   });
 
   test("gives nothing where nothing has changed", () => {
     const shown = new Shown();
     shown.change(surface(5000), noParents(5000), false);
-    const change = shown.change(surface(5000), noParents(5000), false);
-    expect([change.vertexRuns.length, change.positions.length, change.faceRuns.length]).toEqual([0, 0, 0]);
+    expect(shown.change(surface(5000), noParents(5000), false).pieces).toEqual([]);
   });
 
   test("gives what is new and the neighbourhood of what has moved, and no more", () => {
     const shown = new Shown();
     shown.change(surface(10_000), noParents(10_000), false);
-    const change = shown.change(surface(12_000, (i) => (i === 5000 ? 1 : 0)), noParents(12_000), false);
-    expect([...change.vertexRuns]).toEqual([4096, 2048, 8192, 3808]);
-    expect([...change.faceRuns]).toEqual([8192, 3808]);
+    const way = shown.change(surface(12_000, (i) => (i === 5000 ? 1 : 0)), noParents(12_000), false);
+    expect(places(way, "positions")).toEqual([[4096, 2048], [8192, 3808]]);
+    expect(places(way, "indices")).toEqual([[8192, 3808]]);
+  });
+
+  test("gives a large change in pieces that each fit into a block", () => {
+    const way = new Shown().change(surface(10_000), noParents(10_000), false);
+    expect(places(way, "positions")).toEqual([[0, 5461], [5461, 4539]]);
+    expect(places(way, "fromPositions")).toEqual([[0, 4096], [4096, 4096], [8192, 1808]]);
   });
 
   test("leads a page through every state", () => {
@@ -63,6 +76,7 @@ describe("Shown", () => {
       const state = surface(count, (i) => (i === moved ? 7 : 0));
       mirror.take(shown.change(state, noParents(count), false));
       expect(mirror.positions.subarray(0, 3 * count)).toEqual(state.positions);
+      expect(mirror.normals.subarray(0, 4 * count)).toEqual(state.normals);
       expect(mirror.indices.subarray(0, 3 * count)).toEqual(state.indices);
     }
   });
@@ -71,7 +85,7 @@ describe("Shown", () => {
     const shown = new Shown();
     shown.change(surface(3, () => 5), noParents(3), false);
     const parents = Uint32Array.of(0, 1, 2, 1, 3, 5); // 4 is a child of 3, that of 1; 5 was born whole
-    const { fromPositions } = shown.change(surface(6), parents, false);
+    const { fromPositions } = new Mirror().take(shown.change(surface(6), parents, false));
     const from = Array.from({ length: 6 }, (_, i) => [...fromPositions.subarray(4 * i, 4 * i + 4)]);
     expect(from).toEqual([[0, 5, 0, 2], [1, 5, 0, 2], [2, 5, 0, 2], [1, 5, 0, 2], [1, 5, 0, 2], [5, 0, 0, 2]]);
   });
@@ -79,7 +93,7 @@ describe("Shown", () => {
   test("lets nothing move where the vertices are numbered anew", () => {
     const shown = new Shown();
     shown.change(surface(3, () => 5), noParents(3), false);
-    const { fromPositions, positions } = shown.change(surface(3), noParents(3), true);
+    const { fromPositions, positions } = new Mirror().take(shown.change(surface(3), noParents(3), true));
     expect([fromPositions[1], fromPositions[5]]).toEqual([positions[1], positions[4]]);
   });
 });

@@ -4,12 +4,14 @@ import workerText from "./worker.ts?text";
 import { Budget, type Amount } from "./budget.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import type { Transport } from "./source.ts";
-import { ModelError, type Change, type ModelInfo, type Progress, type Want } from "./types.ts";
+import { ModelError, type Block, type Change, type ModelInfo, type Progress, type Want } from "./types.ts";
 
 export interface ModelListener {
   opened(info: ModelInfo): void;
-  /** Call `shown` once the change is on display: the next one comes after that. */
+  /** Its blocks follow. Call `shown` once it is on display: the next one comes after that. */
   change(change: Change, shown: () => void): void;
+  /** Give its buffer back. */
+  block(block: Block): void;
   progress(progress: Progress): void;
   /** The server does not answer, and why; undefined once it does again. */
   stalled(reason: string | undefined): void;
@@ -87,11 +89,17 @@ export class RemoteModel {
     }
   }
 
+  /** Buffers of blocks. */
+  giveBack(buffers: ArrayBuffer[]): void {
+    if (models.has(this.#id)) worker?.postMessage({ type: "taken", id: this.#id, buffers } satisfies ToWorker, buffers);
+  }
+
   receive(message: FromWorker): void {
     if (message.type === "opened") this.listener.opened(message.info);
     else if (message.type === "ready") this.#ready = true;
     else if (message.type === "progress") this.listener.progress(message.progress);
     else if (message.type === "stalled") this.listener.stalled(message.reason);
+    else if (message.type === "block") this.listener.block(message.block);
     else if (message.type === "change") this.#show(message.change);
     else if (message.type === "settled") this.#reach(message.turn, message.reached);
     else if (message.type === "failed") this.#fail(message.turn, new ModelError(message.message));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page and the worker say to each other. `id` names a model, `turn` a want.
 import type { Transport } from "./source.ts";
-import type { Change, ModelInfo, Progress, Want } from "./types.ts";
+import type { Block, Change, ModelInfo, Progress, Want } from "./types.ts";
 
 /** Absolute URLs of what the worker loads. */
 export interface Assets {
@@ -13,12 +13,14 @@ export interface Assets {
 export type ToWorker =
   | { type: "open"; id: number; url: string; transport: Transport; assets: Assets; again: boolean }
   | { type: "refine"; id: number; turn: number; want: Want }
+  | { type: "taken"; id: number; buffers: ArrayBuffer[] }
   | { type: "shown"; id: number }
   | { type: "close"; id: number };
 
 export type FromWorker =
   | { type: "opened"; id: number; info: ModelInfo }
   | { type: "change"; id: number; change: Change }
+  | { type: "block"; id: number; block: Block }
   | { type: "stalled"; id: number; reason: string | undefined }
   | { type: "progress"; id: number; progress: Progress }
   | { type: "ready"; id: number }

@@ -2,7 +2,7 @@
 // One model being refined: asks the source for the chunks that the planner names, several at a
 // time, applies them in that order and offers each state for display. A new want supersedes the
 // one before at the next chunk; what was fetched is kept, so going back is free of charge.
-import { Shown } from "./change.ts";
+import { Shown, type Piece } from "./change.ts";
 import type { BaseMesh, LatticeSurface } from "./decoder.ts";
 import type { Source } from "./source.ts";
 import {
@@ -32,7 +32,7 @@ export interface Sink {
   /** The header and base mesh are here; the first surface follows. */
   opened(info: ModelInfo): void;
   /** Resolves when the change is on display; the next one is sent after that. */
-  show(change: Change): Promise<void>;
+  show(change: Change, pieces: Piece[]): Promise<void>;
   progress(progress: Progress): void;
   /** Nobody answers, and why; undefined once somebody does again. */
   stalled(reason: string | undefined): void;
@@ -218,9 +218,9 @@ export class Session {
   async #show(): Promise<void> {
     while (this.#stale && !this.#life.signal.aborted) {
       this.#stale = false;
-      const change = this.#shown.change(this.decoder.surface(), this.decoder.parents, this.#anew);
+      const { change, pieces } = this.#shown.change(this.decoder.surface(), this.decoder.parents, this.#anew);
       this.#anew = false;
-      await this.sink.show(change);
+      await this.sink.show(change, pieces);
     }
   }
 

@@ -73,21 +73,26 @@ export interface Surface {
   indices: Uint32Array;
 }
 
-/**
- * What a state of the surface has new against the one before. Runs are pairs, ascending: where the
- * run begins and how many vertices or faces it has; the arrays hold theirs one behind the other, in
- * the layout of Surface. All arrays are the receiver's own.
- */
-export interface Change extends Omit<Surface, "indices"> {
+/** The arrays of a surface; `from…` say where a vertex moves from: 4 numbers each, the change's number behind the place. */
+export type Part = "positions" | "normals" | "colours" | "indices" | "fromPositions" | "fromNormals";
+
+/** The next state of the surface: what is new in it comes in `blocks`. */
+export interface Change extends Pick<Surface, "triangles" | "vertices" | "bytes"> {
   /** Counts the changes from 1 on. */
   number: number;
-  vertexRuns: Uint32Array;
-  /** 4 a vertex: where it moves from, and `number`. */
-  fromPositions: Float32Array;
-  /** As `normals`. */
-  fromNormals: Int16Array;
-  faceRuns: Uint32Array;
-  indices: Uint32Array;
+  blocks: number;
+}
+
+/** Vertices or faces of one array, from the `first` on, in the layout of Surface. */
+export interface Place {
+  part: Part;
+  first: number;
+  count: number;
+}
+
+/** `buffer` begins with the numbers of that place and is lent: give it back. */
+export interface Block extends Place {
+  buffer: ArrayBuffer;
 }
 
 export interface Progress {

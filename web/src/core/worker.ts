@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worker: fetches, decodes and plans for every model of a page, so that the page never waits.
+import type { Piece } from "./change.ts";
 import { Decoder } from "./decoder.ts";
 import { decodeBase, type DracoModule } from "./draco.ts";
+import { Lending } from "./lending.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import { Session, type Sink } from "./session.ts";
 import { openSource, type Source } from "./source.ts";
-import { ModelError, type Change } from "./types.ts";
+import { ModelError } from "./types.ts";
 
 declare const self: {
   onmessage: ((event: MessageEvent<ToWorker>) => void) | null;
@@ -18,6 +20,8 @@ interface Model {
   session: Promise<Session>;
   /** Its base mesh is there. */
   opened: Promise<void>;
+  /** For the change that is on its way to the page. */
+  lending: Lending;
   shown: () => void;
 }
 
@@ -28,6 +32,7 @@ let draco: Promise<DracoModule> | undefined;
 self.onmessage = ({ data }) => {
   if (data.type === "open") open(data);
   else if (data.type === "refine") void refine(data);
+  else if (data.type === "taken") models.get(data.id)?.lending.giveBack(data.buffers);
   else if (data.type === "shown") models.get(data.id)?.shown();
   else close(data.id);
 };
@@ -35,7 +40,7 @@ self.onmessage = ({ data }) => {
 function open({ id, url, transport, assets, again }: Extract<ToWorker, { type: "open" }>): void {
   const session = create(id, () => openSource(url, transport), assets);
   const opened = session.then((created) => created.open(again));
-  models.set(id, { session, opened, shown: () => undefined });
+  models.set(id, { session, opened, lending: new Lending(), shown: () => undefined });
   opened
     .then(() => self.postMessage({ type: "ready", id }))
     .catch((error) => fail(id, undefined, error));
@@ -57,14 +62,26 @@ function sink(id: number): Sink {
     opened: (info) => self.postMessage({ type: "opened", id, info }),
     progress: (progress) => self.postMessage({ type: "progress", id, progress }),
     stalled: (reason) => self.postMessage({ type: "stalled", id, reason }),
-    show: (change) =>
-      new Promise((resolve) => {
-        const model = models.get(id);
-        if (!model) return resolve();
-        model.shown = resolve;
-        self.postMessage({ type: "change", id, change }, buffers(change));
-      }),
+    show: async (change, pieces) => {
+      const model = models.get(id);
+      if (!model) return;
+      model.lending = new Lending();
+      const shown = new Promise<void>((resolve) => (model.shown = resolve));
+      self.postMessage({ type: "change", id, change });
+      if (await lend(id, pieces, model.lending)) await shown;
+    },
   };
+}
+
+/** Sends the pieces as fast as buffers come back. False where the model was closed meanwhile. */
+async function lend(id: number, pieces: Piece[], lending: Lending): Promise<boolean> {
+  for (const { part, first, count, write } of pieces) {
+    const buffer = await lending.borrow();
+    if (!buffer) return false;
+    write(buffer);
+    self.postMessage({ type: "block", id, block: { part, first, count, buffer } }, [buffer]);
+  }
+  return true;
 }
 
 async function refine({ id, turn, want }: Extract<ToWorker, { type: "refine" }>): Promise<void> {
@@ -81,6 +98,7 @@ async function refine({ id, turn, want }: Extract<ToWorker, { type: "refine" }>)
 function close(id: number): void {
   const model = models.get(id);
   models.delete(id);
+  model?.lending.close();
   model?.shown();
   model?.session.then((session) => session.close()).catch(() => undefined);
 }
@@ -104,8 +122,4 @@ async function compile(url: string): Promise<WebAssembly.Module> {
 async function loadDraco(assets: Assets): Promise<DracoModule> {
   importScripts(assets.dracoScript);
   return DracoDecoderModule({ locateFile: () => assets.dracoWasm });
-}
-
-function buffers(change: Change): Transferable[] {
-  return Object.values(change).flatMap((value) => (ArrayBuffer.isView(value) ? [value.buffer as ArrayBuffer] : []));
 }

@@ -6,13 +6,13 @@ import {
 import { RemoteModel } from "../core/client.ts";
 import type { Assets } from "../core/messages.ts";
 import type { Transport } from "../core/source.ts";
-import type { Change, ModelError, ModelInfo, Progress, Surface, Want } from "../core/types.ts";
+import type { Block, Change, ModelError, ModelInfo, Progress, Surface, Want } from "../core/types.ts";
 import { Geomorph } from "./geomorph.ts";
 import type { Steps } from "./gpu-array.ts";
-import { SurfaceBuffers } from "./surface-buffers.ts";
+import { SurfaceBuffers, type Inbox } from "./surface-buffers.ts";
 
 /** Milliseconds of a frame that a change on its way into the buffers may take. */
-const kFrameBudget = 3;
+const kFrameBudget = 2;
 
 export interface ProgressiveMeshEventMap extends Object3DEventMap {
   /** Another state of the surface is in the geometry: draw again. */
@@ -33,7 +33,9 @@ export interface ProgressiveMeshEventMap extends Object3DEventMap {
 export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, ProgressiveMeshEventMap> {
   readonly #model: RemoteModel;
   readonly #geomorph = new Geomorph();
-  readonly #jobs: Steps[] = []; // what goes into the buffers, a slice at a time
+  #jobs: Steps[] = []; // what goes into the buffers, a slice at a time
+  #inbox: Inbox = { blocks: [], taken: [] };
+  #taking: Steps | undefined;
   #buffers: SurfaceBuffers | undefined;
   #info: ModelInfo | undefined;
   #canvas: HTMLCanvasElement | undefined;
@@ -48,11 +50,13 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     // Scans are open as often as not: who looks into one sees its inside.
     super(new BufferGeometry(), new MeshStandardMaterial({ color: 0xd8d3cb, roughness: 0.85, metalness: 0, side: DoubleSide }));
     this.morph(this.material);
+    this.geometry.boundingSphere = new Sphere(); // empty, until there is something
     this.ready = new Promise((resolve, reject) => (this.#base = { resolve, reject }));
     this.onBeforeRender = (renderer) => this.drawBy(renderer);
     this.#model = new RemoteModel(url, transport, assets, {
       opened: (info) => this.#open(info),
       change: (change, shown) => this.#accept(change, shown),
+      block: (block) => this.#receive(block),
       progress: (progress) => this.dispatchEvent({ type: "progress", ...progress }),
       stalled: (reason) => this.dispatchEvent({ type: "stalled", reason }),
       failed: (error) => this.#fail(error),
@@ -137,8 +141,14 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   #accept(change: Change, shown: () => void): void {
-    this.#bound(change);
-    this.#work(this.#taken(change, shown));
+    if (this.#taking) this.#jobs = this.#jobs.filter((job) => job !== this.#taking); // its decoder has been started again
+    this.#inbox = { blocks: [], taken: [] };
+    this.#work((this.#taking = this.#taken(change, this.#inbox, shown)));
+  }
+
+  #receive(block: Block): void {
+    this.#inbox.blocks.push(block);
+    this.#goOn();
   }
 
   *#attached(gl: WebGL2RenderingContext, buffers: SurfaceBuffers): Steps {
@@ -146,9 +156,10 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.dispatchEvent({ type: "morph" });
   }
 
-  *#taken(change: Change, shown: () => void): Steps {
+  *#taken(change: Change, inbox: Inbox, shown: () => void): Steps {
     const morph = !this.#base && !matchMedia("(prefers-reduced-motion: reduce)").matches;
-    if (this.#buffers) yield* this.#buffers.take(change, morph);
+    if (this.#buffers) yield* this.#buffers.take(change, inbox, morph);
+    this.#bound();
     if (morph) this.#move(change.number);
     const { triangles, vertices, bytes } = change;
     this.dispatchEvent({ type: "refine", surface: { triangles, vertices, bytes } });
@@ -159,21 +170,33 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
 
   #work(job: Steps): void {
     this.#jobs.push(job);
+    this.#goOn();
+  }
+
+  #goOn(): void {
     this.#working ||= requestAnimationFrame(() => this.#continue());
   }
 
-  /** Goes on until the frame's budget is spent, or a change is drawn. */
+  /** Goes on until the frame's budget is spent, a change is drawn, or what is to come has not come yet. */
   #continue(): void {
     performance.mark("progressive-mesh:begin");
     const end = performance.now() + kFrameBudget;
+    let pause: IteratorResult<"go on" | "next frame" | "wait", void> | undefined;
     for (let job = this.#jobs[0]; job && performance.now() < end; job = this.#jobs[0]) {
-      const { done, value } = job.next();
-      if (done) this.#jobs.shift();
-      if (value) break;
+      pause = job.next();
+      if (pause.done) this.#jobs.shift();
+      else if (pause.value !== "go on") break;
     }
+    this.#giveBack();
     performance.mark("progressive-mesh:end");
     for (const mark of ["begin", "end"]) performance.clearMarks(`progressive-mesh:${mark}`); // traces have them
-    this.#working = this.#jobs.length > 0 ? requestAnimationFrame(() => this.#continue()) : 0;
+    this.#working = 0;
+    if (this.#jobs.length > 0 && pause?.value !== "wait") this.#goOn();
+  }
+
+  #giveBack(): void {
+    const buffers = this.#inbox.taken.splice(0);
+    if (buffers.length > 0) this.#model.giveBack(buffers);
   }
 
   #move(change: number): void {
@@ -195,9 +218,9 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   /** The base mesh's box bounds all levels, but for what refinement adds: some slack. */
-  #bound({ positions }: Change): void {
+  #bound(): void {
     if (!this.#base) return;
-    const box = new Box3().setFromArray(positions);
+    const box = new Box3().setFromArray(this.geometry.getAttribute("position").array);
     const centre = box.getCenter(new Vector3());
     this.geometry.boundingBox = box;
     this.geometry.boundingSphere = new Sphere(centre, 0.55 * box.getSize(new Vector3()).length());
