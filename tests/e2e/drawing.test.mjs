@@ -40,7 +40,7 @@ async function serve(mesh, name) {
   return host.add(`${name}.pmesh`, await readFile(file));
 }
 
-/** Runs in the page: pixels of background that the surface encloses, in one picture. */
+/** Runs in the page: pixels of background that the surface encloses, in one picture, also across corners: those are its outline's. */
 function holes() {
   const { data, width, height } = window.scene.pixels();
   const background = (i) => data[4 * i] === 255 && data[4 * i + 1] === 0 && data[4 * i + 2] === 255;
@@ -54,11 +54,14 @@ function holes() {
   for (let i = 0; i < width; ++i) for (const j of [0, height - 1]) visit(i, j), visit(j, i);
   while (queue.length > 0) {
     const [x, y] = queue.pop();
-    visit(x + 1, y), visit(x - 1, y), visit(x, y + 1), visit(x, y - 1);
+    for (const dx of [-1, 0, 1]) for (const dy of [-1, 0, 1]) visit(x + dx, y + dy);
   }
-  let enclosed = 0, covered = 0;
-  for (let i = 0; i < width * height; ++i) background(i) ? (enclosed += 1 - outside[i]) : ++covered;
-  return { enclosed, covered };
+  let enclosed = 0, covered = 0, place;
+  for (let i = 0; i < width * height; ++i) {
+    if (!background(i)) ++covered;
+    else if (!outside[i]) ++enclosed, place = [i % width, Math.floor(i / width)];
+  }
+  return { enclosed, covered, place };
 }
 
 for (const reducedMotion of ["reduce", "no-preference"]) {
@@ -84,7 +87,7 @@ for (const reducedMotion of ["reduce", "no-preference"]) {
         await mesh.refineFor(near, 600, 600, pixels);
       }
       const mixed = mesh.geometry.index.count / 3;
-      await mesh.refine({ level: mesh.info.levels.length - 1 });
+      for (let level = 0; level < mesh.info.levels.length; ++level) await mesh.refine({ level });
       while (mesh.morphing) await scene.frame();
       await look();
       return { states, mixed, faces: mesh.info.levels.at(-1).faces, levels: mesh.info.levels.map(({ faces }) => faces) };
@@ -98,6 +101,41 @@ for (const reducedMotion of ["reduce", "no-preference"]) {
     await page.context().close();
   });
 }
+
+test("a region shown at a level that its neighbours forbid lets the background through", async () => {
+  const page = await openScene(browser, host);
+  await page.evaluate(`window.holes = ${holes}`);
+  const [whole, broken] = await page.evaluate(async (url) => {
+    const mesh = await scene.load(url), { THREE } = scene;
+    const top = mesh.info.levels.length - 1, { radius } = mesh.geometry.boundingSphere;
+    /** The triangles of the present state with a corner sum that `belongs` to the part wanted. */
+    const part = async (level, belongs) => {
+      await mesh.refine({ level });
+      const { index, attributes: { position } } = mesh.geometry, corners = [];
+      for (let i = 0; i < index.count; i += 3) {
+        const face = [0, 1, 2].map((k) => new THREE.Vector3().fromBufferAttribute(position, index.getX(i + k)));
+        const middle = face[0].clone().add(face[1]).add(face[2]).divideScalar(3);
+        if (belongs(middle)) corners.push(...face);
+      }
+      return new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(corners), new THREE.MeshBasicMaterial());
+    };
+    /** A patch that faces the camera at `level`, the rest in full. */
+    const patched = async (level) => {
+      const inside = ({ z }) => z > 0.4 * radius;
+      const parts = [await part(level, inside), await part(top, (middle) => !inside(middle))];
+      mesh.visible = false;
+      scene.scene.add(...parts);
+      scene.look(mesh, 0, 2.5);
+      const seen = holes();
+      for (const one of parts) one.removeFromParent();
+      return seen;
+    };
+    return [await patched(top), await patched(top - 3)];
+  }, blob);
+  assert.ok(whole.enclosed === 0 && whole.covered > 10_000, `the same level on both sides: ${whole.enclosed} pixels of ${whole.covered}`);
+  assert.ok(broken.enclosed > 0, "three levels apart: no pixel");
+  await page.context().close();
+});
 
 test("base, middle and full are drawn as in the stored pictures", async () => {
   const page = await openScene(browser, host);
@@ -160,6 +198,18 @@ test("models share a worker, and a budget that moves to where the camera looks",
   assert.ok(held[1][1] > 12_000, `then the second gets its share: ${held}`);
   await page.evaluate(() => scene.meshes.forEach((mesh) => mesh.dispose()));
   while (page.workers().length > 0) await page.evaluate(() => scene.frame());
+  await page.context().close();
+});
+
+test("a ray meets the surface where it is", async () => {
+  const page = await openScene(browser, host);
+  const [hit, radius] = await page.evaluate(async (url) => {
+    const mesh = await scene.load(url), { THREE } = scene;
+    await mesh.refine({ level: 4 });
+    const ray = new THREE.Raycaster(new THREE.Vector3(0, 0, 1000), new THREE.Vector3(0, 0, -1));
+    return [ray.intersectObject(mesh)[0]?.point.z, 100];
+  }, blob);
+  assert.ok(Math.abs(hit - radius) < 6, `at ${hit}`);
   await page.context().close();
 });
 

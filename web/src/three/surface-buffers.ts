@@ -15,7 +15,7 @@ class MirroredAttribute extends BufferAttribute {
   readonly elementSize: number;
 
   constructor(values: Numbers, width: number, readonly buffer: WebGLBuffer | undefined, readonly type: number) {
-    super(values, width, !(values instanceof Float32Array));
+    super(values, width, values instanceof Int16Array || values instanceof Uint16Array);
     this.elementSize = values.BYTES_PER_ELEMENT;
   }
 }
