@@ -29,7 +29,7 @@ before(async () => {
   };
   ids = await Promise.all(Array.from({ length: kModels }, (_, i) => publish(i)));
   manifests = await Promise.all(ids.map(async (id) => (await fetch(`${daemon.url}/api/v1/models/${id}/manifest`)).json()));
-  nginx = await Nginx.start(`127.0.0.1:${daemon.port}`, [["max_size=50g", `max_size=${kCapacity}`]]);
+  nginx = await Nginx.start([`127.0.0.1:${daemon.port}`], [["max_size=50g", `max_size=${kCapacity}`]]);
   ca = await readFile(nginx.certificate);
 });
 

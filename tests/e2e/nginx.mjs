@@ -12,14 +12,14 @@ const kProgram = "/usr/sbin/nginx";
 const kShipped = new URL("../../deploy/nginx/vitrine.conf", import.meta.url);
 
 export class Nginx {
-  /** In front of a daemon at `origin` ("127.0.0.1:PORT"); `changes`: what of the configuration is other. */
-  static async start(origin, changes = []) {
+  /** In front of daemons at `origins` ("127.0.0.1:PORT"), the last of which scans; `changes`: what of the configuration is other. */
+  static async start(origins, changes = []) {
     const nginx = new Nginx();
     nginx.folder = await mkdtemp(join(tmpdir(), "vitrine-nginx-"));
     await chmod(nginx.folder, 0o755);  // for its workers, which are another user's
     nginx.port = await freePort();
     nginx.url = `https://127.0.0.1:${nginx.port}`;
-    await nginx.#configure(origin, changes);
+    await nginx.#configure(origins, changes);
     const words = ["-p", nginx.folder, "-c", "nginx.conf", "-e", "error.log"];
     await promisify(execFile)(kProgram, [...words, "-t"]);
     nginx.child = spawn(kProgram, words, { stdio: "ignore" });
@@ -28,7 +28,7 @@ export class Nginx {
     return nginx;
   }
 
-  async #configure(origin, changes) {
+  async #configure(origins, changes) {
     const path = (name) => join(this.folder, name);
     this.certificate = path("cert.pem");
     this.cache = path("cache");
@@ -37,7 +37,8 @@ export class Nginx {
 http { access_log off; client_body_temp_path body; proxy_temp_path proxy; fastcgi_temp_path fastcgi; uwsgi_temp_path uwsgi; scgi_temp_path scgi;
 include site.conf; }\n`);
     await writeFile(path("site.conf"), replaced(await readFile(kShipped, "utf8"), [
-      ["server 127.0.0.1:8080;", `server ${origin};`],
+      ["server 127.0.0.1:8080;  # one line for each replica", `${origins.map((origin) => `server ${origin};`).join(" ")}  #`],
+      ["server 127.0.0.1:8080;  # the replica that scans", `server ${origins.at(-1)};`],
       ["/var/cache/nginx/vitrine", this.cache],
       ["/etc/ssl/certs/museum.example.pem", this.certificate],
       ["/etc/ssl/private/museum.example.key", path("key.pem")],
@@ -76,7 +77,8 @@ function replaced(text, changes) {
   return text;
 }
 
-async function freePort() {
+/** Of 127.0.0.1; nobody listens at it now. */
+export async function freePort() {
   const server = createServer().listen(0, "127.0.0.1");
   await once(server, "listening");
   const { port } = server.address();

@@ -22,7 +22,7 @@ before(async () => {
   folder = await mkdtemp(join(tmpdir(), "vitrine-"));
   daemon = await Daemon.start(bin, ["--trusted-proxies", "127.0.0.1"]);
   id = (await daemon.publish(scan, "Demosthenes")).split("/").pop();
-  nginx = await Nginx.start(`127.0.0.1:${daemon.port}`);
+  nginx = await Nginx.start([`127.0.0.1:${daemon.port}`]);
   ca = await readFile(nginx.certificate);
   const { body } = await ask(`/api/v1/models/${id}/manifest`);
   chunks = JSON.parse(body).chunks.map(({ sha256 }) => sha256);

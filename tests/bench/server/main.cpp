@@ -20,6 +20,7 @@ struct Section {
 constexpr Section kSections[] = {
     {"throughput", throughput}, {"scale", scale},         {"first_triangle", first_triangle},
     {"adaptation", adaptation}, {"half_open", half_open}, {"soak", soak},
+    {"replicas", replicas},
 };
 
 int usage(int code) {

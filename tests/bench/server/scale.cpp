@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <poll.h>
 #include <sys/epoll.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 #include <vector>
 
 #include "../../server/app/served_folder.h"
 #include "medians.h"
 #include "sections.h"
-#include "server/stream/slice.h"
 #include "support/daemon.h"
 #include "support/descriptor_limit.h"
-#include "support/http_client.h"
-#include "support/loopback.h"
 #include "support/resident_memory.h"
+#include "viewer.h"
 
 namespace vitrine::bench {
 namespace {
@@ -24,72 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kChunk = 64u << 20;  // more than anybody is sent meanwhile
-
-// One WebSocket that does not block.
-class Viewer {
- public:
-  Viewer(std::uint16_t port, const std::string& model) : socket_(test::connect_to(port)) {
-    send("GET /api/v1/models/" + model +
-         "/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-         "Sec-WebSocket-Protocol: pmesh.v1\r\n\r\n");
-  }
-
-  int socket() const { return socket_.get(); }
-  std::uint64_t payload() const { return payload_; }
-
-  void send(const std::string& bytes) {
-    if (::send(socket(), bytes.data(), bytes.size(), MSG_NOSIGNAL) !=
-        static_cast<ssize_t>(bytes.size()))
-      throw std::runtime_error("a viewer was cut");
-  }
-  void say(const std::string& text) { send(test::masked_frame(0x81, text)); }
-
-  // Waits for the greeting.
-  void greet() {
-    while (buffer_.find("\"type\":\"model\"") == std::string::npos)
-      receive(0);
-    buffer_.clear();
-  }
-
-  // Takes what is there and acknowledges its slices.
-  void refine() {
-    receive(MSG_DONTWAIT);
-    std::size_t at = 0, slices = 0;
-    while (const std::size_t length = frame_at(at)) {
-      if (buffer_[at] == '\x82') slices += length - 4 - kSliceHeader;
-      at += length;
-    }
-    buffer_.erase(0, at);
-    payload_ += slices;
-    if (slices > 0) say(R"({"type":"ack","bytes":)" + std::to_string(slices) + "}");
-  }
-
- private:
-  void receive(int flags) {
-    char bytes[65536];
-    const ssize_t count = ::recv(socket(), bytes, sizeof bytes, flags);
-    if (count == 0) throw std::runtime_error("a viewer was cut");
-    if (count > 0) buffer_.append(bytes, static_cast<std::size_t>(count));
-  }
-
-  // The length of the whole frame that starts there; 0 where it is not whole. Slices are longer
-  // than 125 bytes and shorter than 64 KiB: their header has 4 bytes; so all else is skipped.
-  std::size_t frame_at(std::size_t at) const {
-    if (buffer_.size() < at + 4) return 0;
-    std::size_t length = static_cast<unsigned char>(buffer_[at + 1]), header = 2;
-    if (length == 126) {
-      length = static_cast<std::size_t>(static_cast<unsigned char>(buffer_[at + 2])) << 8 |
-               static_cast<unsigned char>(buffer_[at + 3]);
-      header = 4;
-    }
-    return buffer_.size() < at + header + length ? 0 : header + length;
-  }
-
-  FileDescriptor socket_;
-  std::string buffer_;
-  std::uint64_t payload_ = 0;
-};
 
 class Scale {
  public:

@@ -31,4 +31,8 @@ void adaptation(Report& report, const Effort& effort);
 // is cut.
 void half_open(Report& report, const Effort& effort);
 
+// Three replicas on one bucket and one database behind nginx against one behind the same nginx:
+// requests a second, and memory for each viewer.
+void replicas(Report& report, const Effort& effort);
+
 }  // namespace vitrine::bench

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rolling upgrade: a daemon of an older release goes on beside one of this, on one catalogue that
+// this one has migrated.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "recording.h"
+#include "server/catalogue/postgres_catalogue.h"
+#include "server/catalogue/sql_catalogue.h"
+#include "server/catalogue/sql_jobs.h"
+#include "support/postgres_server.h"
+
+namespace vitrine::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kSearch = "SELECT id, state, created, title";
+constexpr const char* kJobs = "SELECT id, kind, state, scanner";
+constexpr const char* kNothing = "SELECT 1";
+
+class NewDaemon {
+ public:
+  explicit NewDaemon(const std::string& database)
+      : database_(postgres::open_database(database).value().database) {}
+
+  Catalogue& catalogue() { return *catalogue_; }
+  JobCatalogue& jobs() { return *jobs_; }
+
+  std::vector<std::string> titles() {
+    std::vector<std::string> titles;
+    for (const ModelRecord& model : catalogue().search({.drafts = true}).value().models)
+      titles.push_back(model.title);
+    return titles;
+  }
+
+ private:
+  std::shared_ptr<sql::Database> database_;
+  const std::unique_ptr<Catalogue> catalogue_ = make_catalogue(database_);
+  const std::unique_ptr<JobCatalogue> jobs_ = make_jobs(database_);
+};
+
+class Upgrade : public testing::TestWithParam<const char*> {
+ protected:
+  // What the old daemon is answered when somebody has changed its tables with `change`.
+  std::vector<std::string> answers_after(const std::string& change) const {
+    const OldDaemon old(new_database());
+    old.say(recording_.start);
+    EXPECT_THAT(old.say({change, {}}), Not(HasSubstr(kRefused)));
+    return old.say(recording_.work);
+  }
+
+  // What the old daemon asks that begins so, the last time.
+  const Said& asked(const std::string& beginning, const std::string& part) const {
+    const Said* last = nullptr;
+    for (const Transaction& transaction : recording_.work) {
+      for (const Said& said : transaction) {
+        if (said.sql.starts_with(beginning) && said.sql.find(part) != std::string::npos)
+          last = &said;
+      }
+    }
+    if (last == nullptr) throw std::runtime_error("nothing recorded begins with " + beginning);
+    return *last;
+  }
+
+  const Recording recording_ = read_recording(GetParam());
+  const std::string database_ = new_database();
+};
+
+TEST_P(Upgrade, an_old_daemon_is_answered_as_ever) {
+  const OldDaemon old(database_);
+  old.say(recording_.start);
+  NewDaemon successor(database_);
+  const auto alone = answers_after(kNothing);
+  for (const std::string& answer : alone)
+    EXPECT_THAT(answer, Not(HasSubstr(kRefused)));
+  EXPECT_EQ(old.say(recording_.work), alone);
+}
+
+TEST_P(Upgrade, a_new_daemon_knows_what_the_old_one_writes) {
+  const OldDaemon old(database_);
+  old.say(recording_.start);
+  NewDaemon successor(database_);
+  for (const Transaction& transaction : recording_.work) {
+    old.say(std::span(&transaction, 1));
+    ASSERT_TRUE(successor.catalogue().search({.drafts = true}));
+    ASSERT_TRUE(successor.jobs().unfinished_jobs());
+  }
+  EXPECT_THAT(successor.titles(), testing::UnorderedElementsAre("Bust", "Second"));
+  EXPECT_EQ(successor.jobs().count_jobs().value()[static_cast<std::size_t>(JobState::kDone)], 3u);
+  EXPECT_EQ(successor.catalogue().tokens().value().size(), 1u);
+}
+
+TEST_P(Upgrade, an_old_daemon_knows_what_the_new_one_writes) {
+  const OldDaemon old(database_);
+  old.say(recording_.start);
+  NewDaemon successor(database_);
+  old.say(recording_.work);
+  ModelRecord model{.id = ModelId::generate()};
+  model.title = "Successor's";
+  ASSERT_TRUE(successor.catalogue().add(model, {}));
+  ASSERT_TRUE(successor.jobs().add({.id = JobId::generate(), .stage = "a new one's"}, {}, {}));
+  EXPECT_THAT(old.say(asked(kSearch, "LIMIT")), HasSubstr("Successor's"));
+  EXPECT_THAT(old.say(asked(kJobs, "LIMIT")), HasSubstr("a new one's"));
+}
+
+TEST_P(Upgrade, a_change_that_takes_away_or_demands_is_noticed) {
+  const auto alone = answers_after(kNothing);
+  EXPECT_NE(answers_after("ALTER TABLE job RENAME COLUMN stage TO step"), alone);
+  EXPECT_NE(answers_after("ALTER TABLE job ADD COLUMN demand BIGINT NOT NULL"), alone);
+  EXPECT_NE(answers_after("ALTER TABLE token DROP COLUMN label"), alone);
+  EXPECT_EQ(answers_after("ALTER TABLE job ADD COLUMN more BIGINT NOT NULL DEFAULT 0"), alone);
+}
+
+INSTANTIATE_TEST_SUITE_P(Releases, Upgrade, testing::Values("0.1.0"));
+
+}  // namespace
+}  // namespace vitrine::test
