@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "server/app/check_paths.h"
+#include "server/app/daemon_lock.h"
 #include "server/app/descriptor_limit.h"
 #include "server/app/port_file.h"
 #include "server/app/service_manager.h"
@@ -45,7 +46,9 @@ Unexpected of_admin(const Error& error) {
 
 // Asked before the data folder is made, so that a start that fails leaves nothing.
 Expected<void> check_addresses(const Settings& settings) {
-  if (auto usable = check_address(settings.listen); !usable) return usable;
+  if (settings.roles.serve) {
+    if (auto usable = check_address(settings.listen); !usable) return usable;
+  }
   const auto usable = check_address(settings.admin_listen);
   return usable ? Expected<void>{} : of_admin(usable.error());
 }
@@ -76,30 +79,43 @@ Expected<std::shared_ptr<LiveTls>> open_tls(const Settings& settings) {
   return LiveTls::open(files);
 }
 
+std::filesystem::path uploads_of(const Settings& settings) {
+  return settings.uploads.empty() ? settings.data / "uploads" : settings.uploads;
+}
+
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
  public:
-  Daemon(Configuration configuration, Installation installation, Log access_log,
-         std::vector<std::unique_ptr<ScannerBackend>> scanners, std::shared_ptr<LiveTls> tls)
+  Daemon(Configuration configuration, Installation installation, DataFolderLock lock,
+         Log access_log, std::vector<std::unique_ptr<ScannerBackend>> scanners,
+         std::shared_ptr<LiveTls> tls)
       : configuration_(std::move(configuration)),
         live_(configuration_.line.settings),
         tls_(std::move(tls)),
         installation_(std::move(installation)),
+        lock_(std::move(lock)),
         access_log_(std::move(access_log)),
         models_(*installation_.store, *installation_.catalogue, kStaleness,
                 live_.get()->model_cache_bytes),
-        uploads_(live_.get()->data / "uploads", {.bytes = live_.get()->max_upload_bytes,
-                                                 .per_token = live_.get()->max_uploads,
-                                                 .lifetime = live_.get()->upload_lifetime}),
+        uploads_(uploads_of(*live_.get()), {.bytes = live_.get()->max_upload_bytes,
+                                            .per_token = live_.get()->max_uploads,
+                                            .lifetime = live_.get()->upload_lifetime}),
         quota_(*installation_.catalogue, uploads_, live_.get()->quota_bytes),
         webhooks_(live_.get()->webhook_hosts, events_),
         publishing_(
             {*installation_.store, *installation_.catalogue, uploads_, quota_, live_.get()->data}),
         collector_({*installation_.store, *installation_.catalogue, *installation_.jobs, uploads_,
                     events_, live_.get()->collect_after}),
-        scans_({*installation_.store, *installation_.catalogue, *installation_.jobs, events_,
-                live_.get()->data, "/proc/self/exe", std::chrono::seconds(10),
-                [this](JobRun& run) { return publishing_.work(run); }, &quota_},
+        scans_({*installation_.store,
+                *installation_.catalogue,
+                *installation_.jobs,
+                events_,
+                live_.get()->data,
+                "/proc/self/exe",
+                std::chrono::seconds(10),
+                [this](JobRun& run) { return publishing_.work(run); },
+                &quota_,
+                {live_.get()->roles.build, live_.get()->roles.scan, lock_.id}},
                std::move(scanners)),
         exports_(live_.get()->export_cache_bytes),
         pages_(web_assets()),
@@ -134,17 +150,16 @@ class Daemon {
         watchdog_(control_) {}
 
   Expected<void> open() {
-    if (auto bound = bind(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
-      return bound;
+    if (live_.get()->roles.serve) {
+      if (auto bound = bind(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
+        return bound;
+    }
     if (auto bound =
             bind(admin_, live_.get()->admin_listen, live_.get()->admin_port_file, "admin ");
         !bound)
       return bound;
-    const auto untold = installation_.jobs->untold_jobs();  // by the daemon before
-    if (!untold) return Unexpected(untold.error());
-    for (const JobRecord& job : *untold)
-      tell_of(JobStatus{job, std::nullopt, {}});
-    scans_.jobs().when_ended([this](const JobStatus& job) { tell_of(job); });
+    if (!live_.get()->webhook_hosts.empty())
+      scans_.jobs().when_ended([this](const JobStatus& job) { tell_of(job); });
     return scans_.start();
   }
 
@@ -159,7 +174,7 @@ class Daemon {
     });
     wait_for_signal();
     wait_for_reload();
-    public_.start();
+    if (live_.get()->roles.serve) public_.start();
     admin_.start();
     collector_.start(kCollectEvery);
     services_.ready = true;
@@ -319,6 +334,7 @@ class Daemon {
   const std::shared_ptr<LiveTls> tls_;  // null: without TLS
   const bool at_terminal_ = ::isatty(STDIN_FILENO) == 1;
   const Installation installation_;
+  const DataFolderLock lock_;  // of the data folder
   Log access_log_;
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
@@ -357,6 +373,11 @@ int print(const std::string& text) {
                                              std::strerror(errno))});
 }
 
+std::span<const std::filesystem::path> scanners_of(const Settings& settings) {
+  if (!settings.roles.scan) return {};
+  return settings.scanners;
+}
+
 int serve(Configuration configuration) {
   const Settings& settings = configuration.line.settings;
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
@@ -364,12 +385,14 @@ int serve(Configuration configuration) {
   if (!tls) return report(tls.error());
   auto installation = open_installation(place_of(settings));
   if (!installation) return report(installation.error());
+  auto lock = lock_data_folder(settings.data);
+  if (!lock) return report(lock.error());
   auto access_log = Log::open(settings.access_log);
   if (!access_log) return report(access_log.error());
-  auto scanners = open_scanners(settings.scanners);
+  auto scanners = open_scanners(scanners_of(settings));
   if (!scanners) return report(scanners.error());
-  Daemon daemon(std::move(configuration), std::move(*installation), std::move(*access_log),
-                std::move(*scanners), std::move(*tls));
+  Daemon daemon(std::move(configuration), std::move(*installation), std::move(*lock),
+                std::move(*access_log), std::move(*scanners), std::move(*tls));
   if (const auto opened = daemon.open(); !opened) return report(opened.error());
   daemon.run();
   return kExitDone;

@@ -100,23 +100,32 @@ struct ModelPage {
   std::optional<ModelId> next;      // nothing on the last page
 };
 
+// The right of a job to change a model: until somebody else takes the job.
+struct JobClaim {
+  ModelId job;
+  std::uint64_t fence = 0;  // JobRecord::fence
+};
+
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
 // kIo where the database refuses, kLimit where the disk is full, kState as stated.
 class Catalogue {
  public:
   virtual ~Catalogue() = default;
 
-  // Adds a model and its chunks in one transaction. kState where the id exists.
-  virtual Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) = 0;
+  // Adds a model and its chunks in one transaction, in which the job, where there is one, learns of
+  // its model. kState where the id exists, or somebody else has taken the job.
+  virtual Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks,
+                             const std::optional<JobClaim>& by = std::nullopt) = 0;
 
   // Makes a model visible or hides it, in one statement. kState where there is no such model.
   virtual Expected<void> set_state(const ModelId& id, ModelState state) = 0;
 
   // Writes over the model of that id but for its `created`, and over its chunks where some are
-  // given, in one transaction; its version grows. kState where there is none, or its version is not
-  // `model.version`: somebody else has changed it meanwhile.
+  // given, in one transaction, with the job as add() does; its version grows. kState where there is
+  // none, or its version is not `model.version`: somebody else has changed it meanwhile.
   virtual Expected<void> update(const ModelRecord& model,
-                                std::optional<std::span<const ChunkPlace>> chunks) = 0;
+                                std::optional<std::span<const ChunkPlace>> chunks,
+                                const std::optional<JobClaim>& by = std::nullopt) = 0;
 
   // Takes a model away, with its chunks. kState where there is none, or its version is another than
   // the one that is stated.

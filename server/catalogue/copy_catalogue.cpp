@@ -24,7 +24,7 @@ constexpr Table kTables[] = {
     {"chunk", "sha256, model", "sha256, model, \"offset\", length"},
     {"job", "id",
      "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended, "
-     "webhook, attempts, told"},
+     "webhook, attempts, told, fence"},
     {"scan", "id",
      "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
      "created, empty_rows, saturated_rows, doubled_rows"},

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which jobs and scans there are and how far they have come: what outlives the daemon.
+// Which jobs and scans there are, how far they have come, and which daemon works on which job: what
+// outlives a daemon.
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,6 +54,7 @@ struct JobRecord {
   std::int64_t created = 0, ended = 0;  // milliseconds since 1970, UTC; 0: not yet
   std::string webhook = {};             // a URL that is told of its end; empty: none
   std::uint32_t attempts = 0;           // how often it was begun since it last ended in order
+  std::uint64_t fence = 0;  // how often it was taken: who took it before changes nothing any more
 
   bool operator==(const JobRecord&) const = default;
 };
@@ -95,6 +99,12 @@ struct PageOf {
 // How many jobs are in each state, in the order of JobState.
 using JobCounts = std::array<std::uint64_t, 6>;
 
+// For how long a job is its holder's, by the database's clock.
+struct Lease {
+  std::string holder;  // the same at the next start of the same daemon
+  std::chrono::milliseconds time;
+};
+
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
 // kIo where the database refuses, kLimit where the disk is full, kState as stated.
 class JobCatalogue {
@@ -106,9 +116,25 @@ class JobCatalogue {
   virtual Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
                              const std::optional<OnceKey>& once) = 0;
 
-  // Write over the record of that id. kState where there is none.
+  // Write over the record of that id. kState where there is none, or somebody has taken or ended
+  // the job since. Where it does not run afterwards, its lease ends.
   virtual Expected<void> update(const JobRecord& job) = 0;
   virtual Expected<void> update(const ScanEntry& scan) = 0;
+
+  // Takes the job, which runs from now on, with another fence. Nothing where it does not wait, and
+  // no lease has run out: somebody else has it.
+  virtual Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) = 0;
+  // Of those kinds that are to be taken, the oldest; at most `limit`.
+  virtual Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
+                                                        std::uint32_t limit) = 0;
+  // Has the lease begin anew and tells stage and progress. True: somebody wants the job ended.
+  // kState where somebody else has taken or ended it: then it is to be left alone.
+  virtual Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) = 0;
+  // Ends a job that nobody works on, at `now`; who has it learns of the wish when they renew. The
+  // job as it is then. kState where there is none, or it has ended.
+  virtual Expected<JobRecord> cancel(const JobId& id, std::int64_t now) = 0;
+  // Whatever the holder had is to be taken: they are dead.
+  virtual Expected<void> drop_leases(const std::string& holder) = 0;
 
   virtual Expected<std::optional<JobRecord>> find_job(const JobId& id) = 0;
   virtual Expected<std::optional<ScanEntry>> find_scan(const ScanId& id) = 0;
@@ -119,6 +145,8 @@ class JobCatalogue {
 
   // Those that have ended and whose webhooks have not been told so; oldest first.
   virtual Expected<std::vector<JobRecord>> untold_jobs() = 0;
+  // Of those, a few that nobody else is to tell meanwhile.
+  virtual Expected<std::vector<JobRecord>> claim_untold(const Lease& lease) = 0;
   // The webhook was told, or nobody tries any more. kState where there is no such job.
   virtual Expected<void> set_told(const JobId& id) = 0;
 

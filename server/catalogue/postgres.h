@@ -34,6 +34,10 @@ class Connection final : public sql::Connection {
   void roll_back() noexcept override;
   std::uint64_t revision() override;
   const char* like() const override { return "ILIKE"; }
+  const char* now() const override {
+    return "CAST(extract(epoch FROM statement_timestamp()) * 1000 AS BIGINT)";
+  }
+  const char* skip_locked() const override { return "FOR UPDATE SKIP LOCKED"; }
 
   // Waits for the lock of that number, however long another session holds it.
   void lock(std::int64_t number);

@@ -55,6 +55,14 @@ CREATE TRIGGER count_change AFTER INSERT OR UPDATE OR DELETE ON model
 CREATE TRIGGER count_change AFTER INSERT OR UPDATE OR DELETE ON token
   FOR EACH STATEMENT EXECUTE FUNCTION count_change();
 )sql",
+    R"sql(
+ALTER TABLE job ADD COLUMN fence BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE job ADD COLUMN holder TEXT NOT NULL DEFAULT '';
+ALTER TABLE job ADD COLUMN lease BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE job ADD COLUMN cancelled BIGINT NOT NULL DEFAULT 0;
+CREATE INDEX job_of_state ON job(state);
+CREATE INDEX job_untold ON job(id) WHERE told != 1 AND webhook != '';
+)sql",
 };
 constexpr const char* kOneAtATime = "SELECT pg_advisory_lock(7957706764961114213)";
 constexpr const char* kNext = "SELECT pg_advisory_unlock(7957706764961114213)";

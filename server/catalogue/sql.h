@@ -87,6 +87,11 @@ class Connection {
   virtual std::uint64_t revision() = 0;
   // The LIKE that does not mind upper and lower case.
   virtual const char* like() const = 0;
+  // Milliseconds since 1970 by the database's clock.
+  virtual const char* now() const = 0;
+  // Ends a SELECT whose rows are about to be changed: those that somebody else is about to change
+  // are left out.
+  virtual const char* skip_locked() const = 0;
 };
 
 // Thread-safe.

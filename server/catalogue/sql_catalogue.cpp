@@ -153,6 +153,8 @@ const std::string kUpdateModel =
     "public_max_level = ?17, public_file = ?18, public_file_bytes = ?19, "
     "public_head_bytes = ?20, public_faces = ?21, public_vertices = ?22 "
     "WHERE id = ?1 AND version = ?16 RETURNING 1";
+const std::string kHoldJob =
+    "UPDATE job SET model = ?3 WHERE id = ?1 AND fence = ?2 AND state = 1 RETURNING 1";
 const std::string kRemoveChunks = "DELETE FROM chunk WHERE model = ?";
 const std::string kRemoveModel =
     "DELETE FROM model WHERE id = ?1 AND version = coalesce(?2, version) RETURNING 1";
@@ -175,6 +177,18 @@ const std::string kTokens =
     "SELECT id, role, hash, label, created FROM token WHERE revoked IS NULL ORDER BY id";
 const std::string kRevokeToken =
     "UPDATE token SET revoked = ? WHERE id = ? AND revoked IS NULL RETURNING 1";
+
+// Nobody takes the job before the transaction ends.
+Expected<void> hold_job(Connection& connection, const std::optional<JobClaim>& by,
+                        const ModelId& model) {
+  if (!by) return {};
+  const Query row(connection.prepare(kHoldJob));
+  if (row->bind(by->job.bytes()).bind(number(by->fence)).bind(model.bytes()).any()) return {};
+  return fail(ErrorCode::kState,
+              fmt::format("somebody else has taken or ended job {}; its model is "
+                          "left to them",
+                          by->job.to_string()));
+}
 
 void insert_chunks(Connection& connection, const ModelId& model,
                    std::span<const ChunkPlace> chunks) {
@@ -224,9 +238,11 @@ class SqlCatalogue final : public Catalogue {
  public:
   explicit SqlCatalogue(std::shared_ptr<sql::Database> database) : database_(std::move(database)) {}
 
-  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
+  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks,
+                     const std::optional<JobClaim>& by) override {
     return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
       Transaction transaction(connection);
+      if (auto held = hold_job(connection, by, model.id); !held) return held;
       const Query row(connection.prepare(kInsertModel));
       bind_model(*row, model);
       if (!row->any()) {
@@ -248,10 +264,11 @@ class SqlCatalogue final : public Catalogue {
     });
   }
 
-  Expected<void> update(const ModelRecord& model,
-                        std::optional<std::span<const ChunkPlace>> chunks) override {
+  Expected<void> update(const ModelRecord& model, std::optional<std::span<const ChunkPlace>> chunks,
+                        const std::optional<JobClaim>& by) override {
     return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
       Transaction transaction(connection);
+      if (auto held = hold_job(connection, by, model.id); !held) return held;
       const Query row(connection.prepare(kUpdateModel));
       bind_model(*row, model);
       if (!row->any()) return changed_meanwhile(model.id);

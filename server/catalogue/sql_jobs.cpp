@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "server/catalogue/catalogue.h"
 
@@ -17,7 +18,7 @@ using sql::Transaction;
 
 constexpr std::string_view kJobColumns =
     "id, kind, state, scanner, scan, model, stage, progress, error, parameters, created, ended, "
-    "webhook, attempts";
+    "webhook, attempts, fence";
 constexpr std::string_view kScanColumns =
     "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
     "created, "
@@ -45,7 +46,8 @@ Statement& bind_record(Statement& row, const JobRecord& job) {
   bind_id(row, job.scan);
   bind_id(row, job.model);
   row.bind(job.stage).bind_real(job.progress).bind(job.error).bind(job.parameters);
-  return row.bind(job.created).bind(job.ended).bind(job.webhook).bind(number(job.attempts));
+  row.bind(job.created).bind(job.ended).bind(job.webhook).bind(number(job.attempts));
+  return row.bind(number(job.fence));
 }
 
 Statement& bind_record(Statement& row, const ScanEntry& scan) {
@@ -75,6 +77,7 @@ void read(const Statement& row, JobRecord& job) {
   job.ended = row.integer(11);
   job.webhook = row.text(12);
   job.attempts = static_cast<std::uint32_t>(row.integer(13));
+  job.fence = static_cast<std::uint64_t>(row.integer(14));
 }
 
 void read(const Statement& row, ScanEntry& scan) {
@@ -171,9 +174,85 @@ class SqlJobs final : public JobCatalogue {
     });
   }
 
-  Expected<void> update(const JobRecord& job) override { return write("job", kJobColumns, job); }
+  Expected<void> update(const JobRecord& job) override {
+    return write("job",
+                 assignments(kJobColumns) + ", lease = CASE WHEN ?3 = 1 THEN lease ELSE 0 END",
+                 "AND fence = ?15", job);
+  }
   Expected<void> update(const ScanEntry& scan) override {
-    return write("scan", kScanColumns, scan);
+    return write("scan", assignments(kScanColumns), "", scan);
+  }
+
+  Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) override {
+    using Found = std::optional<JobRecord>;
+    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
+      Transaction transaction(connection);
+      const Query free(
+          connection.prepare(fmt::format("SELECT 1 FROM job WHERE id = ? AND {} {}",
+                                         is_free(connection), connection.skip_locked())));
+      if (!free->bind(id.bytes()).any()) return std::nullopt;
+      const Query row(connection.prepare(
+          fmt::format("UPDATE job SET state = 1, fence = fence + 1, attempts = attempts + 1, "
+                      "cancelled = 0, holder = ?2, lease = {} + ?3 WHERE id = ?1 RETURNING {}",
+                      connection.now(), kJobColumns)));
+      row->bind(id.bytes()).bind(lease.holder).bind(number(lease.time.count()));
+      JobRecord job = all<JobRecord>(*row).front();
+      transaction.commit();
+      return job;
+    });
+  }
+
+  Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
+                                                std::uint32_t limit) override {
+    using Jobs = std::vector<JobRecord>;
+    if (kinds.empty()) return Jobs();
+    return sql::guarded<Jobs>(*database_, [&](Connection& connection) -> Expected<Jobs> {
+      std::string places = "?";
+      for (std::size_t i = 1; i < kinds.size(); ++i)
+        places += ",?";
+      const Query rows(connection.prepare(
+          fmt::format("SELECT {} FROM job WHERE kind IN ({}) AND {} ORDER BY id LIMIT ?",
+                      kJobColumns, places, is_free(connection))));
+      for (const JobKind kind : kinds)
+        rows->bind(number(kind));
+      return all<JobRecord>(rows->bind(number(limit)));
+    });
+  }
+
+  Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) override {
+    return sql::guarded<bool>(*database_, [&](Connection& connection) -> Expected<bool> {
+      const Query row(connection.prepare(
+          fmt::format("UPDATE job SET lease = {} + ?3, stage = ?4, progress = ?5 "
+                      "WHERE id = ?1 AND fence = ?2 AND state IN (1, 2) RETURNING cancelled",
+                      connection.now())));
+      row->bind(job.id.bytes()).bind(number(job.fence)).bind(number(lease.count()));
+      if (row->bind(job.stage).bind_real(job.progress).step()) return row->integer(0) != 0;
+      return fail(ErrorCode::kState, fmt::format("somebody else has taken or ended job {}; it is "
+                                                 "left to them",
+                                                 job.id.to_string()));
+    });
+  }
+
+  Expected<JobRecord> cancel(const JobId& id, std::int64_t now) override {
+    return sql::guarded<JobRecord>(*database_, [&](Connection& connection) -> Expected<JobRecord> {
+      const Query row(connection.prepare(fmt::format(
+          "UPDATE job SET cancelled = 1, fence = CASE WHEN {0} THEN fence ELSE fence + 1 END, "
+          "state = CASE WHEN {0} THEN state ELSE 5 END, ended = CASE WHEN {0} THEN ended ELSE ?2 "
+          "END WHERE id = ?1 AND state < 3 RETURNING {1}",
+          fmt::format("state IN (1, 2) AND lease > {}", connection.now()), kJobColumns)));
+      auto changed = all<JobRecord>(row->bind(id.bytes()).bind(now));
+      if (!changed.empty()) return std::move(changed.front());
+      return fail(ErrorCode::kState,
+                  fmt::format("job {} has ended; start another", id.to_string()));
+    });
+  }
+
+  Expected<void> drop_leases(const std::string& holder) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query rows(connection.prepare("UPDATE job SET lease = 0 WHERE holder = ? RETURNING 1"));
+      rows->bind(holder).any();
+      return {};
+    });
   }
 
   Expected<std::optional<JobRecord>> find_job(const JobId& id) override {
@@ -192,7 +271,32 @@ class SqlJobs final : public JobCatalogue {
   Expected<std::vector<JobRecord>> unfinished_jobs() override { return jobs_where("state < ?"); }
 
   Expected<std::vector<JobRecord>> untold_jobs() override {
-    return jobs_where("state >= ? AND told = 0 AND webhook != ''");
+    return jobs_where("state >= ? AND told != 1 AND webhook != ''");
+  }
+
+  Expected<std::vector<JobRecord>> claim_untold(const Lease& lease) override {
+    using Jobs = std::vector<JobRecord>;
+    return sql::guarded<Jobs>(*database_, [&](Connection& connection) -> Expected<Jobs> {
+      const std::string is_untold = fmt::format(
+          "state >= 3 AND told != 1 AND webhook != '' AND lease < {}", connection.now());
+      std::vector<JobId> ids;
+      {
+        const Query rows(connection.prepare(
+            fmt::format("SELECT id FROM job WHERE {} ORDER BY id LIMIT 16", is_untold)));
+        while (rows->step())
+          ids.push_back(ModelId::from_bytes(rows->blob<16>(0)));
+      }
+      Jobs jobs;
+      for (const JobId& id : ids) {
+        const Query row(connection.prepare(
+            fmt::format("UPDATE job SET holder = ?2, lease = {} + ?3 WHERE id = ?1 AND {} "
+                        "RETURNING {}",
+                        connection.now(), is_untold, kJobColumns)));
+        row->bind(id.bytes()).bind(lease.holder).bind(number(lease.time.count()));
+        std::ranges::move(all<JobRecord>(*row), std::back_inserter(jobs));
+      }
+      return jobs;
+    });
   }
 
   Expected<void> set_told(const JobId& id) override {
@@ -244,6 +348,11 @@ class SqlJobs final : public JobCatalogue {
   }
 
  private:
+  // Whether a job waits, or nobody works any more on one that runs.
+  static std::string is_free(const Connection& connection) {
+    return fmt::format("(state = 0 OR (state = 1 AND lease < {}))", connection.now());
+  }
+
   // Oldest first; the condition's ? is the first state in which a job has ended.
   Expected<std::vector<JobRecord>> jobs_where(std::string_view condition) {
     using Jobs = std::vector<JobRecord>;
@@ -255,13 +364,14 @@ class SqlJobs final : public JobCatalogue {
   }
 
   template <class Record>
-  Expected<void> write(std::string_view table, std::string_view columns, const Record& record) {
+  Expected<void> write(std::string_view table, const std::string& changes,
+                       std::string_view condition, const Record& record) {
     return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
       const Query row(connection.prepare(
-          fmt::format("UPDATE {} SET {} WHERE id = ?1 RETURNING 1", table, assignments(columns))));
+          fmt::format("UPDATE {} SET {} WHERE id = ?1 {} RETURNING 1", table, changes, condition)));
       if (bind_record(*row, record).any()) return {};
-      return fail(ErrorCode::kState,
-                  fmt::format("there is no {} {}; list them", table, record.id.to_string()));
+      return fail(ErrorCode::kState, fmt::format("there is no {} {} in that state; list them",
+                                                 table, record.id.to_string()));
     });
   }
 

@@ -72,6 +72,22 @@ ALTER TABLE job ADD COLUMN attempts INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE job ADD COLUMN told INTEGER NOT NULL DEFAULT 0;
 UPDATE job SET told = 1 WHERE state >= 3;
 )sql",
+    // The revision counts the changes of what visitors and tokens meet, not the steps of jobs.
+    R"sql(
+ALTER TABLE job ADD COLUMN fence INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE job ADD COLUMN holder TEXT NOT NULL DEFAULT '';
+ALTER TABLE job ADD COLUMN lease INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE job ADD COLUMN cancelled INTEGER NOT NULL DEFAULT 0;
+CREATE INDEX job_of_state ON job(state);
+CREATE INDEX job_untold ON job(id) WHERE told != 1 AND webhook != '';
+CREATE TABLE revision (number INTEGER NOT NULL);
+INSERT INTO revision VALUES (1);
+CREATE TRIGGER model_added AFTER INSERT ON model BEGIN UPDATE revision SET number = number + 1; END;
+CREATE TRIGGER model_changed AFTER UPDATE ON model BEGIN UPDATE revision SET number = number + 1; END;
+CREATE TRIGGER model_removed AFTER DELETE ON model BEGIN UPDATE revision SET number = number + 1; END;
+CREATE TRIGGER token_added AFTER INSERT ON token BEGIN UPDATE revision SET number = number + 1; END;
+CREATE TRIGGER token_changed AFTER UPDATE ON token BEGIN UPDATE revision SET number = number + 1; END;
+)sql",
 };
 
 class SqliteConnection final : public sql::Connection {
@@ -89,14 +105,16 @@ class SqliteConnection final : public sql::Connection {
   void roll_back() noexcept override {
     sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
   }
-  // The version of the data counts the changes of others only.
   std::uint64_t revision() override {
-    const sql::Query others(prepare("PRAGMA data_version"));
-    others->step();
-    const auto own = static_cast<std::uint64_t>(sqlite3_total_changes64(database_.handle()));
-    return static_cast<std::uint64_t>(others->integer(0)) + (own << 32);
+    const sql::Query row(prepare("SELECT number FROM revision"));
+    row->step();
+    return static_cast<std::uint64_t>(row->integer(0));
   }
   const char* like() const override { return "LIKE"; }
+  const char* now() const override {
+    return "CAST((julianday('now') - 2440587.5) * 86400000 AS INTEGER)";
+  }
+  const char* skip_locked() const override { return ""; }  // one writer at a time, see begin()
 
  private:
   Database database_;

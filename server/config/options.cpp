@@ -110,6 +110,25 @@ Expected<void> webhook_hosts(Settings& settings, std::string_view text) {
   return parse_list(settings.webhook_hosts, text, "a host in it is empty; name the server");
 }
 
+Expected<void> roles(Settings& settings, std::string_view text) {
+  std::vector<std::string_view> names;
+  if (auto done = parse_list(names, text, "a role in it is empty; name one"); !done) return done;
+  settings.roles = {};
+  for (const std::string_view name : names) {
+    bool* const role = name == "serve"   ? &settings.roles.serve
+                       : name == "build" ? &settings.roles.build
+                       : name == "scan"  ? &settings.roles.scan
+                                         : nullptr;
+    if (role == nullptr) {
+      return fail(ErrorCode::kBadInput,
+                  fmt::format("'{}' is no role; give some of serve, build and scan", name));
+    }
+    *role = true;
+  }
+  if (!names.empty()) return {};
+  return fail(ErrorCode::kBadInput, "it is empty; give some of serve, build and scan");
+}
+
 Expected<void> trusted_proxies(Settings& settings, std::string_view text) {
   auto networks = Networks::parse(text);
   if (!networks) return Unexpected(networks.error());
@@ -196,6 +215,15 @@ constexpr std::array kOptions{
            false, trusted_proxies},
     Option{"data", kPath, "./data", "The folder of this installation: objects and catalogue.",
            false, data_folder},
+    Option{
+        "roles", kNames, "serve,build,scan",
+        "What this daemon does: answer on 'listen', make models of uploads, drive scanners. What "
+        "is left out another does that has the same store, catalogue and uploads.",
+        false, roles},
+    Option{"uploads", kPath, "",
+           "The folder of what is being uploaded; all that serve or build share one. Empty: in the "
+           "data folder.",
+           false, path<&S::uploads>},
     Option{
         "store", kUrl, "",
         "A bucket that holds the objects: s3://BUCKET/PREFIX?endpoint=URL&region=R&style=path, or "

@@ -21,11 +21,20 @@ struct Endpoint {
   bool operator==(const Endpoint&) const = default;
 };
 
+// What one daemon of an installation does.
+struct Roles {
+  bool serve = false;  // answers visitors and operators
+  bool build = false;  // makes models of uploads
+  bool scan = false;   // drives the scanners
+};
+
 struct Settings {
   Endpoint listen;
   Endpoint admin_listen;
+  Roles roles;
   std::filesystem::path data;
-  std::string store, catalogue;  // URLs; empty: in the data folder
+  std::filesystem::path uploads;  // empty: in the data folder
+  std::string store, catalogue;   // URLs; empty: in the data folder
   std::string store_access_key, store_secret_key;
   std::filesystem::path port_file;        // empty: none is written
   std::filesystem::path admin_port_file;  // empty: none is written

@@ -87,11 +87,12 @@ Response resume_job(const Request& request, Services& services) {
 
 Response show_job_events(const Request& request, Services& services) {
   // First: a job without a run is found at its end then, and nobody waits for one that has passed.
-  const auto run = services.scans.jobs().run(request.parameters.id);
+  const auto run = services.scans.jobs().watch(request.parameters.id);
+  if (!run) return internal_error(run.error(), request, services);
   return with_job(request, services, [&](const JobStatus& job) {
     Response response;
     response.type = "text/event-stream";
-    response.events = std::make_shared<JobEvents>(job, run, request.caller.has_value());
+    response.events = std::make_shared<JobEvents>(job, *run, request.caller.has_value());
     return response;
   });
 }

@@ -17,6 +17,18 @@ std::string lane_name(const JobRecord& job) {
 }
 
 constexpr std::uint32_t kMaxAttempts = 3;
+constexpr std::chrono::milliseconds kBeat{500};
+constexpr std::chrono::seconds kLease{15};
+constexpr std::chrono::minutes kTelling{10};  // in which a webhook is told, or given up
+constexpr std::uint32_t kAtATime = 16;        // jobs that are looked for
+
+std::vector<JobKind> kinds_of(const TakenJobs& taken) {
+  std::vector<JobKind> kinds;
+  if (taken.builds) kinds.push_back(JobKind::kPublish);
+  if (taken.scans)
+    kinds.insert(kinds.end(), {JobKind::kScan, JobKind::kCalibrate, JobKind::kReprocess});
+  return kinds;
+}
 
 // It ran when a daemon died, and the two before that as well: it may be what they died of.
 bool is_hopeless(const JobRecord& job) {
@@ -58,8 +70,12 @@ void JobRun::when_asked(std::function<void()> react) {
 void JobRun::ask(JobWish wish, std::string_view reason) {
   const std::scoped_lock lock(mutex_);
   if (waits_ && wish == JobWish::kStop) wish = JobWish::kPause;
-  // Nothing takes a cancellation back, and what is paused stays so when the daemon ends.
-  if (wish_ == JobWish::kCancel || (wish_ == JobWish::kPause && wish == JobWish::kStop)) return;
+  // Nothing takes a cancellation back, and what is paused stays so when the daemon ends; but who
+  // has lost the job has no say in it.
+  if (wish_ == JobWish::kLost) return;
+  const bool holds =
+      wish_ == JobWish::kCancel || (wish_ == JobWish::kPause && wish == JobWish::kStop);
+  if (holds && wish != JobWish::kLost) return;
   wish_ = wish;
   if (!reason.empty()) status_.note = pause_reason_ = reason;
   changed_.notify_all();
@@ -118,16 +134,35 @@ void JobRun::made(const ModelId& model) {
   status_.record.model = model;
 }
 
-JobQueue::JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task)
-    : catalogue_(catalogue), events_(events), task_(std::move(task)) {}
+JobQueue::JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task, TakenJobs taken)
+    : catalogue_(catalogue), events_(events), task_(std::move(task)), taken_(std::move(taken)) {}
 
 Expected<void> JobQueue::start() {
+  if (auto dropped = catalogue_.drop_leases(taken_.holder); !dropped) return dropped;
   const auto left = catalogue_.unfinished_jobs();
   if (!left) return Unexpected(left.error());
-  const std::scoped_lock lock(mutex_);
-  for (const JobRecord& job : *left)
-    take_up(job, 0);
+  {
+    const std::scoped_lock lock(mutex_);
+    for (const JobRecord& job : *left) {
+      if (taken_.has(job.kind) && job.state == JobState::kPaused) take_up(job, 0);
+    }
+  }
+  look_for_jobs(UINT32_MAX);
+  tell_ends();
+  heart_ = std::jthread([this](const std::stop_token& stop) {
+    std::unique_lock lock(beating_);
+    while (!resting_.wait_for(lock, stop, kBeat, [&] { return stop.stop_requested(); }))
+      beat();
+  });
   return {};
+}
+
+void JobQueue::beat() {
+  store_again();
+  renew_leases();
+  look_for_jobs(kAtATime);
+  look_at_others();
+  tell_ends();
 }
 
 void JobQueue::stop() {
@@ -141,6 +176,7 @@ void JobQueue::stop() {
   }
   for (const auto& [name, lane] : lanes)
     lane->finish();
+  heart_ = {};  // what ends slowly is held until then
 }
 
 bool JobQueue::is_stopping() const {
@@ -151,11 +187,12 @@ bool JobQueue::is_stopping() const {
 void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   const Run run = std::make_shared<JobRun>(job);
   run->stops_known_ = stops;
-  // Not at every step: each change of the catalogue makes visitors' caches ask anew.
-  run->entered_stage_ = [this](const JobRecord& now) { store(now); };
+  run->entered_stage_ = [this](const JobRecord& now) { static_cast<void>(store(now)); };
   runs_[job.id] = run;
   if (is_hopeless(job)) return give_up(run);
-  if (job.state != JobState::kPaused) post(run);
+  if (job.state == JobState::kPaused) return;
+  run->status_.record.state = JobState::kQueued;
+  post(run);
 }
 
 void JobQueue::give_up(const Run& run) {
@@ -169,7 +206,6 @@ void JobQueue::give_up(const Run& run) {
 }
 
 void JobQueue::post(const Run& run) {
-  set_state(run, JobState::kQueued);
   lane_of(lane_name(run->job())).post([this, run] { work(run); });
 }
 
@@ -196,7 +232,7 @@ Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<Scan
     if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
   }
   if (auto added = catalogue_.add(job, scan, once); !added) return Unexpected(added.error());
-  take_up(job, stops);
+  if (taken_.has(job.kind)) take_up(job, stops);
   return job;
 }
 
@@ -239,6 +275,17 @@ std::shared_ptr<const JobRun> JobQueue::run(const JobId& id) const {
   return found == runs_.end() ? nullptr : found->second;
 }
 
+Expected<std::shared_ptr<const JobRun>> JobQueue::watch(const JobId& id) {
+  if (auto own = run(id)) return own;
+  const auto job = catalogue_.find_job(id);
+  if (!job) return Unexpected(job.error());
+  if (!*job || has_ended((*job)->state)) return nullptr;
+  const std::scoped_lock lock(mutex_);
+  Run other = others_[id].lock();
+  if (!other) others_[id] = other = std::make_shared<JobRun>(**job);
+  return other;
+}
+
 std::optional<JobStatus> JobQueue::job_of(const std::string& scanner) const {
   const std::scoped_lock lock(mutex_);
   const Run run = run_of(scanner);
@@ -255,23 +302,36 @@ std::optional<JobStatus> JobQueue::job_where(
   return std::nullopt;
 }
 
-void JobQueue::set_state(const Run& run, JobState state) {
+bool JobQueue::set_state(const Run& run, JobState state) {
+  JobStatus next = run->status();
+  next.record.state = state;
+  next.eta.reset();
+  if (has_ended(state)) next.record.ended = now_in_milliseconds();
+  if (state == JobState::kDone) next.record.progress = 1;
+  if (!store(next.record)) {
+    lose(run);
+    return false;
+  }
   {
     const std::scoped_lock lock(run->mutex_);
-    run->status_.record.state = state;
-    run->status_.eta.reset();
     if (state == JobState::kQueued) {
       run->wish_ = JobWish::kNone;
       run->pause_reason_.clear();
     }
-    run->status_.note = state == JobState::kPaused ? run->pause_reason_ : "";
-    if (has_ended(state)) run->status_.record.ended = now_in_milliseconds();
-    if (state == JobState::kDone) run->status_.record.progress = 1;
+    next.note = state == JobState::kPaused ? run->pause_reason_ : "";
+    run->status_ = std::move(next);
   }
-  const JobRecord job = run->job();
-  if (has_ended(state)) runs_.erase(job.id);
-  store(job);
-  if (has_ended(state) && ended_) ended_(run->status());
+  if (!has_ended(state)) return true;
+  runs_.erase(run->job().id);
+  tell_ends();
+  return true;
+}
+
+// Whoever watches it goes on to see what becomes of it.
+void JobQueue::lose(const Run& run) {
+  const JobId id = run->job().id;
+  runs_.erase(id);
+  others_[id] = run;
 }
 
 Expected<JobStatus> JobQueue::pause(const JobId& id, std::string_view reason) {
@@ -281,7 +341,8 @@ Expected<JobStatus> JobQueue::pause(const JobId& id, std::string_view reason) {
   const JobRecord job = (*run)->job();
   if (job.state == JobState::kPaused) return not_now(job, "is paused already");
   (*run)->ask(JobWish::kPause, reason);
-  if (job.state == JobState::kQueued) set_state(*run, JobState::kPaused);
+  if (job.state == JobState::kQueued && !set_state(*run, JobState::kPaused))
+    return not_now(job, "has been taken or ended meanwhile");
   return (*run)->status();
 }
 
@@ -298,22 +359,33 @@ Expected<JobStatus> JobQueue::resume(const JobId& id, std::uint64_t stops) {
   }
   if ((*run)->go_on()) {
     store((*run)->job());
-  } else {
+  } else if (set_state(*run, JobState::kQueued)) {
     post(*run);
+  } else {
+    return not_now(job, "has been taken or ended meanwhile");
   }
   return (*run)->status();
 }
 
 Expected<JobStatus> JobQueue::cancel(const JobId& id) {
   const std::scoped_lock lock(mutex_);
-  const auto run = unfinished(id);
-  if (!run) return Unexpected(run.error());
-  if ((*run)->is_at_work()) {
-    (*run)->ask(JobWish::kCancel);
-  } else {
-    set_state(*run, JobState::kCancelled);
+  const auto found = runs_.find(id);
+  const Run run = found == runs_.end() ? nullptr : found->second;
+  if (run && run->is_at_work()) {
+    run->ask(JobWish::kCancel);
+    return run->status();
   }
-  return (*run)->status();
+  const auto cancelled = catalogue_.cancel(id, now_in_milliseconds());
+  if (!cancelled) return Unexpected(cancelled.error());
+  const JobStatus status{*cancelled, std::nullopt, {}};
+  if (!has_ended(status.record.state)) return status;
+  if (run) {
+    const std::scoped_lock inner(run->mutex_);
+    run->status_ = status;
+  }
+  runs_.erase(id);
+  tell_ends();
+  return status;
 }
 
 Expected<std::optional<JobStatus>> JobQueue::find(const JobId& id) {
@@ -350,16 +422,27 @@ Lane& JobQueue::lane_of(const std::string& name) {
   return *lane;
 }
 
-void JobQueue::work(const Run& run) {
-  {
-    const std::scoped_lock lock(mutex_);
-    if (stopping_ || run->job().state != JobState::kQueued) return;
-    {
-      const std::scoped_lock inner(run->mutex_);
-      ++run->status_.record.attempts;
-    }
-    set_state(run, JobState::kRunning);
+// Begins it, unless somebody else has.
+bool JobQueue::take(const Run& run) {
+  const std::scoped_lock lock(mutex_);
+  if (stopping_ || run->job().state != JobState::kQueued) return false;
+  const auto taken = catalogue_.claim(run->job().id, {taken_.holder, kLease});
+  if (!taken) {
+    events_.event(Severity::kError, taken.error().message);
+    again_.push_back(run);
+    return false;
   }
+  if (!*taken) {
+    lose(run);
+    return false;
+  }
+  const std::scoped_lock inner(run->mutex_);
+  run->status_ = {**taken, std::nullopt, {}};
+  return true;
+}
+
+void JobQueue::work(const Run& run) {
+  if (!take(run)) return;
   Expected<JobEnd> result = JobEnd::kDone;
   try {
     result = task_(*run);
@@ -369,33 +452,99 @@ void JobQueue::work(const Run& run) {
   end(run, result);
 }
 
+// Of a job that has come to an end here, and why where it has failed.
+JobState JobQueue::state_after(JobRun& run, const Expected<JobEnd>& result) {
+  const JobWish wish = run.wish();
+  if (result && *result == JobEnd::kDone) return JobState::kDone;
+  if (wish == JobWish::kCancel) return JobState::kCancelled;
+  // What a scan says of itself meanwhile must not go under; a failed one is resumed as well.
+  const bool is_put_aside = result || result.error().code == ErrorCode::kState;
+  if (wish == JobWish::kPause && is_put_aside) return JobState::kPaused;
+  if (wish == JobWish::kStop) return JobState::kQueued;  // goes on at the next start
+  const std::scoped_lock lock(run.mutex_);
+  run.status_.record.error = result ? "the job was put aside unasked" : result.error().message;
+  return JobState::kFailed;
+}
+
 void JobQueue::end(const Run& run, const Expected<JobEnd>& result) {
   const std::scoped_lock lock(mutex_);
+  const JobWish wish = run->wish();
+  if (wish == JobWish::kLost) return lose(run);
   {
     const std::scoped_lock inner(run->mutex_);
     run->status_.record.attempts = 0;
   }
-  const JobWish wish = run->wish();
-  if (result && *result == JobEnd::kDone) return set_state(run, JobState::kDone);
-  if (wish == JobWish::kCancel) return set_state(run, JobState::kCancelled);
-  // What a scan says of itself meanwhile must not go under; a failed one is resumed as well.
-  const bool is_put_aside = result || result.error().code == ErrorCode::kState;
-  if (wish == JobWish::kPause && is_put_aside) return set_state(run, JobState::kPaused);
-  if (wish == JobWish::kStop)
-    return set_state(run, JobState::kQueued);  // goes on at the next start
-  {
-    const std::scoped_lock inner(run->mutex_);
-    run->status_.record.error = result ? "the job was put aside unasked" : result.error().message;
-  }
-  set_state(run, JobState::kFailed);
+  set_state(run, state_after(*run, result));
 }
 
-void JobQueue::store(const JobRecord& job) {
+void JobQueue::renew_leases() {
+  std::vector<Run> runs;
   {
-    const std::scoped_lock lock(storing_);
-    unstored_[job.id] = job;
+    const std::scoped_lock lock(mutex_);
+    for (const auto& [id, run] : runs_) {
+      if (run->is_at_work()) runs.push_back(run);
+    }
   }
-  store_again();
+  for (const Run& run : runs) {
+    const JobRecord job = run->job();
+    const auto wanted = catalogue_.renew(job, kLease);
+    const std::scoped_lock lock(mutex_);
+    const bool is_same = run->is_at_work() && run->job().fence == job.fence;
+    if (!is_same) continue;
+    if (wanted && *wanted) run->ask(JobWish::kCancel);
+    if (wanted || wanted.error().code != ErrorCode::kState) continue;
+    events_.event(Severity::kWarning, wanted.error().message);
+    run->ask(JobWish::kLost);
+  }
+}
+
+void JobQueue::look_for_jobs(std::uint32_t limit) {
+  const auto waiting = catalogue_.waiting_jobs(kinds_of(taken_), limit);
+  const std::scoped_lock lock(mutex_);
+  if (stopping_ || !waiting) return;
+  for (const Run& run : std::exchange(again_, {}))
+    post(run);
+  for (const JobRecord& job : *waiting) {
+    if (!runs_.contains(job.id) && !unstored(job.id)) take_up(job, 0);
+  }
+}
+
+void JobQueue::look_at_others() {
+  std::vector<Run> others;
+  {
+    const std::scoped_lock lock(mutex_);
+    std::erase_if(others_, [](const auto& other) { return other.second.expired(); });
+    for (const auto& [id, other] : others_) {
+      if (Run run = other.lock()) others.push_back(std::move(run));
+    }
+  }
+  for (const Run& other : others) {
+    const auto job = catalogue_.find_job(other->job().id);
+    if (!job || !*job) continue;
+    const std::scoped_lock lock(mutex_);
+    if (has_ended((*job)->state)) others_.erase((*job)->id);
+    const std::scoped_lock inner(other->mutex_);
+    other->status_ = {**job, std::nullopt, {}};
+  }
+}
+
+void JobQueue::tell_ends() {
+  if (!ended_) return;
+  const auto ends = catalogue_.claim_untold({taken_.holder, kTelling});
+  if (!ends) return;
+  for (const JobRecord& job : *ends)
+    ended_(JobStatus{job, std::nullopt, {}});
+}
+
+bool JobQueue::store(const JobRecord& job) {
+  const std::scoped_lock lock(storing_);
+  unstored_.erase(job.id);
+  const auto stored = catalogue_.update(job);
+  if (stored) return true;
+  events_.event(Severity::kError, stored.error().message);
+  if (stored.error().code == ErrorCode::kState) return false;
+  unstored_[job.id] = job;
+  return true;
 }
 
 void JobQueue::store_again() {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jobs and their states. Each scanner has a lane of its own and at most one unfinished job; what
 // needs no scanner shares another lane and waits there. All is in the catalogue, so that a daemon
-// that died goes on where it was.
+// that died goes on where it was, and several share what is to be done: who begins a job takes it,
+// holds it by a lease that is renewed, and lets go of it once somebody else has it.
 #pragma once
 
 #include <condition_variable>
@@ -10,6 +11,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "server/catalogue/jobs.h"
 #include "server/jobs/lane.h"
@@ -23,6 +26,7 @@ enum class JobWish : std::uint8_t {
   kPause,   // to put it aside, until it is resumed
   kCancel,  // to end it; what is done stays
   kStop,    // to put it aside, because the daemon ends
+  kLost,    // to leave it alone: somebody else has it
 };
 
 enum class JobEnd : std::uint8_t { kDone, kPutAside };  // the latter where a wish asked for it
@@ -95,19 +99,32 @@ class Reaction {
 // Does one job, or goes on with it. An error is the end of the job, unless a wish came meanwhile.
 using JobTask = std::function<Expected<JobEnd>(JobRun& run)>;
 
+// Which jobs a daemon does itself; the others it leaves to those that do.
+struct TakenJobs {
+  bool builds = true, scans = true;
+  std::string holder = {};  // Lease::holder
+
+  bool has(JobKind kind) const { return kind == JobKind::kPublish ? builds : scans; }
+};
+
 // Thread-safe. Errors: kState where a job is not in a state for that, kIo of the catalogue.
 class JobQueue {
  public:
-  JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task);
+  JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task, TakenJobs taken = {});
   ~JobQueue() { stop(); }
 
-  // Has `told` called with every job that ends, by the thread that ends it, which waits: for who
-  // comes before start().
+  // Has `told` called with every job that has ended and has a webhook, by one of all daemons, once
+  // unless that one dies meanwhile: for who comes before start().
   void when_ended(std::function<void(const JobStatus&)> told) { ended_ = std::move(told); }
 
   // Takes up what an earlier daemon left: what was paused stays paused, all else goes on, but for
-  // what three daemons have died at: that has failed.
+  // what three daemons have died at: that has failed. From then on there is a beat() twice a
+  // second.
   Expected<void> start();
+
+  // Renews the leases of what runs here, hears of what others want of it, and looks for what waits
+  // to be done, or to be told.
+  void beat();
 
   // Every job that runs is put aside, and every lane ends.
   void stop();
@@ -131,8 +148,10 @@ class JobQueue {
   Expected<std::vector<JobStatus>> list(const PageOf& page);
   Expected<JobCounts> count() { return catalogue_.count_jobs(); }
 
-  // An unfinished job, to be watched to its end; null where there is none.
+  // An unfinished job of this daemon, to be watched to its end; null where there is none.
   std::shared_ptr<const JobRun> run(const JobId& id) const;
+  // The same of any daemon's, seen a beat later where it is another's.
+  Expected<std::shared_ptr<const JobRun>> watch(const JobId& id);
 
   // The unfinished job of a scanner.
   std::optional<JobStatus> job_of(const std::string& scanner) const;
@@ -158,28 +177,43 @@ class JobQueue {
   void take_up(const JobRecord& job, std::uint64_t stops);
   void give_up(const Run& run);
   void post(const Run& run);
-  void set_state(const Run& run, JobState state);
+  bool set_state(const Run& run, JobState state);  // false where somebody else has it
+  void lose(const Run& run);
+  bool take(const Run& run);
   Lane& lane_of(const std::string& name);
 
   void work(const Run& run);
+  static JobState state_after(JobRun& run, const Expected<JobEnd>& result);
   void end(const Run& run, const Expected<JobEnd>& result);
-  // What the catalogue refuses, as it is away, is stored when somebody comes the next time.
-  void store(const JobRecord& job);
+  void renew_leases();
+  void look_for_jobs(std::uint32_t limit);
+  void look_at_others();
+  void tell_ends();
+  // What the catalogue refuses, as it is away, is stored with the next beat. False where somebody
+  // else has the job.
+  bool store(const JobRecord& job);
   void store_again();
   std::optional<JobRecord> unstored(const JobId& id);
 
   JobCatalogue& catalogue_;
   const Log& events_;
   const JobTask task_;
+  const TakenJobs taken_;
   std::function<void(const JobStatus&)> ended_;
 
-  mutable std::mutex mutex_;   // guards what follows
-  std::map<JobId, Run> runs_;  // the unfinished ones
+  mutable std::mutex mutex_;                       // guards what follows
+  std::map<JobId, Run> runs_;                      // the unfinished ones
+  std::map<JobId, std::weak_ptr<JobRun>> others_;  // that somebody watches here
+  std::vector<Run> again_;  // that could not be taken: the catalogue was away
   std::map<std::string, std::unique_ptr<Lane>> lanes_;
   bool stopping_ = false;
 
   std::mutex storing_;  // guards what follows
   std::map<JobId, JobRecord> unstored_;
+
+  std::mutex beating_;  // guards what follows
+  std::condition_variable_any resting_;
+  std::jthread heart_;
 };
 
 }  // namespace vitrine

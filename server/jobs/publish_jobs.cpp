@@ -88,7 +88,8 @@ Expected<Publication> PublishJobs::make(JobRun& run, const ModelOrder& order) {
   const PublishAs as{.state = order.publish ? ModelState::kPublished : ModelState::kDraft,
                      .id = order.replace.value_or(run.job().id),
                      .quota = &means_.quota,
-                     .upload = order.upload};
+                     .upload = order.upload,
+                     .by = JobClaim{run.job().id, run.job().fence}};
   if (order.replace) return replace(means_.store, means_.catalogue, *pmesh, order.metadata, as);
   return publish(means_.store, means_.catalogue, *pmesh, order.metadata, as);
 }

@@ -122,7 +122,8 @@ ScanService::ScanService(const ScanMeans& means,
                          std::vector<std::unique_ptr<ScannerBackend>> scanners)
     : means_(means),
       backends_(std::move(scanners)),
-      queue_(means.jobs, means.events, [this](JobRun& run) { return work(run); }) {
+      queue_(
+          means.jobs, means.events, [this](JobRun& run) { return work(run); }, means.taken) {
   for (const auto& backend : backends_)
     stations_.push_back(std::make_unique<ScannerStation>(*backend, queue_, means.patience));
 }
@@ -148,7 +149,7 @@ Expected<void> ScanService::recall() {
   const auto left = means_.jobs.unfinished_jobs();
   if (!left) return Unexpected(left.error());
   for (const JobRecord& job : *left) {
-    if (job.kind == JobKind::kScan && job.scan) recall(job);
+    if (job.kind == JobKind::kScan && job.scan && means_.taken.has(job.kind)) recall(job);
   }
   return {};
 }
@@ -445,7 +446,10 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   if (!pmesh) return Unexpected(pmesh.error());
   const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
   const auto model = publish(means_.store, means_.catalogue, *pmesh, order.metadata,
-                             {.state = state, .id = run.job().id, .quota = means_.quota});
+                             {.state = state,
+                              .id = run.job().id,
+                              .quota = means_.quota,
+                              .by = JobClaim{run.job().id, run.job().fence}});
   if (!model) return Unexpected(model.error());
   run.made(model->id);
   auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));

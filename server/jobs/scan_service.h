@@ -38,6 +38,7 @@ struct ScanMeans {
   std::chrono::milliseconds patience{10'000};        // that devices stay open for the next command
   JobTask publishing = {};                           // what becomes of jobs of that kind
   Quota* quota = nullptr;                            // of which models take; null: there is none
+  TakenJobs taken = {};                              // which jobs are done here
 };
 
 // Thread-safe. Errors: kState where something is not possible now, kBadInput where an idempotency

@@ -73,7 +73,7 @@ Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const Model
     record.public_part = part_of((*part)->file, record.public_part->max_level);
   }
   if (auto begun = let_go(store, before); !begun) return begun;
-  return catalogue.update(record, (*part ? (*part)->file : *whole).chunks());
+  return catalogue.update(record, (*part ? (*part)->file : *whole).chunks(), as.by);
 }
 
 void take_text(std::string& text, const std::string& given) {
@@ -110,16 +110,20 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
   if (auto good = check_texts(metadata); !good) return tl::unexpected(good.error());
   const auto lock = store.lock();
   if (!lock) return tl::unexpected(lock.error());
-  for (;;) {
+  std::optional<Error> refused;  // of the version that was tried last
+  for (std::uint64_t tried = 0;;) {
     const auto found = catalogue.find(as.id.value_or(ModelId()));
     if (!found) return tl::unexpected(found.error());
     if (!*found) return fail(ErrorCode::kState, "the model to replace is gone; publish a new one");
+    if (refused && (*found)->version == tried) return tl::unexpected(*refused);
     ModelRecord record = with_texts(**found, metadata);
     if (as.state == ModelState::kPublished) record.state = as.state;
     const auto done = store_files(store, catalogue, **found, record, pmesh, as);
     if (done) return Publication{.id = record.id};
     // Who publishes or hides it meanwhile holds no lock: then it is replaced as it is now.
     if (done.error().code != ErrorCode::kState) return tl::unexpected(done.error());
+    refused = done.error();
+    tried = (*found)->version;
   }
 }
 

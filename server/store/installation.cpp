@@ -28,7 +28,7 @@ constexpr const char* kNextStep = "give the folder of an installation, or start 
 // What may lie in a data folder before its catalogue does: what an interrupted start leaves, the
 // demo's scanner, and what is at the root of a disk.
 bool may_come_first(std::string_view name) {
-  constexpr std::array<std::string_view, 3> kNames{"objects", "demo", "lost+found"};
+  constexpr std::array<std::string_view, 4> kNames{"objects", kDaemonLock, "demo", "lost+found"};
   return std::ranges::count(kNames, name) > 0;
 }
 

@@ -15,6 +15,7 @@
 namespace vitrine {
 
 inline constexpr const char* kCatalogueFile = "catalogue.sqlite";  // below the data folder
+inline constexpr const char* kDaemonLock = "daemon.lock";          // likewise
 
 struct InstallationPlace {
   std::filesystem::path folder;

@@ -45,8 +45,8 @@ Expected<std::optional<ModelRecord>> find_earlier(Catalogue& catalogue, const Mo
 }
 
 // Names the stored file in the catalogue.
-Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record,
-                          const StoredFile& stored) {
+Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record, const StoredFile& stored,
+                          const std::optional<JobClaim>& by) {
   const auto same = find_earlier(catalogue, record);
   if (!same) return tl::unexpected(same.error());
   if (*same) {
@@ -57,7 +57,7 @@ Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record,
     if (!told) return tl::unexpected(told.error());
     return Publication{.id = (*same)->id, .is_new = false};
   }
-  if (auto added = catalogue.add(record, stored.chunks()); !added)
+  if (auto added = catalogue.add(record, stored.chunks(), by); !added)
     return tl::unexpected(added.error());
   return Publication{.id = record.id};
 }
@@ -88,8 +88,10 @@ Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
   const auto room = Quota::reserve(as.quota, {&named, 1}, as.upload);
   if (!room) return tl::unexpected(room.error());
   if (auto stored = store_file(store, *file, pmesh); !stored) return tl::unexpected(stored.error());
-  auto published = add(catalogue, record, *file);
-  if (!published && file->is_new) static_cast<void>(store.remove(file->name));
+  auto published = add(catalogue, record, *file, as.by);
+  // Where the catalogue did not answer, it may name the file all the same.
+  const bool is_unnamed = !published && published.error().code != ErrorCode::kIo;
+  if (is_unnamed && file->is_new) static_cast<void>(store.remove(file->name));
   return published;
 }
 

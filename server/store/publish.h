@@ -28,6 +28,7 @@ struct PublishAs {
   std::optional<ModelId> id = std::nullopt;
   Quota* quota = nullptr;  // that the files have to fit into; null: there is none
   std::optional<UploadId> upload = std::nullopt;  // of which they are made, and which goes then
+  std::optional<JobClaim> by = std::nullopt;      // the job that publishes, while it is held
 };
 
 struct Publication {

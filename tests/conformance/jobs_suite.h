@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "server/catalogue/catalogue.h"
 #include "server/catalogue/jobs.h"
 
 namespace vitrine::test {
@@ -13,6 +14,7 @@ class JobsBackend {
   virtual ~JobsBackend() = default;
   // A new connection to the same catalogue, empty at first.
   virtual std::unique_ptr<JobCatalogue> connect() = 0;
+  virtual std::unique_ptr<Catalogue> connect_models() = 0;
 };
 
 std::unique_ptr<JobsBackend> make_jobs_backend();

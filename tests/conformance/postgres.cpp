@@ -24,6 +24,9 @@ class PostgresJobs final : public JobsBackend {
   std::unique_ptr<JobCatalogue> connect() override {
     return make_jobs(postgres::open_database(database_).value().database);
   }
+  std::unique_ptr<Catalogue> connect_models() override {
+    return make_catalogue(postgres::open_database(database_).value().database);
+  }
 
  private:
   const std::string database_ = new_database();

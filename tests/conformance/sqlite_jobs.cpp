@@ -2,6 +2,7 @@
 #include "server/catalogue/sqlite_jobs.h"
 
 #include "conformance/jobs_suite.h"
+#include "server/catalogue/sqlite_catalogue.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {
@@ -11,6 +12,9 @@ class Sqlite final : public JobsBackend {
  public:
   std::unique_ptr<JobCatalogue> connect() override {
     return open_sqlite_jobs(folder_.path() / "catalogue.sqlite").value();
+  }
+  std::unique_ptr<Catalogue> connect_models() override {
+    return open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
   }
 
  private:

@@ -10,15 +10,16 @@ class CatalogueBefore : public Catalogue {
  public:
   explicit CatalogueBefore(Catalogue& before) : before_(before) {}
 
-  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks) override {
-    return before_.add(model, chunks);
+  Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks,
+                     const std::optional<JobClaim>& by) override {
+    return before_.add(model, chunks, by);
   }
   Expected<void> set_state(const ModelId& id, ModelState state) override {
     return before_.set_state(id, state);
   }
-  Expected<void> update(const ModelRecord& model,
-                        std::optional<std::span<const ChunkPlace>> chunks) override {
-    return before_.update(model, chunks);
+  Expected<void> update(const ModelRecord& model, std::optional<std::span<const ChunkPlace>> chunks,
+                        const std::optional<JobClaim>& by) override {
+    return before_.update(model, chunks, by);
   }
   Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) override {
     return before_.remove(id, version);

@@ -89,10 +89,11 @@ Daemon::Daemon(const std::filesystem::path& data, std::vector<std::string> more,
   const Child child = start(arguments, terminal);
   child_ = child.id;
   pipe_ = child.output;
-  for (int listeners = 0; listeners < 2;) {
+  while (admin_port_ == 0) {  // which comes last
     const std::string line = read_line();
     if (line.find("listening on") == std::string::npos) continue;
-    (listeners++ == 0 ? port_ : admin_port_) = port_in(line);
+    const bool is_admin = line.find("admin listening on") != std::string::npos;
+    (is_admin ? admin_port_ : port_) = port_in(line);
   }
 }
 

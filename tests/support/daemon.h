@@ -27,7 +27,7 @@ class Daemon {
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
 
-  std::uint16_t port() const { return port_; }  // 0 where it listens on a Unix socket
+  std::uint16_t port() const { return port_; }  // 0: a Unix socket, or it does not serve
   std::uint16_t admin_port() const { return admin_port_; }
   pid_t pid() const { return child_; }
   void signal(int number) const;

@@ -163,6 +163,28 @@ TEST(Start, ADataFolderThatCannotBeUsedIsOneLineAndExitCode1) {
   EXPECT_THAT(result.output, HasSubstr(file));
 }
 
+TEST(Start, ADataFolderIsOfOneDaemonAndFreeOnceItIsDead) {
+  const ServedFolder folder;
+  {
+    const Daemon daemon(folder.path());
+    const ProgramResult second = run_vitrined({"--listen", "127.0.0.1:0", "--admin-listen",
+                                               "127.0.0.1:0", "--data", folder.path().string()});
+    EXPECT_EQ(second.exit_code, 1);
+    EXPECT_THAT(second.output, HasSubstr("another daemon uses the data folder"));
+  }
+  const Daemon next(folder.path());
+}
+
+TEST(Start, WhoDoesNotServeAnswersTheAdministratorAlone) {
+  const ServedFolder folder;
+  Daemon daemon(folder.path(), {"--roles", "build"});
+  EXPECT_EQ(daemon.port(), 0);
+  EXPECT_EQ(http_get(daemon.admin_port(), "/readyz").status, 200);
+  EXPECT_EQ(http_get(daemon.admin_port(), "/metrics").status, 200);
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait().exit_code, 0);
+}
+
 TEST(Start, WritesThePortsToFiles) {
   const ServedFolder folder;
   const auto port_file = folder.path() / "port", admin_file = folder.path() / "admin-port";

@@ -153,6 +153,17 @@ TEST(CommandLine, SecretsAreNotPrintedNorRepeatedInFaults) {
             "--catalogue: it does not begin with postgresql://; correct the URL");
 }
 
+TEST(CommandLine, ADaemonHasTheRolesThatItIsGivenAndElseAll) {
+  const auto all = parse({}), some = parse({"--roles", "scan,build"});
+  ASSERT_TRUE(all && some);
+  EXPECT_TRUE(all->settings.roles.serve && all->settings.roles.build && all->settings.roles.scan);
+  EXPECT_FALSE(some->settings.roles.serve);
+  EXPECT_TRUE(some->settings.roles.build && some->settings.roles.scan);
+  EXPECT_THAT(parse({"--roles", "serve,bild"}).error().message,
+              HasSubstr("--roles: 'bild' is no role; give some of serve, build and scan"));
+  EXPECT_FALSE(parse({"--roles", ""}));
+}
+
 TEST(CommandLine, TheReferenceNamesEveryOption) {
   const std::string text = reference();
   for (const Option& option : options()) {

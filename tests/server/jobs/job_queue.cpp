@@ -281,6 +281,7 @@ TEST_F(Jobs, what_three_daemons_have_died_at_has_failed) {
   JobRecord killed = job_for("a");
   killed.state = JobState::kRunning;
   killed.attempts = 1;
+  killed.webhook = "http://museum.example/";
   ASSERT_TRUE(catalogue_->add(killed, {}, {}));
   for (std::uint32_t died = 1; died <= 3; ++died) {
     std::string told;
@@ -430,7 +431,7 @@ TEST_F(Jobs, who_asked_to_is_told_of_every_end_once) {
   });
   queue->when_ended([&](const JobStatus& job) { ends.push_back(job); });
   JobRecord good = job_for("a"), bad = job_for("b");
-  good.webhook = "http://museum.example/";
+  good.webhook = bad.webhook = "http://museum.example/";
   ASSERT_TRUE(queue->add(good, {}, {}));
   settle(*queue);
   ASSERT_TRUE(queue->add(bad, {}, {}));

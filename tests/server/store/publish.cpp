@@ -49,8 +49,9 @@ class Publish : public testing::Test {
 class FullCatalogue final : public test::CatalogueBefore {
  public:
   using test::CatalogueBefore::CatalogueBefore;
-  Expected<void> add(const ModelRecord&, std::span<const ChunkPlace>) override {
-    return fail(ErrorCode::kIo, "the disk is full; free some space");
+  Expected<void> add(const ModelRecord&, std::span<const ChunkPlace>,
+                     const std::optional<JobClaim>&) override {
+    return fail(ErrorCode::kLimit, "the disk is full; free some space");
   }
 };
 

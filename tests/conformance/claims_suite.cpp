@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several daemons share the jobs of one catalogue.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <thread>
+
+#include "conformance/id_of.h"
+#include "conformance/jobs_suite.h"
+
+namespace vitrine::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::array kBuilds{JobKind::kPublish};
+const Lease kLong{"long", 1h};
+const Lease kOver{"over", -1s};  // it has run out at once
+
+JobRecord job(std::uint8_t value, JobState state = JobState::kQueued) {
+  return {.id = id_of(value), .kind = JobKind::kPublish, .state = state};
+}
+
+ModelRecord model(std::uint8_t value) {
+  ModelRecord record;
+  record.id = id_of(value);
+  return record;
+}
+
+class Claims : public testing::Test {
+ protected:
+  std::unique_ptr<JobsBackend> backend_ = make_jobs_backend();
+  std::unique_ptr<JobCatalogue> jobs_ = backend_->connect();
+  std::unique_ptr<Catalogue> models_ = backend_->connect_models();
+
+  void add(const JobRecord& record) { ASSERT_TRUE(jobs_->add(record, {}, {})); }
+  JobRecord claim(std::uint8_t value, const Lease& lease) {
+    const auto claimed = jobs_->claim(id_of(value), lease).value();
+    EXPECT_TRUE(claimed);
+    return claimed.value_or(JobRecord());
+  }
+  bool is_waiting(std::uint8_t value) {
+    const auto waiting = jobs_->waiting_jobs(kBuilds, 100).value();
+    return std::ranges::find(waiting, id_of(value), &JobRecord::id) != waiting.end();
+  }
+};
+
+TEST_F(Claims, a_job_that_waits_is_taken_once) {
+  add(job(1));
+  const JobRecord taken = claim(1, kLong);
+  EXPECT_EQ(taken.state, JobState::kRunning);
+  EXPECT_EQ(taken.fence, 1u);
+  EXPECT_EQ(taken.attempts, 1u);
+  EXPECT_EQ(jobs_->find_job(id_of(1)).value(), taken);
+  EXPECT_EQ(backend_->connect()->claim(id_of(1), {"other", 1h}).value(), std::nullopt);
+  EXPECT_FALSE(is_waiting(1));
+}
+
+TEST_F(Claims, of_many_who_want_it_at_a_time_one_has_it) {
+  for (std::uint8_t round = 1; round <= 10; ++round) {
+    add(job(round));
+    std::atomic<int> takers = 0;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) {
+      threads.emplace_back([&, other = std::shared_ptr(backend_->connect())] {
+        const auto claimed = other->claim(id_of(round), kLong);
+        ASSERT_TRUE(claimed) << claimed.error().message;
+        takers += *claimed ? 1 : 0;
+      });
+    }
+    for (std::thread& thread : threads)
+      thread.join();
+    EXPECT_EQ(takers, 1);
+  }
+}
+
+TEST_F(Claims, who_has_let_the_lease_run_out_changes_nothing_once_another_has_the_job) {
+  add(job(1));
+  JobRecord late = claim(1, kOver);
+  EXPECT_TRUE(is_waiting(1));
+  const JobRecord next = claim(1, kLong);
+  EXPECT_EQ(next.fence, late.fence + 1);
+  EXPECT_EQ(jobs_->renew(late, 1h).error().code, ErrorCode::kState);
+  late.state = JobState::kDone;
+  EXPECT_EQ(jobs_->update(late).error().code, ErrorCode::kState);
+  const auto added = models_->add(model(1), {}, JobClaim{late.id, late.fence});
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().code, ErrorCode::kState);
+  EXPECT_EQ(models_->find(id_of(1)).value(), std::nullopt);
+  EXPECT_EQ(jobs_->find_job(id_of(1)).value(), next);
+}
+
+TEST_F(Claims, a_model_and_that_its_job_has_made_it_are_known_at_once) {
+  add(job(1));
+  const JobRecord mine = claim(1, kLong);
+  ASSERT_TRUE(models_->add(model(7), {}, JobClaim{mine.id, mine.fence}));
+  EXPECT_TRUE(models_->find(id_of(7)).value());
+  EXPECT_EQ(jobs_->find_job(id_of(1)).value()->model, id_of(7));
+  EXPECT_FALSE(models_->add(model(7), {}, JobClaim{mine.id, mine.fence})) << "it exists";
+}
+
+TEST_F(Claims, a_model_is_changed_by_who_has_the_job_alone) {
+  ASSERT_TRUE(models_->add(model(7), {}));
+  add(job(1));
+  const JobRecord late = claim(1, kOver), next = claim(1, kLong);
+  ModelRecord changed = model(7);
+  changed.title = "A head";
+  EXPECT_FALSE(models_->update(changed, std::nullopt, JobClaim{late.id, late.fence}));
+  EXPECT_EQ(models_->find(id_of(7)).value()->title, "");
+  EXPECT_TRUE(models_->update(changed, std::nullopt, JobClaim{next.id, next.fence}));
+  EXPECT_EQ(models_->find(id_of(7)).value()->title, "A head");
+}
+
+TEST_F(Claims, a_lease_that_is_renewed_goes_on_and_tells_how_far_the_job_is) {
+  add(job(1));
+  JobRecord mine = claim(1, kOver);
+  mine.stage = "building";
+  mine.progress = 0.5;
+  EXPECT_FALSE(jobs_->renew(mine, 1h).value());
+  EXPECT_FALSE(is_waiting(1));
+  EXPECT_EQ(backend_->connect()->find_job(id_of(1)).value(), mine);
+}
+
+TEST_F(Claims, a_job_that_is_put_back_waits_at_once) {
+  add(job(1));
+  JobRecord mine = claim(1, kLong);
+  mine.state = JobState::kQueued;
+  ASSERT_TRUE(jobs_->update(mine));
+  EXPECT_TRUE(is_waiting(1));
+}
+
+TEST_F(Claims, what_nobody_works_on_is_cancelled_at_once) {
+  for (const std::uint8_t value : std::array<std::uint8_t, 3>{1, 2, 3})
+    add(job(value, value == 3 ? JobState::kPaused : JobState::kQueued));
+  const JobRecord late = claim(2, kOver);
+  for (const std::uint8_t value : std::array<std::uint8_t, 3>{1, 2, 3}) {
+    const JobRecord cancelled = jobs_->cancel(id_of(value), 1'700'000'000'000).value();
+    EXPECT_EQ(cancelled.state, JobState::kCancelled);
+    EXPECT_EQ(cancelled.ended, 1'700'000'000'000);
+    EXPECT_EQ(jobs_->find_job(id_of(value)).value(), cancelled);
+    EXPECT_EQ(jobs_->cancel(id_of(value), 1).error().code, ErrorCode::kState);
+    EXPECT_EQ(jobs_->claim(id_of(value), kLong).value(), std::nullopt);
+  }
+  EXPECT_FALSE(jobs_->update(late));
+  EXPECT_EQ(jobs_->cancel(id_of(9), 1).error().code, ErrorCode::kState);
+}
+
+TEST_F(Claims, who_works_on_a_job_hears_that_it_is_to_be_cancelled) {
+  add(job(1));
+  const JobRecord mine = claim(1, kLong);
+  EXPECT_EQ(backend_->connect()->cancel(id_of(1), 1).value(), mine);
+  EXPECT_TRUE(jobs_->renew(mine, 1h).value());
+  JobRecord ended = mine;
+  ended.state = JobState::kCancelled;
+  EXPECT_TRUE(jobs_->update(ended));
+}
+
+TEST_F(Claims, what_a_dead_holder_had_waits_and_what_others_have_stays_theirs) {
+  add(job(1));
+  add(job(2));
+  claim(1, {"dead", 1h});
+  claim(2, {"alive", 1h});
+  ASSERT_TRUE(jobs_->drop_leases("dead"));
+  EXPECT_TRUE(is_waiting(1));
+  EXPECT_FALSE(is_waiting(2));
+}
+
+TEST_F(Claims, the_oldest_that_wait_come_first_and_of_the_wanted_kinds_alone) {
+  for (const std::uint8_t value : std::array<std::uint8_t, 3>{3, 1, 2})
+    add(job(value));
+  add(job(4, JobState::kPaused));
+  add(job(5, JobState::kDone));
+  JobRecord scan = job(6);
+  scan.kind = JobKind::kScan;
+  add(scan);
+  const auto ids = [&](std::span<const JobKind> kinds, std::uint32_t limit) {
+    std::vector<JobId> found;
+    const auto waiting = jobs_->waiting_jobs(kinds, limit).value();
+    for (const JobRecord& one : waiting)
+      found.push_back(one.id);
+    return found;
+  };
+  EXPECT_EQ(ids(kBuilds, 2), (std::vector{id_of(1), id_of(2)}));
+  EXPECT_EQ(ids(kBuilds, UINT32_MAX).size(), 3u);
+  EXPECT_EQ(ids(std::array{JobKind::kCalibrate, JobKind::kScan}, 9), std::vector{id_of(6)});
+  EXPECT_TRUE(ids({}, 9).empty());
+}
+
+TEST_F(Claims, an_end_is_told_by_one_and_by_another_once_that_one_is_dead) {
+  JobRecord ended = job(1, JobState::kDone);
+  ended.webhook = "http://museum.example/told";
+  add(ended);
+  add(job(2, JobState::kDone));  // which nobody wants to hear of
+  EXPECT_EQ(jobs_->claim_untold({"teller", 1h}).value(), std::vector{ended});
+  EXPECT_TRUE(backend_->connect()->claim_untold({"other", 1h}).value().empty());
+  ASSERT_TRUE(jobs_->drop_leases("teller"));
+  EXPECT_EQ(jobs_->claim_untold(kOver).value(), std::vector{ended});
+  EXPECT_EQ(jobs_->claim_untold(kOver).value(), std::vector{ended});
+  ASSERT_TRUE(jobs_->set_told(id_of(1)));
+  EXPECT_TRUE(jobs_->claim_untold(kOver).value().empty());
+}
+
+TEST_F(Claims, the_steps_of_jobs_are_no_change_of_what_visitors_see) {
+  const auto before = models_->revision().value();
+  add(job(1));
+  const JobRecord mine = claim(1, kLong);
+  ASSERT_TRUE(jobs_->renew(mine, 1h));
+  EXPECT_EQ(models_->revision().value(), before);
+  ASSERT_TRUE(models_->add(model(7), {}, JobClaim{mine.id, mine.fence}));
+  EXPECT_NE(models_->revision().value(), before);
+}
+
+}  // namespace
+}  // namespace vitrine::test

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Daemons that share the jobs of one catalogue.
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "server/catalogue/sqlite_jobs.h"
+#include "server/jobs/job_queue.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine {
+namespace {
+
+JobRecord upload() {
+  JobRecord job;
+  job.id = JobId::generate();
+  job.kind = JobKind::kPublish;
+  job.webhook = "http://museum.example/";
+  return job;
+}
+
+// A daemon whose only job goes on until it is let go or something is wished of it.
+class Builder {
+ public:
+  Builder(JobCatalogue& catalogue, const Log& events, const std::string& holder)
+      : queue_(catalogue, events, [this](JobRun& run) { return work(run); },
+               {.builds = true, .scans = false, .holder = holder}) {
+    queue_.when_ended([this](const JobStatus& job) { told_.push_back(job.record.state); });
+  }
+  ~Builder() { let_go(); }
+
+  JobQueue& queue() { return queue_; }
+  void await_beginning() { begun_.get_future().wait(); }
+  void let_go() {
+    const std::scoped_lock lock(mutex_);
+    goes_ = true;
+    changed_.notify_all();
+  }
+  JobWish end() { return ended_.get_future().get(); }  // what was wished of it
+  void settle() {
+    queue_.lane("").run([] {});
+  }
+  const std::vector<JobState>& told() const { return told_; }
+
+ private:
+  Expected<JobEnd> work(JobRun& run) {
+    const Reaction reaction(run, [this] { let_go(); });
+    run.report("building", 0.5);
+    begun_.set_value();
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return goes_; });
+    }
+    const JobWish wished = run.wish();
+    ended_.set_value(wished);
+    return wished == JobWish::kNone ? JobEnd::kDone : JobEnd::kPutAside;
+  }
+
+  std::promise<void> begun_;
+  std::promise<JobWish> ended_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool goes_ = false;
+  std::vector<JobState> told_;
+  JobQueue queue_;
+};
+
+class SharedJobs : public testing::Test {
+ protected:
+  JobState stored(const JobRecord& job) { return catalogue_->find_job(job.id).value()->state; }
+  void add(const JobRecord& job) { ASSERT_TRUE(front_.add(job, {}, {})); }
+
+  test::TemporaryFolder folder_;
+  std::unique_ptr<JobCatalogue> catalogue_ =
+      open_sqlite_jobs(folder_.path() / "catalogue.sqlite").value();
+  const Log events_ = Log::open("").value();
+  JobQueue front_{*catalogue_, events_, {}, {.builds = false, .scans = false, .holder = "front"}};
+  Builder first_{*catalogue_, events_, "first"}, second_{*catalogue_, events_, "second"};
+};
+
+TEST_F(SharedJobs, what_one_takes_in_another_does_and_the_first_sees_how_far_it_is) {
+  const JobRecord job = upload();
+  add(job);
+  const auto watched = front_.watch(job.id).value();
+  ASSERT_TRUE(watched);
+  EXPECT_EQ(watched->job().state, JobState::kQueued);
+  first_.queue().beat();
+  first_.await_beginning();
+  first_.queue().beat();
+  front_.beat();
+  EXPECT_EQ(watched->job().state, JobState::kRunning);
+  EXPECT_EQ(watched->job().stage, "building");
+  EXPECT_EQ(watched->job().progress, 0.5);
+  second_.queue().beat();
+  EXPECT_EQ(second_.queue().run(job.id), nullptr);
+  first_.let_go();
+  EXPECT_EQ(first_.end(), JobWish::kNone);
+  first_.settle();
+  front_.beat();
+  EXPECT_EQ(watched->job().state, JobState::kDone);
+  EXPECT_EQ(front_.watch(job.id).value(), nullptr);
+  EXPECT_EQ(front_.find(job.id).value()->record.state, JobState::kDone);
+  EXPECT_EQ(first_.told(), std::vector{JobState::kDone});
+}
+
+TEST_F(SharedJobs, who_was_away_beyond_the_lease_stops_and_leaves_the_job_to_another) {
+  const JobRecord job = upload();
+  add(job);
+  first_.queue().beat();
+  first_.await_beginning();
+  const auto watched = first_.queue().run(job.id);
+  ASSERT_TRUE(catalogue_->drop_leases("first"));  // as time does
+  second_.queue().beat();
+  second_.await_beginning();
+  first_.queue().beat();
+  EXPECT_EQ(first_.end(), JobWish::kLost);
+  first_.settle();
+  EXPECT_EQ(first_.queue().run(job.id), nullptr);
+  EXPECT_EQ(stored(job), JobState::kRunning);
+  second_.queue().beat();
+  second_.let_go();
+  EXPECT_EQ(second_.end(), JobWish::kNone);
+  second_.settle();
+  EXPECT_EQ(stored(job), JobState::kDone);
+  first_.queue().beat();
+  EXPECT_EQ(watched->job().state, JobState::kDone);
+  EXPECT_TRUE(first_.told().empty());
+  EXPECT_EQ(second_.told(), std::vector{JobState::kDone});
+}
+
+TEST_F(SharedJobs, an_end_that_comes_too_late_is_none) {
+  const JobRecord job = upload();
+  add(job);
+  first_.queue().beat();
+  first_.await_beginning();
+  ASSERT_TRUE(catalogue_->drop_leases("first"));
+  second_.queue().beat();
+  second_.await_beginning();
+  first_.let_go();
+  EXPECT_EQ(first_.end(), JobWish::kNone);
+  first_.settle();
+  EXPECT_EQ(stored(job), JobState::kRunning);
+  EXPECT_EQ(first_.queue().find(job.id).value()->record.state, JobState::kRunning);
+  EXPECT_TRUE(first_.told().empty());
+}
+
+TEST_F(SharedJobs, whoever_cancels_a_job_reaches_who_does_it) {
+  const JobRecord job = upload();
+  add(job);
+  first_.queue().beat();
+  first_.await_beginning();
+  EXPECT_EQ(front_.cancel(job.id)->record.state, JobState::kRunning);
+  first_.queue().beat();
+  EXPECT_EQ(first_.end(), JobWish::kCancel);
+  first_.settle();
+  EXPECT_EQ(stored(job), JobState::kCancelled);
+}
+
+TEST_F(SharedJobs, what_is_cancelled_before_anybody_begins_is_never_begun) {
+  const JobRecord job = upload();
+  std::promise<void> go;
+  first_.queue().lane("").post([&] { go.get_future().wait(); });
+  ASSERT_TRUE(first_.queue().add(job, {}, {}));
+  EXPECT_EQ(front_.cancel(job.id)->record.state, JobState::kCancelled);
+  go.set_value();
+  first_.settle();
+  EXPECT_EQ(stored(job), JobState::kCancelled);
+  EXPECT_EQ(first_.queue().find(job.id).value()->record.state, JobState::kCancelled);
+  EXPECT_EQ(first_.queue().run(job.id), nullptr);
+}
+
+}  // namespace
+}  // namespace vitrine
