@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// endurance.mjs BIN_FOLDER MODEL [SWITCHES]: one page shows two models in turn, refining each to the
-// last triangle, 100 times by default; prints the JavaScript heap of the page and the memory of the
-// daemon on the way and fails where either ends more than a quarter above the first tenth.
+// endurance.mjs BIN_FOLDER MODEL [SWITCHES [MINUTES]]: a page whose worker lives on shows two models in
+// turn, refining each to the last triangle, 100 times; then one of them turns by itself for 20 minutes
+// while its camera comes near and goes away. Prints on the way what page, worker, WebAssembly, WebGL and
+// daemon hold, and fails where the second half of either part has more than a tenth (and 1 MB) above the first.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { ViewerPage, launch } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
+import { Memory, countWebGl } from "./memory.mjs";
 
-const [bin, scan, count = "100"] = process.argv.slice(2);
-const switches = Number(count);
-if (!scan || !(switches > 0)) {
-  console.error("usage: endurance.mjs BIN_FOLDER MODEL [SWITCHES]");
+const kSamples = 10, kMost = 1.1, kNoise = 1; // what waits for a collection of garbage is some of the time in a sample
+const kOrbits = ["30deg 75deg 60%", "120deg 60deg 30%", "210deg 90deg 150%", "300deg 75deg 40%"];
+const kStay = 5000; // ms at each of them
+
+const [bin, scan, switches = 100, minutes = 20] = process.argv.slice(2).map((word, i) => (i < 2 ? word : Number(word)));
+if (!scan || !(switches >= kSamples) || !(minutes >= 0)) {
+  console.error(`usage: endurance.mjs BIN_FOLDER MODEL [SWITCHES [MINUTES]]   SWITCHES at least ${kSamples}`);
   process.exit(2);
 }
 
@@ -21,34 +26,79 @@ try {
   for (const title of ["one", "two"]) {
     sources.push((await daemon.publish(scan, title)).replace("/models/", "/api/v1/models/"));
   }
-  const viewer = await ViewerPage.open(browser, sources[0].replace("/api/v1", ""));
+  const viewer = await ViewerPage.open(browser, sources[0].replace("/api/v1", ""), { init: countWebGl, reducedMotion: "no-preference" });
+  viewer.page.setDefaultTimeout(300_000);
   await viewer.releaseLayers();
   await viewer.events("load");
-  const devtools = await viewer.page.context().newCDPSession(viewer.page);
-
-  const measure = async () => {
-    await devtools.send("HeapProfiler.collectGarbage");
-    const { usedSize } = await devtools.send("Runtime.getHeapUsage");
-    const status = await readFile(`/proc/${daemon.child.pid}/status`, "utf8");
-    return { page: usedSize / 1e6, daemon: Number(status.match(/VmRSS:\s+(\d+)/)[1]) / 1e3 };
-  };
-
-  let first;
-  for (let i = 1; i <= switches; ++i) {
-    await viewer.settled(() =>
-      viewer.page.locator("progressive-mesh").evaluate((element, src) => element.setAttribute("src", src), sources[i % 2]));
-    if (i % Math.ceil(switches / 10) !== 0) continue;
-    const now = await measure();
-    first ??= now;
-    console.log(`${i} switches: page ${now.page.toFixed(1)} MB, daemon ${now.daemon.toFixed(1)} MB`);
-    if (i === switches) {
-      for (const part of ["page", "daemon"]) {
-        assert.ok(now[part] <= 1.25 * first[part], `the ${part} grew from ${first[part]} to ${now[part]} MB`);
-      }
-    }
+  await companion(viewer, sources[0]);
+  const memory = await Memory.of(viewer.page);
+  await endure(`${switches} switches`, memory, (tenth) => switchModels(viewer, sources, tenth));
+  if (minutes > 0) {
+    await turn(viewer);
+    await endure(`${minutes} minutes of turning`, memory, () => lookAround(viewer, 60_000 * minutes / kSamples));
   }
   assert.deepEqual(await viewer.complaints(), []);
 } finally {
   await browser.close();
   await daemon.stop();
+}
+
+/** A second viewer, at its base mesh: it keeps the worker. */
+async function companion({ page }, src) {
+  await page.evaluate((url) => new Promise((resolve) => {
+    const second = document.createElement("progressive-mesh");
+    second.addEventListener("load", resolve, { once: true });
+    second.dataset.dressed = second.id = "companion";
+    second.setAttribute("max-triangles", "0");
+    second.src = url;
+    document.body.append(second);
+  }), src);
+}
+
+/** Does a tenth of the work again and again and looks at what is held after each. */
+async function endure(what, memory, work) {
+  const samples = [];
+  for (let tenth = 0; tenth < kSamples; ++tenth) {
+    await work(tenth);
+    await memory.page.evaluate(() => (window.seen.length = 0)); // the test's own list of events
+    const held = { ...(await memory.measure()), daemon: await residentMegabytes() };
+    samples.push(held);
+    console.log(`${tenth + 1}/${kSamples} of ${what}: ${Object.entries(held).map(([name, value]) => `${name} ${+value.toFixed(1)}`).join(", ")}`);
+  }
+  const mean = (some, name) => some.reduce((sum, held) => sum + held[name], 0) / some.length;
+  const halves = Object.keys(samples[0]).map((name) => [name, mean(samples.slice(0, kSamples / 2), name), mean(samples.slice(kSamples / 2), name)]);
+  const growth = ([name, first, second]) => `${name} ${second < first ? "" : "+"}${(100 * (second / first - 1)).toFixed(1)} %`;
+  console.log(`second half of ${what} against the first: ${halves.map(growth).join(", ")}`);
+  const grown = halves.filter(([, first, second]) => second > kMost * first + kNoise);
+  assert.deepEqual(grown, [], `more in the second half of ${what}`);
+}
+
+async function switchModels(viewer, sources, tenth) {
+  const [from, to] = [tenth, tenth + 1].map((n) => 2 * Math.round(n * switches / kSamples / 2)); // ends with the model it began with
+  for (let i = from; i < to; ++i) {
+    await viewer.settled(() => viewer.page.locator("progressive-mesh").first().evaluate((element, src) => (element.src = src), sources[(i + 1) % 2]));
+  }
+}
+
+function turn({ page }) {
+  return page.locator("progressive-mesh").first().evaluate((element) => {
+    element.setAttribute("pixel-error", "1");
+    element.toggleAttribute("auto-rotate", true);
+  });
+}
+
+/** For so many ms, at least once around the orbits. */
+async function lookAround(viewer, milliseconds) {
+  const end = performance.now() + milliseconds;
+  do {
+    for (const orbit of kOrbits) {
+      const moved = viewer.page.locator("progressive-mesh").first().evaluate((element, to) => element.setAttribute("camera-orbit", to), orbit);
+      await Promise.all([moved, new Promise((resolve) => setTimeout(resolve, Math.min(kStay, milliseconds / kOrbits.length)))]);
+    }
+  } while (performance.now() < end);
+}
+
+async function residentMegabytes() {
+  const status = await readFile(`/proc/${daemon.child.pid}/status`, "utf8");
+  return Number(status.match(/VmRSS:\s+(\d+)/)[1]) / 1e3;
 }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a page with viewers holds: JavaScript's heap and arrays of page and worker, WebAssembly's
+// memory, and WebGL's objects with the bytes of its buffers.
+import { once } from "node:events";
+
+/** Runs in the page before its own scripts: counts what each living context has. */
+export function countWebGl() {
+  const contexts = new Map(), kinds = ["Buffer", "Texture", "Program", "Shader", "VertexArray", "Framebuffer", "Renderbuffer"];
+  const prototype = WebGL2RenderingContext.prototype;
+  const wrap = (name, after) => {
+    const original = prototype[name];
+    prototype[name] = function (...words) {
+      const result = original.apply(this, words);
+      after(this, words, result);
+      return result;
+    };
+  };
+  const objects = (gl) => contexts.get(gl) ?? (contexts.set(gl, new Map()), contexts.get(gl));
+  const bound = new WeakMap(); // context to what is bound where
+  for (const kind of kinds) {
+    wrap(`create${kind}`, (gl, _, made) => objects(gl).set(made, 0));
+    wrap(`delete${kind}`, (gl, [gone]) => objects(gl).delete(gone));
+  }
+  wrap("bindBuffer", (gl, [target, buffer]) => bound.set(gl, { ...bound.get(gl), [target]: buffer }));
+  wrap("bufferData", (gl, [target, data]) => objects(gl).set(bound.get(gl)[target], data?.byteLength ?? data));
+  wrap("getExtension", (gl, [name], extension) => {
+    if (name !== "WEBGL_lose_context" || !extension) return;
+    const lose = extension.loseContext;
+    extension.loseContext = () => (contexts.delete(gl), lose.call(extension));
+  });
+  window.webGl = () => {
+    const all = [...contexts.values()].flatMap((held) => [...held.values()]);
+    return { contexts: contexts.size, objects: all.length, bytes: all.reduce((sum, bytes) => sum + bytes, 0) };
+  };
+}
+
+/** Runs in the worker: knows the memory of each decoder from now on, as long as it lives. */
+function countWebAssembly() {
+  const memories = [], { instantiate } = WebAssembly;
+  WebAssembly.instantiate = async (...words) => {
+    const instance = await instantiate.apply(WebAssembly, words);
+    memories.push(new WeakRef(instance.exports.memory));
+    return instance;
+  };
+  self.webAssemblyBytes = () => memories.reduce((sum, memory) => sum + (memory.deref()?.buffer.byteLength ?? 0), 0);
+}
+
+export class Memory {
+  /** Of a page that has a worker already; decoders that are there do not count. */
+  static async of(page) {
+    const devtools = await page.context().newCDPSession(page);
+    const attached = once(devtools, "Target.attachedToTarget");
+    await devtools.send("Target.setAutoAttach", { autoAttach: true, waitForDebuggerOnStart: false, flatten: false });
+    const [{ sessionId }] = await attached;
+    const memory = new Memory(page, devtools, sessionId);
+    await memory.#ask("Runtime.evaluate", { expression: `(${countWebAssembly})()` });
+    return memory;
+  }
+
+  #last = 0;
+
+  constructor(page, devtools, worker) {
+    Object.assign(this, { page, devtools, worker });
+  }
+
+  /** After a collection of garbage, in MB; objects of WebGL as their number. */
+  async measure() {
+    await this.devtools.send("HeapProfiler.collectGarbage");
+    await this.#ask("HeapProfiler.collectGarbage");
+    const page = await this.devtools.send("Runtime.getHeapUsage"), worker = await this.#ask("Runtime.getHeapUsage");
+    const wasm = await this.#ask("Runtime.evaluate", { expression: "webAssemblyBytes()" });
+    const { objects, bytes } = await this.page.evaluate(() => window.webGl());
+    return {
+      "page's heap": page.usedSize / 1e6, "page's arrays": page.backingStorageSize / 1e6,
+      "worker's heap": worker.usedSize / 1e6, "worker's arrays": worker.backingStorageSize / 1e6,
+      "WebAssembly": wasm.result.value / 1e6, "WebGL objects": objects, "WebGL buffers": bytes / 1e6,
+    };
+  }
+
+  /** Asks the worker's inspector. */
+  async #ask(method, params) {
+    const id = ++this.#last;
+    const answer = new Promise((resolve) => {
+      const hear = ({ message }) => {
+        const { id: to, result } = JSON.parse(message);
+        if (to !== id) return;
+        this.devtools.off("Target.receivedMessageFromTarget", hear);
+        resolve(result);
+      };
+      this.devtools.on("Target.receivedMessageFromTarget", hear);
+    });
+    await this.devtools.send("Target.sendMessageToTarget", { sessionId: this.worker, message: JSON.stringify({ id, method, params }) });
+    return answer;
+  }
+}
