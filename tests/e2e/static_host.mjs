@@ -3,14 +3,16 @@
 import { once } from "node:events";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
+import { promisify } from "node:util";
+import { gzip } from "node:zlib";
 
 const dist = new URL("../../web/dist/", import.meta.url);
 const kTypes = { js: "text/javascript", wasm: "application/wasm", html: "text/html" };
 
 export class StaticHost {
-  /** `range`: parts of files are served; `cors`: pages of other origins may read them. */
-  static async start({ range = true, cors = false } = {}) {
-    const host = new StaticHost(range, cors);
+  /** `range`: parts of files are served; `cors`: pages of other origins may read them; `tuned`: code is compressed, and browsers keep it. */
+  static async start({ range = true, cors = false, tuned = false } = {}) {
+    const host = new StaticHost({ range, cors, tuned });
     host.server.listen(0, "127.0.0.1");
     await once(host.server, "listening");
     host.url = `http://127.0.0.1:${host.server.address().port}`;
@@ -19,9 +21,10 @@ export class StaticHost {
 
   files = new Map();
   asked = []; // "GET /model.pmesh bytes=0-32767"
+  sent = []; // { path, bytes, at }: when it was asked for, as Date.now()
 
-  constructor(range, cors) {
-    Object.assign(this, { range, cors });
+  constructor(options) {
+    Object.assign(this, options);
     this.server = createServer((request, response) => this.#answer(request, response).catch(() => response.writeHead(404).end()));
   }
 
@@ -44,14 +47,22 @@ export class StaticHost {
 
   async #answer({ url, method, headers }, response) {
     this.asked.push([method, url, headers.range].filter(Boolean).join(" "));
-    const path = url.replace(/\?.*/, "");
+    const path = url.replace(/\?.*/, ""), at = Date.now();
     const body = this.files.get(path) ?? (await readFile(new URL(`.${path}`, dist)));
     const type = { "Content-Type": kTypes[path.split(".").pop()] ?? "application/octet-stream" };
     const open = this.cors ? { "Access-Control-Allow-Origin": "*" } : {};
     const [, first, last] = (this.range && /^bytes=(\d+)-(\d+)$/.exec(headers.range ?? "")) || [];
-    if (first === undefined) return void response.writeHead(200, { ...type, ...open }).end(body);
+    const end = (status, fields, bytes) => {
+      this.sent.push({ path, bytes: bytes.length, at });
+      response.writeHead(status, { ...type, ...open, ...fields }).end(bytes);
+    };
+    if (first === undefined) {
+      if (!this.tuned || !/^(text|application\/wasm)/.test(type["Content-Type"])) return end(200, {}, body);
+      const fields = { "Content-Encoding": "gzip", ...(path.endsWith("html") ? {} : { "Cache-Control": "max-age=31536000, immutable" }) };
+      return end(200, fields, await promisify(gzip)(body, { level: 9 }));
+    }
     const part = body.subarray(Number(first), Number(last) + 1);
     const place = { "Content-Range": `bytes ${first}-${Number(first) + part.length - 1}/${body.length}` };
-    response.writeHead(206, { ...type, ...open, ...place }).end(part);
+    end(206, place, part);
   }
 }

@@ -12,7 +12,7 @@ function setUp(chunks: number, headBytes?: number) {
   const waits: number[] = [];
   let go: () => void = () => undefined;
   const wait = (milliseconds: number) => new Promise<void>((resolve) => (waits.push(milliseconds), (go = resolve)));
-  const session = new Session(source, decoder, async () => base, sink, wait);
+  const session = new Session(source, decoder, async () => base, sink, new AbortController(), wait);
   return { source, decoder, sink, session, waits, go: () => go() };
 }
 

@@ -45,7 +45,7 @@ export function assetsBeside(moduleUrl: string): Assets {
   };
 }
 
-/** A model whose session lives in the worker. */
+/** A model whose session lives in the worker, which starts at once; what it says waits for its listener. */
 export class RemoteModel {
   readonly #id = ++lastId;
   readonly #url: string;
@@ -55,16 +55,27 @@ export class RemoteModel {
   #ready = false;
   #stops = 0; // of its decoder, since it last reached what was wanted
   #lost: ModelError | undefined;
+  #listener: ModelListener | undefined;
+  #unheard: ((listener: ModelListener) => void)[] = [];
 
   constructor(
     url: string,
     private readonly transport: Transport,
     private readonly assets: Assets,
-    private readonly listener: ModelListener,
   ) {
     this.#url = new URL(url, document.baseURI).href;
     models.set(this.#id, this);
     this.#open(false);
+  }
+
+  set listener(listener: ModelListener) {
+    this.#listener = listener;
+    for (const tell of this.#unheard.splice(0)) tell(listener);
+  }
+
+  #tell(tell: (listener: ModelListener) => void): void {
+    if (this.#listener) tell(this.#listener);
+    else this.#unheard.push(tell);
   }
 
   /** Resolves with true when `want` is reached and shown, with false when superseded or closed. */
@@ -95,11 +106,11 @@ export class RemoteModel {
   }
 
   receive(message: FromWorker): void {
-    if (message.type === "opened") this.listener.opened(message.info);
+    if (message.type === "opened") this.#tell((listener) => listener.opened(message.info));
     else if (message.type === "ready") this.#ready = true;
-    else if (message.type === "progress") this.listener.progress(message.progress);
-    else if (message.type === "stalled") this.listener.stalled(message.reason);
-    else if (message.type === "block") this.listener.block(message.block);
+    else if (message.type === "progress") this.#tell((listener) => listener.progress(message.progress));
+    else if (message.type === "stalled") this.#tell((listener) => listener.stalled(message.reason));
+    else if (message.type === "block") this.#tell((listener) => listener.block(message.block));
     else if (message.type === "change") this.#show(message.change);
     else if (message.type === "settled") this.#reach(message.turn, message.reached);
     else if (message.type === "failed") this.#fail(message.turn, new ModelError(message.message));
@@ -114,7 +125,8 @@ export class RemoteModel {
     budget.release(this);
     for (const turn of this.#turns.values()) turn.reject(this.#lost);
     this.#turns.clear();
-    this.listener.failed(this.#lost);
+    const lost = this.#lost;
+    this.#tell((listener) => listener.failed(lost));
   }
 
   #open(again: boolean): void {
@@ -136,7 +148,8 @@ export class RemoteModel {
 
   #show(change: Change): void {
     budget.hold(this, { triangles: change.triangles, bytes: change.bytes });
-    this.listener.change(change, () => models.has(this.#id) && send({ type: "shown", id: this.#id }));
+    const shown = () => models.has(this.#id) && send({ type: "shown", id: this.#id });
+    this.#tell((listener) => listener.change(change, shown));
   }
 
   #settle(turn: number): Turn | undefined {
@@ -152,7 +165,7 @@ export class RemoteModel {
 
   #fail(turn: number | undefined, error: ModelError): void {
     if (turn !== undefined) this.#settle(turn)?.reject(error);
-    this.listener.failed(error);
+    this.#tell((listener) => listener.failed(error));
   }
 }
 

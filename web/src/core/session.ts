@@ -56,7 +56,6 @@ interface Fetch {
 }
 
 export class Session {
-  readonly #life = new AbortController();
   readonly #fetches = new Map<number, Fetch>();
   #info: ModelInfo | undefined;
   #turn = 0;
@@ -72,15 +71,17 @@ export class Session {
     private readonly decoder: ModelDecoder,
     private readonly decodeBase: BaseDecoder,
     private readonly sink: Sink,
+    /** Aborted by close(): what the source was asked for already ends with the rest. */
+    private readonly life = new AbortController(),
     private readonly wait: Wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds)),
   ) {}
 
   /** Fetches header and base mesh and shows the base mesh: resolves when it is on display. Requests
    * no enhancement layer. With `again` something finer is on display already, which stays until a
    * want is reached. */
-  async open(again = false): Promise<void> {
-    const { signal } = this.#life;
-    let head = await this.source.head(signal);
+  async open(again = false, asked = this.source.head(this.life.signal)): Promise<void> {
+    const { signal } = this.life;
+    let head = await asked;
     head = await this.#extend(head, this.decoder.headerLength(head));
     const info = (this.#info = this.decoder.open(head));
     const end = info.baseOffset + info.baseLength;
@@ -126,7 +127,7 @@ export class Session {
 
   close(): void {
     ++this.#turn;
-    this.#life.abort();
+    this.life.abort();
     this.source.close();
     this.#abandon([]);
   }
@@ -134,7 +135,7 @@ export class Session {
   async #extend(head: Uint8Array, end: number): Promise<Uint8Array> {
     if (head.length >= end) return head;
     if (end > kMaxHead) throw new ModelError("the model's head is too large for a browser");
-    const rest = await this.source.getBytes({ offset: head.length, length: end - head.length }, this.#life.signal);
+    const rest = await this.source.getBytes({ offset: head.length, length: end - head.length }, this.life.signal);
     const joined = new Uint8Array(end);
     joined.set(head);
     joined.set(rest, head.length);
@@ -216,7 +217,7 @@ export class Session {
   }
 
   async #show(): Promise<void> {
-    while (this.#stale && !this.#life.signal.aborted) {
+    while (this.#stale && !this.life.signal.aborted) {
       this.#stale = false;
       const { change, pieces } = this.#shown.change(this.decoder.surface(), this.decoder.parents, this.#anew);
       this.#anew = false;

@@ -6,7 +6,7 @@ import { decodeBase, type DracoModule } from "./draco.ts";
 import { Lending } from "./lending.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import { Session, type Sink } from "./session.ts";
-import { openSource, type Source } from "./source.ts";
+import { openSource, readAll, type Transport } from "./source.ts";
 import { ModelError } from "./types.ts";
 
 declare const self: {
@@ -14,7 +14,7 @@ declare const self: {
   postMessage(message: FromWorker, transfer?: Transferable[]): void;
 };
 declare function importScripts(url: string): void;
-declare const DracoDecoderModule: (options: { locateFile: () => string }) => Promise<DracoModule>;
+declare const DracoDecoderModule: (options: { wasmBinary: Uint8Array }) => Promise<DracoModule>;
 
 interface Model {
   session: Promise<Session>;
@@ -38,23 +38,33 @@ self.onmessage = ({ data }) => {
 };
 
 function open({ id, url, transport, assets, again }: Extract<ToWorker, { type: "open" }>): void {
-  const session = create(id, () => openSource(url, transport), assets);
-  const opened = session.then((created) => created.open(again));
-  models.set(id, { session, opened, lending: new Lending(), shown: () => undefined });
+  const session = create(id, url, transport, assets);
+  const opened = session.then(({ session: created, head }) => created.open(again, head));
+  models.set(id, { session: session.then((created) => created.session), opened, lending: new Lending(), shown: () => undefined });
   opened
     .then(() => self.postMessage({ type: "ready", id }))
     .catch((error) => fail(id, undefined, error));
 }
 
-async function create(id: number, source: () => Source, assets: Assets): Promise<Session> {
+/** Asks for everything at once: the model's head does not wait for what decodes it. */
+async function create(id: number, url: string, transport: Transport, assets: Assets): Promise<{ session: Session; head: Promise<Uint8Array> }> {
+  const source = openSource(url, transport), life = new AbortController();
+  const head = source.head(life.signal);
   wasm ??= compile(assets.wasm);
   draco ??= loadDraco(assets);
   // Failures are reported where they are waited for; the next model tries again.
+  head.catch(() => undefined);
   wasm.catch(() => (wasm = undefined));
   draco.catch(() => (draco = undefined));
   const loaded = draco;
-  const decoder = await Decoder.create(await wasm);
-  return new Session(source(), decoder, async (bytes, level) => decodeBase(await loaded, bytes, level), sink(id));
+  try {
+    const decoder = await Decoder.create(await wasm);
+    return { session: new Session(source, decoder, async (bytes, level) => decodeBase(await loaded, bytes, level), sink(id), life), head };
+  } catch (error) {
+    life.abort();
+    source.close();
+    throw error;
+  }
 }
 
 function sink(id: number): Sink {
@@ -120,6 +130,8 @@ async function compile(url: string): Promise<WebAssembly.Module> {
 }
 
 async function loadDraco(assets: Assets): Promise<DracoModule> {
+  const binary = fetch(assets.dracoWasm).then((response) => readAll(response, "the decoder of base meshes"));
+  binary.catch(() => undefined); // told below, unless the script fails first
   importScripts(assets.dracoScript);
-  return DracoDecoderModule({ locateFile: () => assets.dracoWasm });
+  return DracoDecoderModule({ wasmBinary: await binary });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // <progressive-mesh src poster alt>
-import { assetsBeside } from "../core/client.ts";
+import { RemoteModel, assetsBeside } from "../core/client.ts";
 import type { Transport } from "../core/source.ts";
 import { ModelError, type Level, type Want } from "../core/types.ts";
 import { textsFor, type Texts } from "../texts/index.ts";
@@ -35,6 +35,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   readonly #panel = new Panel(this.attachShadow({ mode: "open" }));
   readonly #size = new ResizeObserver(() => this.#fit());
   readonly #near = new IntersectionObserver((seen) => seen.some(({ isIntersecting }) => isIntersecting) && void this.#load(), { rootMargin: "50%" });
+  #model: RemoteModel | undefined;
   #stage: Stage | undefined;
   #painted = false; // the stage shows its base mesh: it can be refined and dressed
   #loads = 0;
@@ -139,9 +140,11 @@ export class ProgressiveMeshElement extends HTMLElement {
     if (!src) return;
     const load = this.#loads;
     try {
-      const { Stage } = await import("./stage.ts");
+      this.#model = new RemoteModel(src, this.#transport, assetsBeside(import.meta.url));
+      // All at once: the model and its decoder, the stage and three.js, which the stage would ask for later.
+      const [{ Stage }] = await Promise.all([import("./stage.ts"), import("three")]);
       if (load !== this.#loads) return;
-      const stage = this.#open(new Stage(this.#panel.newCanvas(), src, assetsBeside(import.meta.url), this.#transport));
+      const stage = this.#open(new Stage(this.#panel.newCanvas(), this.#model));
       await stage.mesh.ready;
       if (load !== this.#loads) return;
       await this.#firstPaint(stage);
@@ -256,6 +259,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   }
 
   #fail(error: Error): void {
+    if (!this.#stage) this.#model?.close();
     this.#panel.message = this.#stage ? error.message : `${this.#texts.noWebGl} ${error.message}`;
     this.#emit("error", { message: error.message });
   }
@@ -268,6 +272,8 @@ export class ProgressiveMeshElement extends HTMLElement {
     this.#tools?.detach();
     this.#stage?.dispose();
     this.#stage = undefined;
+    this.#model?.close();
+    this.#model = undefined;
     this.#painted = false;
     this.#panel.reset();
   }

@@ -7,8 +7,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ProgressiveMesh } from "../three/progressive-mesh.ts";
-import type { Assets } from "../core/messages.ts";
-import type { Transport } from "../core/source.ts";
+import type { RemoteModel } from "../core/client.ts";
 import { fieldOfViewOf, orbitOf, targetOf, type Orbit, type Point } from "./camera.ts";
 import { distanceFor, kFieldOfView, kViewpoint } from "./viewpoint.ts";
 
@@ -38,7 +37,7 @@ export class Stage {
   #drawn: (() => void)[] = [];
 
   /** Throws where WebGL is missing. */
-  constructor(canvas: HTMLCanvasElement, url: string, assets: Assets, transport: Transport) {
+  constructor(canvas: HTMLCanvasElement, model: RemoteModel) {
     // What is drawn once must stay, for print and screenshots too.
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -49,7 +48,7 @@ export class Stage {
       this.draw();
       this.onCamera(!this.#placing);
     });
-    this.mesh = new ProgressiveMesh(url, assets, transport);
+    this.mesh = new ProgressiveMesh(model);
     this.mesh.drawBy(this.#renderer);
     for (const type of ["refine", "morph"] as const) this.mesh.addEventListener(type, () => this.draw());
     this.#wires = new Mesh(this.mesh.geometry, new MeshBasicMaterial({ color: 0x1f4e5f, wireframe: true, transparent: true, opacity: 0.45 }));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Loader } from "three";
-import { assetsBeside } from "../core/client.ts";
+import { RemoteModel, assetsBeside } from "../core/client.ts";
 import type { Assets } from "../core/messages.ts";
 import { ProgressiveMesh } from "./progressive-mesh.ts";
 
@@ -25,7 +25,7 @@ export class ProgressiveMeshLoader extends Loader<ProgressiveMesh> {
     onError?: (error: unknown) => void,
   ): void {
     const address = this.manager.resolveURL(this.path + url);
-    const mesh = new ProgressiveMesh(address, this.#assets);
+    const mesh = new ProgressiveMesh(new RemoteModel(address, "auto", this.#assets));
     this.manager.itemStart(url);
     mesh.ready
       .then(() => onLoad(mesh))

@@ -3,9 +3,7 @@ import {
   Box3, BufferGeometry, DoubleSide, Matrix4, Mesh, MeshStandardMaterial, Sphere, Vector3,
   type Material, type Object3DEventMap, type PerspectiveCamera, type WebGLRenderer,
 } from "three";
-import { RemoteModel } from "../core/client.ts";
-import type { Assets } from "../core/messages.ts";
-import type { Transport } from "../core/source.ts";
+import type { RemoteModel } from "../core/client.ts";
 import type { Block, Change, ModelError, ModelInfo, Progress, Surface, Want } from "../core/types.ts";
 import { Geomorph } from "./geomorph.ts";
 import type { Steps } from "./gpu-array.ts";
@@ -46,21 +44,22 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   /** Resolves when the base mesh is in the geometry. */
   readonly ready: Promise<void>;
 
-  constructor(url: string, assets: Assets, transport: Transport = "auto") {
+  constructor(model: RemoteModel) {
     // Scans are open as often as not: who looks into one sees its inside.
     super(new BufferGeometry(), new MeshStandardMaterial({ color: 0xd8d3cb, roughness: 0.85, metalness: 0, side: DoubleSide }));
     this.morph(this.material);
     this.geometry.boundingSphere = new Sphere(); // empty, until there is something
     this.ready = new Promise((resolve, reject) => (this.#base = { resolve, reject }));
     this.onBeforeRender = (renderer) => this.drawBy(renderer);
-    this.#model = new RemoteModel(url, transport, assets, {
+    this.#model = model;
+    model.listener = {
       opened: (info) => this.#open(info),
       change: (change, shown) => this.#accept(change, shown),
       block: (block) => this.#receive(block),
       progress: (progress) => this.dispatchEvent({ type: "progress", ...progress }),
       stalled: (reason) => this.dispatchEvent({ type: "stalled", reason }),
       failed: (error) => this.#fail(error),
-    });
+    };
   }
 
   /** The manifest; known once `ready`. */

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// first_paint.mjs BIN_FOLDER MESH [RUNS]: how long a visitor on a line of 1.6 Mbit/s and 150 ms there and
+// back waits for the first picture, and for one with an error of 1 % of the diagonal, here and with
+// model-viewer and three.js' GLTFLoader, which get the same mesh as a Draco GLB. Everything comes from one
+// static host that compresses code; "cold" browsers have nothing, "warm" ones the code and not the model.
+// Prints medians, and fails unless a warm first picture takes less than 1 s and at most 50 KB of the model,
+// and a cold one less than either peer's.
+import { execFileSync } from "node:child_process";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { launch } from "../../e2e/browser.mjs";
+import { StaticHost } from "../../e2e/static_host.mjs";
+import { diagonal, dracoGlb } from "./draco_glb.mjs";
+import { Line } from "./line.mjs";
+
+const kLine = { rate: 200_000, delay: 75 };
+const kWarm = 1000, kHead = 50_000; // ms, bytes
+const web = new URL("../../../web/", import.meta.url);
+const { build } = createRequire(new URL("package.json", web))("esbuild");
+
+/** Somebody's page with three.js. */
+const kGltf = `
+import { Box3, HemisphereLight, PerspectiveCamera, Scene, Sphere, WebGLRenderer } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { DRACOLoader } from "three/addons/loaders/DRACOLoader.js";
+const renderer = new WebGLRenderer({ antialias: true });
+renderer.setSize(800, 600);
+document.body.append(renderer.domElement);
+const { scene } = await new GLTFLoader().setDRACOLoader(new DRACOLoader().setDecoderPath("/draco/")).loadAsync("/model.glb");
+const world = new Scene().add(scene, new HemisphereLight(0xffffff, 0x8a8178, 3)), camera = new PerspectiveCamera(35, 4 / 3, 0.001, 10000);
+const { center, radius } = new Box3().setFromObject(scene).getBoundingSphere(new Sphere());
+camera.position.copy(center).z += 3.5 * radius;
+renderer.render(world, camera);
+renderer.domElement.dispatchEvent(new Event("load"));`;
+
+const [bin, mesh, runs = "3"] = process.argv.slice(2);
+if (!mesh) {
+  console.error("usage: first_paint.mjs BIN_FOLDER MESH [RUNS]");
+  process.exit(2);
+}
+
+const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
+const host = await StaticHost.start({ tuned: true });
+const line = await Line.to(host.server.address().port, kLine);
+const browser = await launch();
+try {
+  const { fine, pages } = await published();
+  const results = Object.fromEntries(["vitrine, warm", "vitrine, cold", "model-viewer, cold", "GLTFLoader, cold"].map((name) => [name, []]));
+  for (let run = 0; run < Number(runs); ++run) {
+    for (const [name, all] of Object.entries(results)) {
+      const [who, cache] = name.split(", ");
+      all.push(await visit(pages[who], who, cache === "warm" ? pages.other : undefined, fine));
+    }
+  }
+  const medians = Object.fromEntries(Object.entries(results).map(([name, all]) => [name, median(all)]));
+  for (const [name, { paint, fine, model, bytes, task }] of Object.entries(medians)) {
+    console.log(`${name}: first picture after ${paint} ms and ${model} bytes of the model, error of 1 % after ${fine} ms, ${bytes} bytes in all, longest task ${task} ms`);
+  }
+  const { "vitrine, warm": warm, "vitrine, cold": cold, ...peers } = medians;
+  const kept = warm.paint < kWarm && warm.model <= kHead && Object.values(peers).every(({ paint }) => cold.paint < paint);
+  process.exitCode = kept ? 0 : 1;
+} finally {
+  await browser.close();
+  line.stop();
+  host.stop();
+  await rm(folder, { recursive: true });
+}
+
+/** Puts models, viewers and pages on the host; `fine` is how many triangles have an error of 1 % at most. */
+async function published() {
+  const vitrine = (...words) => execFileSync(join(bin, "vitrine"), words, { stdio: ["ignore", "pipe", "inherit"] });
+  const file = join(folder, "model.pmesh"), plain = join(folder, "model.glb");
+  vitrine("build", mesh, "-o", file);
+  vitrine("decode", file, "-o", plain);
+  const glb = await readFile(plain), { levels } = JSON.parse(vitrine("info", file, "--json"));
+  const fine = levels.find(({ max_error: error }) => error <= 0.01 * diagonal(glb)).faces;
+  host.add("model.pmesh", await readFile(file));
+  host.add("other.pmesh", await readFile(file));
+  host.add("model.glb", await dracoGlb(glb));
+  for (const name of ["draco_decoder.wasm", "draco_wasm_wrapper.js"]) {
+    host.add(`draco/${name}`, await readFile(new URL(`node_modules/three/examples/jsm/libs/draco/gltf/${name}`, web)));
+  }
+  host.add("model-viewer.js", await readFile(new URL("node_modules/@google/model-viewer/dist/model-viewer.min.js", web)));
+  const { outputFiles } = await build({ stdin: { contents: kGltf, resolveDir: new URL(".", web).pathname }, bundle: true, minify: true, format: "esm", write: false });
+  host.add("gltf.js", outputFiles[0].contents);
+  const ours = (src) => page(`<script type="module" src="/progressive-mesh.js"></script>
+    <progressive-mesh src="/${src}" camera-controls pixel-error="0"></progressive-mesh>`);
+  return {
+    fine,
+    pages: {
+      vitrine: ours("model.pmesh"), other: ours("other.pmesh"), GLTFLoader: page(`<script type="module" src="/gltf.js"></script>`),
+      "model-viewer": page(`<script>self.ModelViewerElement = { dracoDecoderLocation: "/draco/" }</script>
+        <script type="module" src="/model-viewer.js"></script><model-viewer src="/model.glb" camera-controls></model-viewer>`),
+    },
+  };
+}
+
+function page(body) {
+  const name = `page${host.files.size}.html`;
+  host.add(name, `<!doctype html><link rel="icon" href="data:,"><style>body > * { display: block; width: 800px; height: 600px }</style>${body}`);
+  return `${line.url}/${name}`;
+}
+
+/** The figures of one visit by a browser that has nothing, or what showing `before` twice leaves it. */
+async function visit(url, who, before, fine) {
+  const context = await browser.newContext({ viewport: { width: 900, height: 700 } });
+  await context.addInitScript(watch, fine);
+  for (let i = 0; before && i < 2; ++i) await shown(context, before);
+  host.sent = [];
+  const seen = await shown(context, url);
+  await context.close();
+  const { sent } = host, isModel = ({ path }) => /\.(pmesh|glb)$/.test(path), sum = (some) => some.reduce((all, { bytes }) => all + bytes, 0);
+  return {
+    paint: Math.round(seen.paint), fine: Math.round(seen.fine ?? seen.paint), task: Math.round(seen.task), bytes: sum(sent),
+    model: sum(sent.filter((one) => isModel(one) && one.at < seen.origin + seen.paint)),
+  };
+}
+
+async function shown(context, url) {
+  const tab = await context.newPage();
+  await tab.goto(url, { waitUntil: "commit" });
+  await tab.waitForFunction(() => window.paint.done, null, { timeout: 120_000 });
+  const seen = await tab.evaluate(() => window.paint);
+  await tab.close();
+  return seen;
+}
+
+/** Runs in the page: when the first picture was there, and one with an error of 1 %; done is when all is there. */
+function watch(fine) {
+  const paint = (window.paint = { origin: performance.timeOrigin, task: 0 });
+  new PerformanceObserver((list) => list.getEntries().forEach(({ duration }) => (paint.task = Math.max(paint.task, duration)))).observe({ type: "longtask", buffered: true });
+  const drawn = () => requestAnimationFrame(() => requestAnimationFrame(() => (paint.paint = performance.now(), paint.done = true)));
+  document.addEventListener("first-paint", () => (paint.paint = performance.now()), true);
+  document.addEventListener("refine", ({ detail }) => detail.triangles >= fine && (paint.fine ??= performance.now()), true);
+  document.addEventListener("load", ({ target }) => {
+    if (target.localName === "progressive-mesh") paint.done = true;
+    if (target.localName === "model-viewer" || target.localName === "canvas") drawn();
+  }, true);
+}
+
+function median(results) {
+  const middle = (values) => values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
+  return Object.fromEntries(Object.keys(results[0]).map((key) => [key, middle(results.map((result) => result[key]))]));
+}

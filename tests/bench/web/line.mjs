@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// A slow line: a relay on loopback that hands on what a server sends at a bounded rate, shared fairly
+// by all connections, and everything after a delay. A new connection costs a round trip, as TCP's does.
+import { once } from "node:events";
+import { connect, createServer } from "node:net";
+
+const kPacket = 1448;
+/** Bytes of a connection that wait here before its server is told to wait. */
+const kQueue = 65536;
+
+export class Line {
+  /** To a server at `port` on this machine; `rate` in bytes a second, `delay` in ms each way. */
+  static async to(port, { rate, delay }) {
+    const line = new Line(port, rate, delay);
+    line.server.listen(0, "127.0.0.1");
+    await once(line.server, "listening");
+    line.url = `http://127.0.0.1:${line.server.address().port}`;
+    return line;
+  }
+
+  #waiting = []; // { server, client, packets }, served in turn
+  #free = 0; // when the next packet may leave
+  #timer;
+
+  constructor(port, rate, delay) {
+    Object.assign(this, { port, rate, delay });
+    this.server = createServer((client) => this.#open(client));
+  }
+
+  stop() {
+    clearTimeout(this.#timer);
+    this.server.close();
+  }
+
+  #open(client) {
+    const server = connect(this.port, "127.0.0.1"), packets = [], established = performance.now() + 2 * this.delay;
+    for (const socket of [client, server]) socket.setNoDelay(true).on("error", () => [client, server].forEach((end) => end.destroy()));
+    const later = (act) => setTimeout(act, Math.max(0, established - performance.now()) + this.delay);
+    client.on("data", (bytes) => later(() => server.writable && server.write(bytes)));
+    client.on("close", () => server.destroy());
+    server.on("data", (bytes) => {
+      for (let at = 0; at < bytes.length; at += kPacket) packets.push(bytes.subarray(at, at + kPacket));
+      if (packets.length * kPacket > kQueue) server.pause();
+      if (!this.#waiting.some((one) => one.packets === packets)) this.#waiting.push({ server, client, packets });
+      this.#pump();
+    });
+    server.on("close", () => setTimeout(() => client.end(), 2 * this.delay));
+  }
+
+  #pump() {
+    clearTimeout(this.#timer);
+    const now = performance.now();
+    this.#free = Math.max(this.#free, now - 5); // a timer's lateness is caught up with, idle time is not
+    while (this.#waiting.length > 0 && this.#free <= now) {
+      const one = this.#waiting.shift(), packet = one.packets.shift();
+      this.#free += (1000 * packet.length) / this.rate;
+      setTimeout(() => one.client.writable && one.client.write(packet), this.delay);
+      if (one.packets.length > 0) this.#waiting.push(one);
+      if (one.packets.length * kPacket < kQueue) one.server.resume();
+    }
+    if (this.#waiting.length > 0) this.#timer = setTimeout(() => this.#pump(), this.#free - now);
+  }
+}
