@@ -40,6 +40,7 @@ describe("FileSource", () => {
     const source = new FileSource(url());
     expect(await source.head(never)).toEqual(file.slice(0, 32768));
     expect(await source.getBytes({ offset: 50_000, length: 10 }, never)).toEqual(file.slice(50_000, 50_010));
+    expect(await source.getBytes({ offset: 32_758, length: 10 }, never)).toEqual(file.slice(32_758, 32_768)); // came with the head
     expect(ranges).toEqual(["bytes=0-32767", "bytes=50000-50009"]);
   });
 

@@ -10,18 +10,20 @@ const kHeadBytes = 32 * 1024;
 export class FileSource implements Source {
   readonly #life = new AbortController(); // of a download of the whole file
   #whole: Download | undefined;
+  #head: Uint8Array = new Uint8Array(0); // where that is all there is: the first chunks of most models are in it
 
   constructor(private readonly url: string) {}
 
   /** The file's first bytes, at most kHeadBytes. */
   async head(signal: AbortSignal): Promise<Uint8Array> {
     const response = await this.#request(0, kHeadBytes, this.#life.signal);
-    if (response.status === 206) return body(response);
+    if (response.status === 206) return (this.#head = await body(response));
     this.#whole = new Download(response);
     return this.#whole.slice(0, kHeadBytes, signal);
   }
 
   async getBytes({ offset, length }: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
+    if (offset + length <= this.#head.length) return this.#head.slice(offset, offset + length);
     const bytes = this.#whole
       ? await this.#whole.slice(offset, offset + length, signal)
       : await this.#range(offset, length, signal);
