@@ -67,7 +67,7 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   assert.deepEqual(await onDisplay(), [], "a draft is nobody's business");
   await card.getByRole("link", { name: "Its model" }).click();
   await page.getByRole("heading", { level: 1, name: "Bust of Demosthenes" }).waitFor();
-  await page.locator(".poster img:not(.pending)").waitFor(); // drawn for whoever has a token
+  await page.locator("progressive-mesh output .triangles").filter({ hasText: "triangles" }).waitFor(); // shown to whoever has a token
   await page.locator("svg.curve circle").first().waitFor();
   await desk.isFit("draft");
 

@@ -75,7 +75,7 @@ test("scans, pauses, goes on, publishes, and a visitor sees it sharpen", async (
   await shoot("paused");
   await desk.press("Resume");
   await page.getByRole("button", { name: "Publish" }).waitFor({ timeout: 120_000 });
-  await page.locator(".poster img:not(.pending)").waitFor();
+  await page.locator("progressive-mesh output .triangles").filter({ hasText: "triangles" }).waitFor();
   await shoot("draft");
   await desk.press("Publish");
   await page.locator(".badge.published").waitFor();

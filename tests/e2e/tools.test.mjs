@@ -231,6 +231,14 @@ test("a narrow, dark page in German has all of it within reach of a finger", asy
       .filter(([, { width, height }]) => width < 40 || height < 43.5).map(([name]) => name));
   assert.deepEqual(small, []);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
+  assert.match(await viewer.counts(), /Dreiecken/);
+  await page.locator("progressive-mesh").evaluate((element) => element.removeAttribute("lang")); // as the page around it
+  await page.locator("button[name=light][title=Light]").waitFor();
+  assert.match(await viewer.counts(), /triangles/);
+  assert.ok(await page.locator("input[value=studio]").isChecked());
+  await page.locator("html").evaluate((root) => (root.lang = "de"));
+  await page.locator("button[name=light][title=Licht]").waitFor();
+  assert.equal(await page.locator("button[name=light]").count(), 1);
   assert.deepEqual(await viewer.complaints(), []);
   await page.context().close();
 });

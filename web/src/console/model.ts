@@ -8,7 +8,6 @@ import type { Page, Visit } from "./desk.ts";
 import { Alert, button, confirmed, field, form, type Values } from "./forms.ts";
 import { levelReport } from "./levels.ts";
 import { facts, heading, modelBadge } from "./parts.ts";
-import { picture } from "./pictures.ts";
 import { texts } from "./texts/index.ts";
 import type { Manifest, ModelRecord } from "./types.ts";
 import { cardOf, dropZone } from "./upload-card.ts";
@@ -16,18 +15,14 @@ import { cardOf, dropZone } from "./upload-card.ts";
 const words = texts.model;
 const kTexts = ["title", "creator", "rights", "licence", "description", "date", "subject", "identifier", "publisher", "source"] as const;
 
-/** Its page as visitors see it, or its poster as long as they do not. */
-export function sight({ desk, signal }: Visit, { id, state, title, links }: ModelRecord): HTMLElement {
-  const alt = title || gallery.untitled;
-  if (state === "published") return viewer(links.self, alt);
-  return h("div", { class: "poster" }, picture(desk.api, `/models/${id}/poster.png?width=960`, alt, signal), h("p", { class: "quiet" }, words.draftHint));
-}
-
-function viewer(src: string, alt: string): HTMLElement {
-  const made = document.createElement("progressive-mesh");
-  made.setAttribute("src", src);
-  made.setAttribute("alt", alt);
-  return made;
+/** As visitors see it, or will see it. */
+export function sight({ desk }: Visit, { state, title, links }: ModelRecord): HTMLElement {
+  const viewer = document.createElement("progressive-mesh"), draft = state !== "published";
+  if (draft) Object.assign(viewer, { token: desk.api.token });
+  viewer.setAttribute("src", links.self);
+  viewer.setAttribute("alt", title || gallery.untitled);
+  viewer.toggleAttribute("camera-controls", true);
+  return h("div", { class: "sight" }, viewer, draft && h("p", { class: "quiet" }, words.draftHint));
 }
 
 class ModelPage {

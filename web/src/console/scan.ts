@@ -102,7 +102,7 @@ class ScanDesk implements ScanSight {
       ...(open ? [button(words.cancel, this.#alert, cancel)] : []));
   }
 
-  /** The model takes the place of the points: its poster as a draft, itself once it is public. */
+  /** The model takes the place of the points: a draft, too. */
   async #modelled(id: string): Promise<void> {
     const { desk } = this.visit, model = await desk.api.get<ModelRecord>(`/models/${id}`, this.visit.signal);
     const publish = async () => {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daemon's HTTP interface: one request for the head, one URL per chunk, no Range.
+// The daemon's HTTP interface: one request for the head, one URL per chunk, no Range. With a token it gives
+// models that are not public, too, whose chunks lie beside them.
 import { readAll, unreachable, type ByteRange, type Source } from "./source.ts";
 import { DamagedError, ModelError } from "./types.ts";
 
@@ -8,6 +9,7 @@ export class ApiSource implements Source {
   constructor(
     private readonly api: string,
     private readonly id: string,
+    private readonly token = "",
   ) {}
 
   head(signal: AbortSignal): Promise<Uint8Array> {
@@ -16,7 +18,7 @@ export class ApiSource implements Source {
 
   async getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
     if (!range.sha256) throw new ModelError("the daemon sent an incomplete head: reload the page");
-    const bytes = await this.#get(`${this.api}/chunks/${range.sha256}`, "a part of the model", signal);
+    const bytes = await this.#get(`${this.api}${this.token && `/models/${this.id}`}/chunks/${range.sha256}`, "a part of the model", signal);
     if (bytes.length === range.length) return bytes;
     throw new DamagedError(`a part of the model has ${bytes.length} bytes instead of ${range.length}`);
   }
@@ -26,7 +28,7 @@ export class ApiSource implements Source {
 
   async #get(url: string, what: string, signal: AbortSignal): Promise<Uint8Array> {
     try {
-      return await readAll(await fetch(url, { signal }), what);
+      return await readAll(await fetch(url, { signal, headers: this.token ? { Authorization: `Bearer ${this.token}` } : {} }), what);
     } catch (error) {
       throw unreachable(error, what);
     }

@@ -62,6 +62,7 @@ export class RemoteModel {
     url: string,
     private readonly transport: Transport,
     private readonly assets: Assets,
+    private readonly token = "",
   ) {
     this.#url = new URL(url, document.baseURI).href;
     models.set(this.#id, this);
@@ -130,8 +131,8 @@ export class RemoteModel {
   }
 
   #open(again: boolean): void {
-    const { transport, assets } = this;
-    send({ type: "open", id: this.#id, url: this.#url, transport, assets, again });
+    const { transport, assets, token } = this;
+    send({ type: "open", id: this.#id, url: this.#url, transport, token, assets, again });
   }
 
   #restart(): void {

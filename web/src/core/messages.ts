@@ -11,7 +11,7 @@ export interface Assets {
 }
 
 export type ToWorker =
-  | { type: "open"; id: number; url: string; transport: Transport; assets: Assets; again: boolean }
+  | { type: "open"; id: number; url: string; transport: Transport; token: string; assets: Assets; again: boolean }
   | { type: "refine"; id: number; turn: number; want: Want }
   | { type: "taken"; id: number; buffers: ArrayBuffer[] }
   | { type: "shown"; id: number }

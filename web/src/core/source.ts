@@ -30,14 +30,14 @@ export interface Source {
   close(): void;
 }
 
-/** The source for the URL of a .pmesh file, of a model page or of an API model. */
-export function openSource(url: string, transport: Transport): Source {
+/** The source for the URL of a .pmesh file, of a model page or of an API model; a token goes to the daemon alone. */
+export function openSource(url: string, transport: Transport, token: string): Source {
   const address = new URL(url);
   // A model's id has no dot: /models/bust.pmesh is a file in a folder of that name.
   const model = /^(.*?)\/(?:api\/v1\/)?models\/([^/.]+)\/?$/.exec(address.pathname);
   if (!model) return new FileSource(url);
   const api = `${address.origin}${model[1]}/api/v1`, id = model[2] ?? "";
-  return transport === "ws" ? new StreamSource(api, id) : new ApiSource(api, id);
+  return transport === "ws" && !token ? new StreamSource(api, id) : new ApiSource(api, id, token);
 }
 
 export async function readAll(response: Response, what: string): Promise<Uint8Array> {

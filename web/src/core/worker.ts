@@ -6,7 +6,7 @@ import { decodeBase, type DracoModule } from "./draco.ts";
 import { Lending } from "./lending.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import { Session, type Sink } from "./session.ts";
-import { openSource, readAll, type Transport } from "./source.ts";
+import { openSource, readAll } from "./source.ts";
 import { ModelError } from "./types.ts";
 
 declare const self: {
@@ -15,6 +15,8 @@ declare const self: {
 };
 declare function importScripts(url: string): void;
 declare const DracoDecoderModule: (options: { wasmBinary: Uint8Array }) => Promise<DracoModule>;
+
+type Address = Pick<Extract<ToWorker, { type: "open" }>, "url" | "transport" | "token">;
 
 interface Model {
   session: Promise<Session>;
@@ -37,8 +39,8 @@ self.onmessage = ({ data }) => {
   else close(data.id);
 };
 
-function open({ id, url, transport, assets, again }: Extract<ToWorker, { type: "open" }>): void {
-  const session = create(id, url, transport, assets);
+function open({ id, again, assets, ...address }: Extract<ToWorker, { type: "open" }>): void {
+  const session = create(id, address, assets);
   const opened = session.then(({ session: created, head }) => created.open(again, head));
   models.set(id, { session: session.then((created) => created.session), opened, lending: new Lending(), shown: () => undefined });
   opened
@@ -47,8 +49,8 @@ function open({ id, url, transport, assets, again }: Extract<ToWorker, { type: "
 }
 
 /** Asks for everything at once: the model's head does not wait for what decodes it. */
-async function create(id: number, url: string, transport: Transport, assets: Assets): Promise<{ session: Session; head: Promise<Uint8Array> }> {
-  const source = openSource(url, transport), life = new AbortController();
+async function create(id: number, { url, transport, token }: Address, assets: Assets): Promise<{ session: Session; head: Promise<Uint8Array> }> {
+  const source = openSource(url, transport, token), life = new AbortController();
   const head = source.head(life.signal);
   wasm ??= compile(assets.wasm);
   draco ??= loadDraco(assets);

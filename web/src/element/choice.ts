@@ -24,12 +24,21 @@ export class Choice {
   readonly #line = new Throughput();
   #info: ModelInfo | undefined;
   #triangles = 0; // shown
-  texts!: Texts;
+  #again: (() => void) | undefined; // writes what is shown
+  #texts!: Texts;
 
   constructor(private readonly root: ParentNode) {
     this.#button("lowest").addEventListener("click", () => this.onChoose({ level: 0 }));
     this.#button("refine").addEventListener("click", () => this.onChoose({ level: this.#next ?? this.#finest }));
     this.#button("highest").addEventListener("click", () => this.onChoose({ level: this.#finest }));
+  }
+
+  get texts(): Texts {
+    return this.#texts;
+  }
+  set texts(texts: Texts) {
+    this.#texts = texts;
+    this.#again?.();
   }
 
   get triangles(): number {
@@ -60,6 +69,7 @@ export class Choice {
   /** `bounded`: the model is refined everywhere alike, so that its level's error holds. */
   show({ triangles, bytes }: { triangles: number; bytes: number }, bounded: boolean): void {
     if (!this.#info) return;
+    this.#again = () => this.show({ triangles, bytes }, bounded);
     const { texts } = this;
     this.#triangles = triangles;
     const counted = texts.triangles(triangles, this.#info.levels[this.#finest]?.faces ?? triangles);

@@ -34,6 +34,7 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   readonly #panel = new Panel(this.attachShadow({ mode: "open" }));
   readonly #size = new ResizeObserver(() => this.#fit());
+  readonly #language = new MutationObserver(() => this.#speak());
   readonly #near = new IntersectionObserver((seen) => seen.some(({ isIntersecting }) => isIntersecting) && void this.#load(), { rootMargin: "50%" });
   #model: RemoteModel | undefined;
   #stage: Stage | undefined;
@@ -42,8 +43,18 @@ export class ProgressiveMeshElement extends HTMLElement {
   #looking: ReturnType<typeof setTimeout> | undefined;
   #chosen = false; // by the visitor: the camera does not ask for anything else
   #texts!: Texts;
+  #token = "";
   #tools: Toolbox | undefined;
 
+  /** Sent to the daemon, for a model that is not public. Never an attribute: pages are copied and stored. */
+  get token(): string {
+    return this.#token;
+  }
+  set token(token: string) {
+    if (token === this.#token) return;
+    this.#token = token;
+    if (this.isConnected) this.#begin();
+  }
   get src(): string {
     return this.getAttribute("src") ?? "";
   }
@@ -86,7 +97,8 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   connectedCallback(): void {
     this.#adopt();
-    this.#panel.texts = this.#texts = textsFor(this);
+    this.#speak();
+    this.#language.observe(document.documentElement, { attributes: true, attributeFilter: ["lang"], subtree: true });
     this.#panel.onDetail = (fraction) => void this.#choose(this.#wantAt(fraction));
     this.#panel.onChoose = (want) => void this.#choose(want);
     this.#size.observe(this.#panel.view);
@@ -94,6 +106,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   }
 
   disconnectedCallback(): void {
+    this.#language.disconnect();
     this.#size.disconnect();
     this.#near.disconnect();
     this.#clear();
@@ -126,7 +139,7 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   /** Properties that were set before this class was known hide the accessors. */
   #adopt(): void {
-    for (const name of ["src", "poster", "alt"] as const) {
+    for (const name of ["src", "poster", "alt", "token"] as const) {
       if (!Object.hasOwn(this, name)) continue;
       const value = this[name];
       delete (this as Partial<typeof this>)[name];
@@ -140,7 +153,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     if (!src) return;
     const load = this.#loads;
     try {
-      this.#model = new RemoteModel(src, this.#transport, assetsBeside(import.meta.url));
+      this.#model = new RemoteModel(src, this.#transport, assetsBeside(import.meta.url), this.#token);
       // All at once: the model and its decoder, the stage and three.js, which the stage would ask for later.
       const [{ Stage }] = await Promise.all([import("./stage.ts"), import("three")]);
       if (load !== this.#loads) return;
@@ -178,6 +191,16 @@ export class ProgressiveMeshElement extends HTMLElement {
     this.#move(stage);
     this.#panel.enable(stage.mesh.info);
     await stage.draw();
+  }
+
+  /** In the language of where it stands, which may change. */
+  #speak(): void {
+    const texts = textsFor(this);
+    if (texts === this.#texts) return;
+    this.#panel.texts = this.#texts = texts;
+    this.#tools?.remove();
+    this.#tools = undefined;
+    if (this.#stage && this.#painted) this.#equip(this.#stage).catch(() => undefined);
   }
 
   /** The visitor's tools come after the first picture. */

@@ -64,7 +64,7 @@ export const de: Texts = {
   model: {
     metadata: "Angaben",
     description: "Beschreibung",
-    draftHint: "Ein Entwurf: nur Operatoren sehen ihn. Ist er öffentlich, zeigt ihn hier der Betrachter.",
+    draftHint: "Ein Entwurf: nur Operatoren sehen ihn.",
     publish: "Veröffentlichen",
     unpublish: "Aus der Sammlung nehmen",
     isPublic: "Es ist jetzt öffentlich.",

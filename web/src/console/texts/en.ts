@@ -62,7 +62,7 @@ export const en = {
   model: {
     metadata: "What is said about it",
     description: "Description",
-    draftHint: "A draft: only operators see it. Once it is public, the viewer shows it here.",
+    draftHint: "A draft: only operators see it.",
     publish: "Publish",
     unpublish: "Withdraw from the gallery",
     isPublic: "It is public now.",

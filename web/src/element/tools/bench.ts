@@ -12,7 +12,7 @@ export interface Page {
 }
 
 export interface Bench {
-  readonly host: HTMLElement;
+  readonly host: HTMLElement & { token: string };
   /** The place of the picture. */
   readonly view: HTMLElement;
   readonly texts: Texts;

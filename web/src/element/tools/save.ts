@@ -58,7 +58,8 @@ export class Save implements Tool {
     const { host, texts } = this.bench, src = new URL(host.getAttribute("src") ?? "", document.baseURI).href, api = apiOf(src);
     const level = this.#level.value as Level;
     const amount: Amount = level === "shown" ? { triangles: this.bench.triangles } : { level };
-    this.#download.hidden = api === undefined;
+    this.#download.hidden = api === undefined || host.token !== "";
+    this.#file.hidden = host.token !== ""; // a link does not send it
     this.#file.textContent = api === undefined ? texts.fileAlone : texts.download;
     this.#file.href = api === undefined ? src : exportOf(api, this.#format.value, amount);
   }

@@ -29,13 +29,15 @@ export class Toolbox implements Bench {
   readonly #bar: HTMLElement;
   readonly #sheets: Sheets;
   readonly #tools: Tool[];
+  readonly #made: HTMLElement[];
   #stage: Stage | undefined;
   #page: Page | undefined;
   #until = new AbortController();
 
-  constructor(readonly host: HTMLElement, { root, view, choice }: Panel, readonly texts: Texts) {
+  constructor(readonly host: Bench["host"], { root, view, choice }: Panel, readonly texts: Texts) {
     const marks = make("div", { class: "marks" });
-    root.append(make("style", {}, style));
+    this.#made = [make("style", {}, style), marks, this.#heard];
+    root.append(this.#made[0] as HTMLElement);
     view.append(marks, this.#heard);
     this.view = view;
     this.overlay = new Overlay(marks);
@@ -65,6 +67,7 @@ export class Toolbox implements Bench {
     this.#until = new AbortController();
     this.#bar.inert = false;
     stage.onDraw = () => this.overlay.update(stage.parts.camera);
+    this.view.addEventListener("pointerdown", () => this.orbit.stop(), { signal: this.#until.signal });
     for (const tool of this.#tools) tool.attach?.(this.#until.signal);
     void stage.draw();
   }
@@ -75,7 +78,16 @@ export class Toolbox implements Bench {
     this.orbit.stop();
     this.#sheets.close();
     this.#until.abort();
+    if (this.#stage) this.#stage.onDraw = () => undefined;
     this.#stage = undefined;
+  }
+
+  /** Makes room for another toolbox. */
+  remove(): void {
+    if (this.#stage) for (const tool of this.#tools) tool.reset?.();
+    this.detach();
+    for (const element of this.#made) element.remove();
+    this.#bar.replaceWith(this.#bar.cloneNode());
   }
 
   /** The bar, in the order in which one looks, studies and takes along. */
@@ -95,7 +107,6 @@ export class Toolbox implements Bench {
     sheets.add("save", texts.save, save.content, (open) => open && save.refresh());
     const full = sheets.action("fullScreen", texts.fullScreen, () => void this.#fillScreen());
     full.hidden = !document.fullscreenEnabled;
-    this.view.addEventListener("pointerdown", () => this.orbit.stop());
     return [light, surface, section, measure, notes, save];
   }
 
