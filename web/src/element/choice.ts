@@ -95,7 +95,8 @@ export class Choice {
 
   #offer(name: Name, ...facts: string[]): HTMLButtonElement {
     const button = this.#button(name);
-    (button.querySelector("small") as HTMLElement).textContent = facts.filter(Boolean).join(" · ");
+    const parts = facts.filter(Boolean).flatMap((fact) => [Object.assign(document.createElement("span"), { textContent: fact }), " "]);
+    button.querySelector("small")?.replaceChildren(...parts.slice(0, -1));
     button.disabled = false;
     return button;
   }
