@@ -10,9 +10,10 @@ import { after, before, describe, test } from "node:test";
 import { promisify } from "node:util";
 import { ViewerPage, launch } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
+import { writeBlob } from "./models.mjs";
 import { StaticHost } from "./static_host.mjs";
 
-const { VITRINE_BIN: bin, VITRINE_MODEL: scan } = process.env;
+const { VITRINE_BIN: bin } = process.env;
 
 let daemon, browser, api, faces, nginx;
 const hosts = {};
@@ -20,7 +21,9 @@ const hosts = {};
 before(async () => {
   daemon = await Daemon.start(bin);
   browser = await launch();
-  api = (await daemon.publish(scan, "Demosthenes")).replace("/models/", "/api/v1/models/");
+  const mesh = join(daemon.folder, "blob.ply");
+  await writeBlob(mesh, 60);
+  api = (await daemon.publish(mesh, "A model that is more than its first request")).replace("/models/", "/api/v1/models/");
   faces = (await (await fetch(`${api}/manifest`)).json()).levels.at(-1).faces;
   const file = Buffer.from(await (await fetch(`${api}/file.pmesh`)).arrayBuffer());
   Object.assign(hosts, {
