@@ -38,7 +38,8 @@ namespace {
 constexpr std::size_t kAdminConnections = 64;
 constexpr std::chrono::minutes kCollectEvery{10};
 constexpr std::chrono::milliseconds kStaleness{100};  // of what is known of models
-constexpr std::size_t kMaxExports = 64;               // each holds a decoded mesh while it runs
+constexpr std::chrono::seconds kScannerLease{30};
+constexpr std::size_t kMaxExports = 64;  // each holds a decoded mesh while it runs
 
 Unexpected of_admin(const Error& error) {
   return fail(error.code, "--admin-listen: " + error.message);
@@ -87,14 +88,15 @@ std::filesystem::path uploads_of(const Settings& settings) {
 class Daemon {
  public:
   Daemon(Configuration configuration, Installation installation, DataFolderLock lock,
-         Log access_log, std::vector<std::unique_ptr<ScannerBackend>> scanners,
-         std::shared_ptr<LiveTls> tls)
+         Log access_log, std::unique_ptr<ScannerClaims> claims,
+         std::vector<std::unique_ptr<ScannerBackend>> scanners, std::shared_ptr<LiveTls> tls)
       : configuration_(std::move(configuration)),
         live_(configuration_.line.settings),
         tls_(std::move(tls)),
         installation_(std::move(installation)),
         lock_(std::move(lock)),
         access_log_(std::move(access_log)),
+        claims_(std::move(claims)),
         models_(*installation_.store, *installation_.catalogue, kStaleness,
                 live_.get()->model_cache_bytes),
         uploads_(uploads_of(*live_.get()), {.bytes = live_.get()->max_upload_bytes,
@@ -115,7 +117,9 @@ class Daemon {
                 std::chrono::seconds(10),
                 [this](JobRun& run) { return publishing_.work(run); },
                 &quota_,
-                {live_.get()->roles.build, live_.get()->roles.scan, lock_.id}},
+                {live_.get()->roles.build, live_.get()->roles.scan, lock_.id,
+                 [this](const std::string& scanner) { return claims_->has_jobs_of(scanner); }},
+                claims_.get()},
                std::move(scanners)),
         exports_(live_.get()->export_cache_bytes),
         pages_(web_assets()),
@@ -160,6 +164,7 @@ class Daemon {
       return bound;
     if (!live_.get()->webhook_hosts.empty())
       scans_.jobs().when_ended([this](const JobStatus& job) { tell_of(job); });
+    claims_->start(scans_.names());
     return scans_.start();
   }
 
@@ -191,6 +196,8 @@ class Daemon {
     webhooks_.stop();
     workers_.stop();
     workers_.join();
+    if (const auto dropped = installation_.jobs->drop_leases(lock_.id); !dropped)
+      events_.event(Severity::kError, dropped.error().message);
     events_.event(Severity::kInfo, "stopped");
   }
 
@@ -336,6 +343,7 @@ class Daemon {
   const Installation installation_;
   const DataFolderLock lock_;  // of the data folder
   Log access_log_;
+  const std::unique_ptr<ScannerClaims> claims_;
   const Log events_ = Log::to_stderr();
   PublishedModels models_;
   Uploads uploads_;
@@ -389,10 +397,14 @@ int serve(Configuration configuration) {
   if (!lock) return report(lock.error());
   auto access_log = Log::open(settings.access_log);
   if (!access_log) return report(access_log.error());
-  auto scanners = open_scanners(scanners_of(settings));
+  auto claims = std::make_unique<ScannerClaims>(
+      *installation->jobs, Log::to_stderr(), Lease{lock->id, kScannerLease}, settings.scan_address);
+  auto scanners = open_scanners(
+      scanners_of(settings),
+      [which = claims.get()](const std::string& scanner) { return which->check(scanner); });
   if (!scanners) return report(scanners.error());
   Daemon daemon(std::move(configuration), std::move(*installation), std::move(*lock),
-                std::move(*access_log), std::move(*scanners), std::move(*tls));
+                std::move(*access_log), std::move(claims), std::move(*scanners), std::move(*tls));
   if (const auto opened = daemon.open(); !opened) return report(opened.error());
   daemon.run();
   return kExitDone;
@@ -401,7 +413,7 @@ int serve(Configuration configuration) {
 int check(const Settings& settings) {
   if (const auto usable = check_paths(settings); !usable) return report(usable.error());
   if (const auto tls = open_tls(settings); !tls) return report(tls.error());
-  if (const auto scanners = open_scanners(settings.scanners); !scanners)  // uses no device yet
+  if (const auto scanners = open_scanners(settings.scanners, {}); !scanners)  // uses no device
     return report(scanners.error());
   return print("the configuration is valid\n");
 }

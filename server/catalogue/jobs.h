@@ -105,6 +105,13 @@ struct Lease {
   std::chrono::milliseconds time;
 };
 
+// Who drives a scanner, or did last.
+struct ScannerDriver {
+  std::string scanner, holder;
+  std::string address;      // where other daemons reach it, "http://HOST:PORT"; empty: nowhere
+  bool is_current = false;  // its lease has not run out
+};
+
 // Safe to use from several threads at once, and by several processes on the same data. Errors are
 // kIo where the database refuses, kLimit where the disk is full, kState as stated.
 class JobCatalogue {
@@ -135,6 +142,16 @@ class JobCatalogue {
   virtual Expected<JobRecord> cancel(const JobId& id, std::int64_t now) = 0;
   // Whatever the holder had is to be taken: they are dead.
   virtual Expected<void> drop_leases(const std::string& holder) = 0;
+
+  // Has the scanner be the holder's, whose new epoch is the result; nothing where it is another's
+  // whose lease goes on.
+  virtual Expected<std::optional<std::uint64_t>> take_scanner(const std::string& scanner,
+                                                              const Lease& lease,
+                                                              const std::string& address) = 0;
+  // kState where a later epoch has begun.
+  virtual Expected<void> renew_scanner(const std::string& scanner, std::uint64_t epoch,
+                                       std::chrono::milliseconds lease) = 0;
+  virtual Expected<std::vector<ScannerDriver>> scanner_drivers() = 0;
 
   virtual Expected<std::optional<JobRecord>> find_job(const JobId& id) = 0;
   virtual Expected<std::optional<ScanEntry>> find_scan(const ScanId& id) = 0;

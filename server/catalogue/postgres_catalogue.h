@@ -6,15 +6,17 @@
 #include <memory>
 #include <string>
 
+#include "server/catalogue/exclusive_lock.h"
 #include "server/catalogue/sql.h"
 
 namespace vitrine::postgres {
 
 struct OpenDatabase {
   std::shared_ptr<sql::Database> database;
-  // Is held by one at a time of all who use the database, until the result is gone; where the
-  // server ends its connection, no longer. Fails with kIo.
-  std::function<Expected<std::shared_ptr<const void>>()> lock;
+  // Is held by one at a time of all who use the database. Lost where its connection ends: the
+  // server ends that of a process that has not been heard of for a quarter of a minute. Fails with
+  // kIo.
+  std::function<Expected<std::shared_ptr<const ExclusiveLock>>()> lock;
 };
 
 // Creates or migrates the tables. `url`: postgresql://USER@HOST/DATABASE, with what else libpq

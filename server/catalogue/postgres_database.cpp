@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/catalogue/postgres_database.h"
 
+#include <thread>
+
 #include "server/catalogue/postgres_catalogue.h"
 #include "server/catalogue/postgres_migrations.h"
 
 namespace vitrine::postgres {
 namespace {
 
-constexpr std::chrono::seconds kPause{1};            // between two attempts to reach the server
+constexpr std::chrono::seconds kPause{1};  // between two attempts to reach the server
+constexpr std::chrono::seconds kBeat{3};   // of who holds the lock
+constexpr const char* kEndsWhenSilent = "SET idle_session_timeout = '15s'";
 constexpr std::int64_t kLock = 8532478916893896302;  // of its own among the database's users
 
 }  // namespace
@@ -54,27 +58,63 @@ std::shared_ptr<sql::Connection> Database::lease() {
           }};
 }
 
-Expected<std::shared_ptr<const void>> Database::lock() {
+// The server hears of it every few seconds; where it does not, as the process is stopped or the
+// network is cut, it ends the connection and gives the lock to the next.
+class Database::Lock final : public ExclusiveLock {
+ public:
+  Lock(std::shared_ptr<Database> database, std::unique_ptr<Connection> connection)
+      : database_(std::move(database)),
+        connection_(std::move(connection)),
+        heart_([this](const std::stop_token& stop) { beat(stop); }) {}
+  ~Lock() override {
+    heart_ = {};
+    try {
+      connection_->unlock(kLock);
+      connection_->run("RESET idle_session_timeout");
+      database_->locking_ = std::move(connection_);
+    } catch (const sql::Failure&) {  // the server unlocks what has lost its connection
+    }
+    database_->own_turn_.release();
+  }
+
+  Expected<void> check() const override {
+    const std::scoped_lock one(mutex_);
+    try {
+      connection_->run("SELECT 1");
+      return {};
+    } catch (const sql::Failure& failure) {
+      return sql::refused("the catalogue's lock is lost", failure);
+    }
+  }
+
+ private:
+  void beat(const std::stop_token& stop) const {
+    std::unique_lock lock(resting_);
+    while (!rest_.wait_for(lock, stop, kBeat, [&] { return stop.stop_requested(); }))
+      static_cast<void>(check());
+  }
+
+  const std::shared_ptr<Database> database_;
+  mutable std::mutex mutex_;  // guards what follows
+  std::unique_ptr<Connection> connection_;
+
+  mutable std::mutex resting_;
+  mutable std::condition_variable_any rest_;
+  std::jthread heart_;
+};
+
+Expected<std::shared_ptr<const ExclusiveLock>> Database::lock() {
   own_turn_.acquire();
+  auto connection = std::move(locking_);
   try {
-    if (!locking_ || !locking_->is_alive()) locking_ = std::make_unique<Connection>(url_);
-    locking_->lock(kLock);
+    if (!connection || !connection->is_alive()) connection = std::make_unique<Connection>(url_);
+    connection->run(kEndsWhenSilent);
+    connection->lock(kLock);
   } catch (const sql::Failure& failure) {
-    locking_.reset();
     own_turn_.release();
     return sql::refused("the catalogue refuses its lock", failure);
   }
-  return std::shared_ptr<const void>(locking_.get(),
-                                     [self = shared_from_this()](const void*) { self->unlock(); });
-}
-
-void Database::unlock() noexcept {
-  try {
-    locking_->unlock(kLock);
-  } catch (const sql::Failure&) {  // the server unlocks what has lost its connection
-    locking_.reset();
-  }
-  own_turn_.release();
+  return std::make_shared<Lock>(shared_from_this(), std::move(connection));
 }
 
 Expected<OpenDatabase> open_database(const std::string& url) {

@@ -9,6 +9,7 @@
 #include <semaphore>
 #include <vector>
 
+#include "server/catalogue/exclusive_lock.h"
 #include "server/catalogue/postgres.h"
 
 namespace vitrine::postgres {
@@ -20,14 +21,14 @@ class Database final : public sql::Database, public std::enable_shared_from_this
   std::shared_ptr<sql::Connection> lease() override;
 
   // As OpenDatabase::lock.
-  Expected<std::shared_ptr<const void>> lock();
+  Expected<std::shared_ptr<const ExclusiveLock>> lock();
 
  private:
+  class Lock;
   static constexpr std::size_t kMostConnections = 8;
 
   std::unique_ptr<Connection> take_place();
   void give_back(std::unique_ptr<Connection> connection);
-  void unlock() noexcept;
 
   const std::string url_;
   std::mutex mutex_;  // guards what follows
@@ -38,7 +39,7 @@ class Database final : public sql::Database, public std::enable_shared_from_this
 
   // Of its own: who holds the lock needs a connection beside it, and others wait for it meanwhile.
   std::binary_semaphore own_turn_{1};
-  std::unique_ptr<Connection> locking_;  // of whose turn it is
+  std::unique_ptr<Connection> locking_;  // of whose turn it is, where it is good
 };
 
 }  // namespace vitrine::postgres

@@ -63,6 +63,12 @@ ALTER TABLE job ADD COLUMN cancelled BIGINT NOT NULL DEFAULT 0;
 CREATE INDEX job_of_state ON job(state);
 CREATE INDEX job_untold ON job(id) WHERE told != 1 AND webhook != '';
 )sql",
+    R"sql(
+CREATE TABLE scanner (
+  name TEXT PRIMARY KEY, holder TEXT NOT NULL, address TEXT NOT NULL, lease BIGINT NOT NULL,
+  epoch BIGINT NOT NULL
+);
+)sql",
 };
 constexpr const char* kOneAtATime = "SELECT pg_advisory_lock(7957706764961114213)";
 constexpr const char* kNext = "SELECT pg_advisory_unlock(7957706764961114213)";

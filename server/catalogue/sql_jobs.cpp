@@ -251,7 +251,54 @@ class SqlJobs final : public JobCatalogue {
     return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
       const Query rows(connection.prepare("UPDATE job SET lease = 0 WHERE holder = ? RETURNING 1"));
       rows->bind(holder).any();
+      const Query scanners(
+          connection.prepare("UPDATE scanner SET lease = 0 WHERE holder = ? RETURNING 1"));
+      scanners->bind(holder).any();
       return {};
+    });
+  }
+
+  Expected<std::optional<std::uint64_t>> take_scanner(const std::string& scanner,
+                                                      const Lease& lease,
+                                                      const std::string& address) override {
+    using Epoch = std::optional<std::uint64_t>;
+    return sql::guarded<Epoch>(*database_, [&](Connection& connection) -> Expected<Epoch> {
+      const Query row(connection.prepare(fmt::format(
+          "INSERT INTO scanner(name, holder, address, lease, epoch) VALUES (?1, ?2, ?3, {0} + ?4, "
+          "1) ON CONFLICT (name) DO UPDATE SET holder = ?2, address = ?3, lease = {0} + ?4, "
+          "epoch = scanner.epoch + 1 WHERE scanner.holder = ?2 OR scanner.lease < {0} "
+          "RETURNING epoch",
+          connection.now())));
+      row->bind(scanner).bind(lease.holder).bind(address).bind(number(lease.time.count()));
+      if (!row->step()) return std::nullopt;
+      return static_cast<std::uint64_t>(row->integer(0));
+    });
+  }
+
+  Expected<void> renew_scanner(const std::string& scanner, std::uint64_t epoch,
+                               std::chrono::milliseconds lease) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query row(connection.prepare(
+          fmt::format("UPDATE scanner SET lease = {} + ?3 WHERE name = ?1 AND epoch = ?2 "
+                      "RETURNING 1",
+                      connection.now())));
+      if (row->bind(scanner).bind(number(epoch)).bind(number(lease.count())).any()) return {};
+      return fail(ErrorCode::kState,
+                  fmt::format("another daemon drives scanner {} now; stop one of them", scanner));
+    });
+  }
+
+  Expected<std::vector<ScannerDriver>> scanner_drivers() override {
+    using Drivers = std::vector<ScannerDriver>;
+    return sql::guarded<Drivers>(*database_, [](Connection& connection) -> Expected<Drivers> {
+      const Query rows(connection.prepare(
+          fmt::format("SELECT name, holder, address, CASE WHEN lease < {} THEN 0 ELSE 1 END "
+                      "FROM scanner ORDER BY name",
+                      connection.now())));
+      Drivers drivers;
+      while (rows->step())
+        drivers.push_back({rows->text(0), rows->text(1), rows->text(2), rows->integer(3) != 0});
+      return drivers;
     });
   }
 

@@ -88,6 +88,12 @@ CREATE TRIGGER model_removed AFTER DELETE ON model BEGIN UPDATE revision SET num
 CREATE TRIGGER token_added AFTER INSERT ON token BEGIN UPDATE revision SET number = number + 1; END;
 CREATE TRIGGER token_changed AFTER UPDATE ON token BEGIN UPDATE revision SET number = number + 1; END;
 )sql",
+    R"sql(
+CREATE TABLE scanner (
+  name TEXT PRIMARY KEY, holder TEXT NOT NULL, address TEXT NOT NULL, lease INTEGER NOT NULL,
+  epoch INTEGER NOT NULL
+) WITHOUT ROWID;
+)sql",
 };
 
 class SqliteConnection final : public sql::Connection {

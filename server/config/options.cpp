@@ -179,7 +179,8 @@ Expected<void> text_of(Settings& settings, std::string_view text) {
 }
 
 // An origin and, behind a proxy that adds one, a path; what a browser would show.
-Expected<void> public_url(Settings& settings, std::string_view text) {
+template <auto Member>
+Expected<void> address(Settings& settings, std::string_view text) {
   while (text.ends_with('/'))
     text.remove_suffix(1);
   const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
@@ -191,7 +192,7 @@ Expected<void> public_url(Settings& settings, std::string_view text) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("'{}' is no URL; give, for example, https://museum.example", text));
   }
-  settings.public_url = std::string(text);
+  settings.*Member = std::string(text);
   return {};
 }
 
@@ -307,11 +308,15 @@ constexpr std::array kOptions{
     Option{"scanners", kPaths, "",
            "The rig.json files of the scanners that this daemon drives, separated by commas.",
            false, scanners},
+    Option{"scan-address", kUrl, "",
+           "Where other daemons reach 'listen' of this one, which drives scanners: "
+           "http://10.0.0.7:8080. They pass on what is asked of those. Empty: they do not.",
+           false, address<&S::scan_address>},
     Option{
         "public-url", kUrl, "",
         "What visitors' addresses begin with, where a proxy changes that: https://museum.example. "
         "Empty: what each request says.",
-        false, public_url, kReloadable},
+        false, address<&S::public_url>, kReloadable},
 };
 
 }  // namespace

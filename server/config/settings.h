@@ -54,7 +54,8 @@ struct Settings {
   std::uint64_t quota_bytes = 0;                // of models and uploads; 0: none
   std::vector<std::string> webhook_hosts;       // host or host:port
   std::vector<std::filesystem::path> scanners;  // their rig.json files
-  std::filesystem::path tls_certificate;        // empty: no TLS
+  std::string scan_address;  // where other daemons reach them, no slash at its end; empty: nowhere
+  std::filesystem::path tls_certificate;  // empty: no TLS
   std::filesystem::path tls_key;
   Networks trusted_proxies;
   std::uint32_t max_connections_per_address = 0;

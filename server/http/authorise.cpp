@@ -61,7 +61,7 @@ Authorisation authorise(const Route& route, const Credentials& credentials, Serv
   if (!caller) {
     services.errors.event(Severity::kError,
                           fmt::format("request {}: {}", id, caller.error().message));
-    return {{}, problem(500, "", id)};
+    return {{}, away(id)};
   }
   if (!*caller) return {{}, unknown_token(credentials, services)};
   if ((*caller)->role >= route.role) return {*caller, {}};

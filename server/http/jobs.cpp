@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "server/http/elsewhere.h"
 #include "server/http/event_source.h"
 #include "server/http/handlers.h"
 #include "server/http/job_json.h"
@@ -48,6 +49,17 @@ Response with_job(const Request& request, Services& services, Answer&& answer) {
   return problem(404, "there is no such job", request.id);
 }
 
+// With the request's job, where this daemon or nobody in particular does it; else by who does.
+template <class Answer>
+Response with_own_job(const Request& request, Services& services, Answer&& answer) {
+  return with_job(request, services, [&](const JobStatus& job) {
+    const auto address = job.record.kind == JobKind::kPublish
+                             ? std::nullopt
+                             : elsewhere(job.record.scanner, request, services);
+    return address ? ask_elsewhere(*address, request, services) : answer(job);
+  });
+}
+
 }  // namespace
 
 Response list_jobs(const Request& request, Services& services) {
@@ -70,7 +82,7 @@ Response show_job(const Request& request, Services& services) {
 }
 
 Response cancel_job(const Request& request, Services& services) {
-  return with_job(request, services, [&](const JobStatus& job) {
+  return with_own_job(request, services, [&](const JobStatus& job) {
     const auto cancelled = services.scans.jobs().cancel(job.record.id);
     if (!cancelled) return refused(cancelled.error(), request, services);
     return json_answer(job_json(*cancelled), 202);  // it ends at its next step
@@ -78,7 +90,7 @@ Response cancel_job(const Request& request, Services& services) {
 }
 
 Response resume_job(const Request& request, Services& services) {
-  return with_job(request, services, [&](const JobStatus& job) {
+  return with_own_job(request, services, [&](const JobStatus& job) {
     const auto resumed = services.scans.resume(job.record);
     if (!resumed) return refused(resumed.error(), request, services);
     return json_answer(job_json(*resumed), 202);

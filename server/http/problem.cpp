@@ -27,4 +27,10 @@ Response problem(unsigned status, std::string_view detail, std::string_view requ
   return response;
 }
 
+Response away(std::string_view request_id) {
+  Response response = problem(503, "", request_id);
+  response.fields = {{"Retry-After", "5"}};
+  return response;
+}
+
 }  // namespace vitrine

@@ -18,10 +18,10 @@ inline void tell_operator(const Error& error, const Request& request, Services& 
                         std::string("request ") + std::string(request.id) + ": " + error.message);
 }
 
-// 500, with the reason in the log only.
+// With the reason in the log only: 503 where catalogue, store or disk do not answer now, else 500.
 inline Response internal_error(const Error& error, const Request& request, Services& services) {
   tell_operator(error, request, services);
-  return problem(500, "", request.id);
+  return error.code == ErrorCode::kIo ? away(request.id) : problem(500, "", request.id);
 }
 
 // Everybody may see a public scan grow; once there is a model, a scan is shown as long as that is.

@@ -40,10 +40,21 @@ Picture grey_picture(const Frame& frame) {
 
 }  // namespace
 
-Response list_scanners(const Request&, Services& services) {
+Response list_scanners(const Request& request, Services& services) {
   auto list = nlohmann::ordered_json::array();
-  for (const ScannerStatus& scanner : services.scans.scanners())
-    list.push_back(scanner_json(scanner));
+  for (const ScannerStatus& scanner : services.scans.scanners()) {
+    if (!elsewhere(scanner.name, request, services)) list.push_back(scanner_json(scanner));
+  }
+  if (is_passed_on(request)) return json_answer({{"scanners", std::move(list)}});
+  for (const std::string& address : services.scans.addresses()) {
+    const auto others = ask_elsewhere(address, request, services);
+    const auto* text = std::get_if<std::string>(&others.body);
+    const auto json = nlohmann::ordered_json::parse(text != nullptr ? *text : "", nullptr,
+                                                    /*allow_exceptions=*/false);
+    if (others.status != 200 || !json.is_object() || !json.contains("scanners")) continue;
+    for (const auto& scanner : json["scanners"])
+      list.push_back(scanner);
+  }
   return json_answer({{"scanners", std::move(list)}});
 }
 

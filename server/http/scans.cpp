@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codec/core/parse_number.h"
+#include "server/http/elsewhere.h"
 #include "server/http/handlers.h"
 #include "server/http/job_json.h"
 #include "server/http/published.h"
@@ -12,11 +13,16 @@ namespace {
 
 constexpr std::size_t kMaxPoints = 250'000;  // of one answer
 
-// Calls `answer(scan)` with the request's scan, or answers 401, 404 or 500.
+// Calls `answer(scan)` with the request's scan, has the daemon answer that drives its scanner, or
+// answers 401, 404 or 500.
 template <class Answer>
 Response with_scan(const Request& request, Services& services, Answer&& answer) {
   const auto scan = services.scans.find(request.parameters.id);
   if (!scan) return internal_error(scan.error(), request, services);
+  if (*scan) {
+    if (const auto address = elsewhere((*scan)->entry.scanner, request, services))
+      return ask_elsewhere(*address, request, services);
+  }
   if (*scan && request.caller) return for_caller(answer(**scan));
   if (*scan && is_public((*scan)->entry, services))
     return answer(ScanInfo{(*scan)->entry, without_reasons((*scan)->job)});
@@ -65,6 +71,8 @@ std::string little_endian(std::span<const std::array<float, 3>> points) {
 Response start_scan(const Request& request, Services& services) {
   const auto order = parse_scan_order(request.body);
   if (!order) return invalid(order.error(), request);
+  if (const auto address = elsewhere(order->scanner, request, services))
+    return ask_elsewhere(*address, request, services);
   if (services.scans.scanner(order->scanner) == nullptr)
     return invalid({{"scanner", "the name of one of /api/v1/scanners"}}, request);
   if (!knows_calibration(*order, services)) return unknown_calibration(request);

@@ -22,7 +22,8 @@ Expected<std::size_t> Collector::forget_jobs(std::int64_t now) {
   return means_.jobs.forget(before(kKeyAge), before(kJobAge));
 }
 
-// With the store's lock held nobody is between putting an object and naming it.
+// With the store's lock held nobody is between putting an object and naming it; who has lost it
+// meanwhile takes nothing away any more.
 Expected<Collector::Collected> Collector::collect(std::int64_t now) {
   const auto in_use = uploads_in_use();
   if (!in_use) return Unexpected(in_use.error());
@@ -37,7 +38,7 @@ Expected<Collector::Collected> Collector::collect(std::int64_t now) {
   std::set<Sha256> named;
   for (const NamedFile& file : *files)
     named.insert(file.file);
-  const auto objects = means_.store.sweep(named, means_.grace);
+  const auto objects = means_.store.sweep(named, means_.grace, **lock);
   if (!objects) return Unexpected(objects.error());
   return Collected{*objects, *uploads, *jobs};
 }

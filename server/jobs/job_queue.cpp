@@ -144,7 +144,7 @@ Expected<void> JobQueue::start() {
   {
     const std::scoped_lock lock(mutex_);
     for (const JobRecord& job : *left) {
-      if (taken_.has(job.kind) && job.state == JobState::kPaused) take_up(job, 0);
+      if (taken_.has(job) && job.state == JobState::kPaused) take_up(job, 0);
     }
   }
   look_for_jobs(UINT32_MAX);
@@ -232,7 +232,7 @@ Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<Scan
     if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
   }
   if (auto added = catalogue_.add(job, scan, once); !added) return Unexpected(added.error());
-  if (taken_.has(job.kind)) take_up(job, stops);
+  if (taken_.has(job)) take_up(job, stops);
   return job;
 }
 
@@ -505,7 +505,7 @@ void JobQueue::look_for_jobs(std::uint32_t limit) {
   for (const Run& run : std::exchange(again_, {}))
     post(run);
   for (const JobRecord& job : *waiting) {
-    if (!runs_.contains(job.id) && !unstored(job.id)) take_up(job, 0);
+    if (!runs_.contains(job.id) && !unstored(job.id) && taken_.has(job)) take_up(job, 0);
   }
 }
 
@@ -517,12 +517,20 @@ void JobQueue::look_at_others() {
     for (const auto& [id, other] : others_) {
       if (Run run = other.lock()) others.push_back(std::move(run));
     }
+    for (const auto& [id, run] : runs_) {  // what is put aside others may cancel
+      if (run->job().state == JobState::kPaused && !run->is_at_work()) others.push_back(run);
+    }
   }
   for (const Run& other : others) {
     const auto job = catalogue_.find_job(other->job().id);
     if (!job || !*job) continue;
     const std::scoped_lock lock(mutex_);
-    if (has_ended((*job)->state)) others_.erase((*job)->id);
+    const bool is_ended = has_ended((*job)->state);
+    if (!is_ended && runs_.contains((*job)->id)) continue;
+    if (is_ended) {
+      others_.erase((*job)->id);
+      runs_.erase((*job)->id);
+    }
     const std::scoped_lock inner(other->mutex_);
     other->status_ = {**job, std::nullopt, {}};
   }

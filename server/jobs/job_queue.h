@@ -103,8 +103,11 @@ using JobTask = std::function<Expected<JobEnd>(JobRun& run)>;
 struct TakenJobs {
   bool builds = true, scans = true;
   std::string holder = {};  // Lease::holder
+  std::function<bool(const std::string& scanner)> drives = [](const std::string&) { return true; };
 
-  bool has(JobKind kind) const { return kind == JobKind::kPublish ? builds : scans; }
+  bool has(const JobRecord& job) const {
+    return job.kind == JobKind::kPublish ? builds : scans && drives(job.scanner);
+  }
 };
 
 // Thread-safe. Errors: kState where a job is not in a state for that, kIo of the catalogue.

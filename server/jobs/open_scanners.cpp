@@ -7,6 +7,7 @@
 #include <set>
 
 #include "acquisition/session/open_scanner.h"
+#include "server/jobs/fenced_devices.h"
 #include "server/jobs/session_backend.h"
 
 namespace vitrine {
@@ -29,7 +30,7 @@ Expected<void> check_name(const std::string& name, const std::filesystem::path& 
 }  // namespace
 
 Expected<std::vector<std::unique_ptr<ScannerBackend>>> open_scanners(
-    std::span<const std::filesystem::path> configs) {
+    std::span<const std::filesystem::path> configs, const MayCommand& may) {
   std::vector<std::unique_ptr<ScannerBackend>> scanners;
   std::set<std::string> names;
   for (const std::filesystem::path& path : configs) {
@@ -42,6 +43,8 @@ Expected<std::vector<std::unique_ptr<ScannerBackend>>> open_scanners(
                               path.string(), config->name));
     }
     Scanner scanner = open_scanner(*config);
+    scanner.devices =
+        fenced(std::move(scanner.devices), [may, name = config->name] { return may(name); });
     scanners.push_back(std::make_unique<SessionBackend>(std::move(*config), std::move(scanner)));
   }
   return scanners;

@@ -10,6 +10,7 @@
 #include "codec/progressive/manifest.h"
 #include "codec/progressive/signature.h"
 #include "server/jobs/clock.h"
+#include "server/jobs/patience.h"
 #include "server/store/change.h"
 
 namespace vitrine {
@@ -90,8 +91,10 @@ Expected<Publication> PublishJobs::make(JobRun& run, const ModelOrder& order) {
                      .quota = &means_.quota,
                      .upload = order.upload,
                      .by = JobClaim{run.job().id, run.job().fence}};
-  if (order.replace) return replace(means_.store, means_.catalogue, *pmesh, order.metadata, as);
-  return publish(means_.store, means_.catalogue, *pmesh, order.metadata, as);
+  return patiently(run, [&] {
+    return (order.replace ? replace : publish)(means_.store, means_.catalogue, *pmesh,
+                                               order.metadata, as);
+  });
 }
 
 Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,

@@ -13,6 +13,7 @@
 #include "codec/export/write_mesh.h"
 #include "server/jobs/build_child.h"
 #include "server/jobs/clock.h"
+#include "server/jobs/patience.h"
 
 namespace vitrine {
 namespace {
@@ -149,7 +150,7 @@ Expected<void> ScanService::recall() {
   const auto left = means_.jobs.unfinished_jobs();
   if (!left) return Unexpected(left.error());
   for (const JobRecord& job : *left) {
-    if (job.kind == JobKind::kScan && job.scan && means_.taken.has(job.kind)) recall(job);
+    if (job.kind == JobKind::kScan && job.scan && means_.taken.has(job)) recall(job);
   }
   return {};
 }
@@ -184,6 +185,21 @@ std::vector<ScannerStatus> ScanService::scanners() {
   for (const auto& station : stations_)
     all.push_back(station->status());
   return all;
+}
+
+std::vector<std::string> ScanService::names() const {
+  std::vector<std::string> names;
+  for (const auto& station : stations_)
+    names.push_back(station->name());
+  return names;
+}
+
+std::optional<std::string> ScanService::address_of(const std::string& name) const {
+  return means_.claims == nullptr ? std::nullopt : means_.claims->address_of(name);
+}
+
+std::vector<std::string> ScanService::addresses() const {
+  return means_.claims == nullptr ? std::vector<std::string>() : means_.claims->addresses();
 }
 
 ScannerStation* ScanService::scanner(std::string_view name) {
@@ -380,7 +396,8 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
 }
 
 Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
-  const auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));
+  const auto entry =
+      patiently(run, [&] { return means_.jobs.find_scan(run.job().scan.value_or(ScanId())); });
   if (!entry) return Unexpected(entry.error());
   if (!*entry) return fail(ErrorCode::kState, "the scan is not in the catalogue; scan again");
   const auto order = stored_order((*entry)->parameters);
@@ -445,28 +462,36 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   });
   if (!pmesh) return Unexpected(pmesh.error());
   const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
-  const auto model = publish(means_.store, means_.catalogue, *pmesh, order.metadata,
-                             {.state = state,
-                              .id = run.job().id,
-                              .quota = means_.quota,
-                              .by = JobClaim{run.job().id, run.job().fence}});
+  const auto model = patiently(run, [&] {
+    return publish(means_.store, means_.catalogue, *pmesh, order.metadata,
+                   {.state = state,
+                    .id = run.job().id,
+                    .quota = means_.quota,
+                    .by = JobClaim{run.job().id, run.job().fence}});
+  });
   if (!model) return Unexpected(model.error());
   run.made(model->id);
+  const auto shown = patiently(run, [&] { return show(run, order, model->id); });
+  return shown ? Expected<JobEnd>(JobEnd::kDone) : Unexpected(shown.error());
+}
+
+// Has the scan tell of its model.
+Expected<void> ScanService::show(const JobRun& run, const ScanOrder& order, const ModelId& model) {
   auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));
-  if (!entry || !*entry) return JobEnd::kDone;
+  if (!entry) return Unexpected(entry.error());
+  if (!*entry) return {};
   auto& shown = (*entry)->model;
-  if (order.publish && shown && *shown != model->id) {  // one of a scan is enough for visitors
+  if (order.publish && shown && *shown != model) {  // one of a scan is enough for visitors
     auto hidden = means_.catalogue.set_state(*shown, ModelState::kDraft);
-    if (!hidden) return Unexpected(hidden.error());
+    if (!hidden) return hidden;
   }
   if (!order.publish && shown) {  // a trial does not take the place of what visitors see
     const auto before = means_.catalogue.find(*shown);
     if (!before) return Unexpected(before.error());
-    if (*before && (*before)->state == ModelState::kPublished) return JobEnd::kDone;
+    if (*before && (*before)->state == ModelState::kPublished) return {};
   }
-  shown = model->id;
-  keep(**entry);
-  return JobEnd::kDone;
+  shown = model;
+  return means_.jobs.update(**entry);
 }
 
 }  // namespace vitrine

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "server/jobs/job_queue.h"
+#include "server/jobs/scanner_claims.h"
 #include "server/jobs/scanner_station.h"
 #include "server/store/object_store.h"
 #include "server/store/quota.h"
@@ -39,6 +40,7 @@ struct ScanMeans {
   JobTask publishing = {};                           // what becomes of jobs of that kind
   Quota* quota = nullptr;                            // of which models take; null: there is none
   TakenJobs taken = {};                              // which jobs are done here
+  const ScannerClaims* claims = nullptr;  // null: every scanner is here, and this daemon's
 };
 
 // Thread-safe. Errors: kState where something is not possible now, kBadInput where an idempotency
@@ -57,6 +59,10 @@ class ScanService {
 
   std::vector<ScannerStatus> scanners();
   ScannerStation* scanner(std::string_view name);  // null where there is none of that name
+  std::vector<std::string> names() const;          // of those that are configured here
+  // Where the daemon is that drives it; nothing where that is this one, or nobody.
+  std::optional<std::string> address_of(const std::string& name) const;
+  std::vector<std::string> addresses() const;  // of all those
   // A fresh picture, the latest of the scan while one is under way.
   Expected<Frame> picture(ScannerStation& scanner);
   Expected<JobRecord> calibrate(ScannerStation& scanner, const CalibrationOrder& order,
@@ -93,6 +99,7 @@ class ScanService {
   Expected<JobEnd> reprocess(JobRun& run, ScannerStation& station);
   Expected<JobEnd> calibrate(JobRun& run, ScannerStation& station);
   Expected<JobEnd> make_model(JobRun& run, const ScanOrder& order, const TriangleMesh& mesh);
+  Expected<void> show(const JobRun& run, const ScanOrder& order, const ModelId& model);
   std::filesystem::path folder_of(const ScanId& id) const;
   std::uint64_t stops_of(const std::string& name);  // of that scanner so far
   Expected<ScanInfo> with_job(ScanEntry entry);

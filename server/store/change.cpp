@@ -54,9 +54,9 @@ Expected<std::optional<Part>> public_part(const ModelRecord& record,
 
 // Has `pmesh` be the file of the model, and as much of it public as `record` says, which is written
 // over `before`; the chunks are those of what is public.
-Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const ModelRecord& before,
-                           ModelRecord& record, std::span<const std::uint8_t> pmesh,
-                           const PublishAs& as) {
+Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const ExclusiveLock& lock,
+                           const ModelRecord& before, ModelRecord& record,
+                           std::span<const std::uint8_t> pmesh, const PublishAs& as) {
   auto whole = to_be_stored(pmesh);
   if (!whole) return tl::unexpected(whole.error());
   auto part = public_part(record, pmesh);
@@ -73,6 +73,7 @@ Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const Model
     record.public_part = part_of((*part)->file, record.public_part->max_level);
   }
   if (auto begun = let_go(store, before); !begun) return begun;
+  if (auto held = lock.check(); !held) return held;
   return catalogue.update(record, (*part ? (*part)->file : *whole).chunks(), as.by);
 }
 
@@ -118,7 +119,7 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
     if (refused && (*found)->version == tried) return tl::unexpected(*refused);
     ModelRecord record = with_texts(**found, metadata);
     if (as.state == ModelState::kPublished) record.state = as.state;
-    const auto done = store_files(store, catalogue, **found, record, pmesh, as);
+    const auto done = store_files(store, catalogue, **lock, **found, record, pmesh, as);
     if (done) return Publication{.id = record.id};
     // Who publishes or hides it meanwhile holds no lock: then it is replaced as it is now.
     if (done.error().code != ErrorCode::kState) return tl::unexpected(done.error());
@@ -161,7 +162,8 @@ Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const Mod
     if (pmesh && record.unit != before.unit)
       pmesh = with_header(*pmesh, {.last_level = {}, .unit = record.unit});
     if (!pmesh) return tl::unexpected(pmesh.error());
-    if (auto done = store_files(store, catalogue, before, record, *pmesh, {.quota = quota}); !done)
+    if (auto done = store_files(store, catalogue, **lock, before, record, *pmesh, {.quota = quota});
+        !done)
       return tl::unexpected(done.error());
   }
   ++record.version;

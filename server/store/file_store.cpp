@@ -106,7 +106,7 @@ Expected<bool> FileStore::put(const Sha256& name, std::span<const std::uint8_t> 
   return tl::unexpected(written.error());
 }
 
-Expected<std::shared_ptr<const void>> FileStore::lock() {
+Expected<std::shared_ptr<const ExclusiveLock>> FileStore::lock() {
   auto folder = lock_folder(root_);
   if (!folder) return refused("lock", root_, std::strerror(errno));
   return folder;
@@ -133,7 +133,8 @@ Expected<void> FileStore::begin_grace(const Sha256& name) {
   return refused("keep", path, std::strerror(errno));
 }
 
-Expected<std::size_t> FileStore::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) {
+Expected<std::size_t> FileStore::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
+                                       const ExclusiveLock& lock) {
   std::error_code error;
   std::vector<fs::path> unnamed;
   for (fs::recursive_directory_iterator at(root_, error), end; !error && at != end;
@@ -144,6 +145,7 @@ Expected<std::size_t> FileStore::sweep(const std::set<Sha256>& keep, std::chrono
   if (error) return refused("list", root_, error.message().c_str());
   std::size_t swept = 0;
   for (const fs::path& path : unnamed) {
+    if (auto held = lock.check(); !held) return tl::unexpected(held.error());
     if (::unlink(path.c_str()) != 0 && errno != ENOENT)
       return refused("remove", path, std::strerror(errno));
     if (!is_temporary(path)) ++swept;

@@ -14,10 +14,11 @@ class FileStore final : public ObjectStore {
   static Expected<FileStore> open(const std::filesystem::path& root);
 
   Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
-  Expected<std::shared_ptr<const void>> lock() override;
+  Expected<std::shared_ptr<const ExclusiveLock>> lock() override;
   Expected<void> remove(const Sha256& name) override;
   Expected<void> begin_grace(const Sha256& name) override;
-  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) override;
+  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
+                              const ExclusiveLock& lock) override;
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
   Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override;
 

@@ -50,12 +50,13 @@ Expected<OpenCatalogue> open_in_folder(const fs::path& folder) {
   if (!database) return tl::unexpected(database.error());
   auto jobs = sqlite::open_database(folder / kCatalogueFile);
   if (!jobs) return tl::unexpected(jobs.error());
-  return OpenCatalogue{
-      std::move(*database), std::move(*jobs), [folder]() -> Expected<std::shared_ptr<const void>> {
-        if (auto lock = lock_folder(folder)) return lock;
-        return fail(ErrorCode::kIo, fmt::format("cannot lock {}: {}; check it", folder.string(),
-                                                std::strerror(errno)));
-      }};
+  return OpenCatalogue{std::move(*database), std::move(*jobs),
+                       [folder]() -> Expected<std::shared_ptr<const ExclusiveLock>> {
+                         if (auto lock = lock_folder(folder)) return lock;
+                         return fail(ErrorCode::kIo,
+                                     fmt::format("cannot lock {}: {}; check it", folder.string(),
+                                                 std::strerror(errno)));
+                       }};
 }
 
 Expected<OpenCatalogue> open_catalogue(const InstallationPlace& place) {

@@ -13,6 +13,7 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/sha256.h"
+#include "server/catalogue/exclusive_lock.h"
 
 namespace vitrine {
 
@@ -44,9 +45,9 @@ class ObjectStore {
   // bytes do not have that name, kLimit where the disk is full, kIo where it refuses.
   virtual Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) = 0;
 
-  // Whoever puts an object and has it named, or takes it away, holds this meanwhile: nobody else,
-  // in this process or another, does either until it is destroyed.
-  virtual Expected<std::shared_ptr<const void>> lock() = 0;
+  // Whoever puts an object and has it named, or takes it away, holds this meanwhile, and checks it
+  // before either: nobody else, in this process or another, does so until it is destroyed or lost.
+  virtual Expected<std::shared_ptr<const ExclusiveLock>> lock() = 0;
 
   // Takes the object away; that there is none is no fault. Fails (kIo) where the disk refuses.
   virtual Expected<void> remove(const Sha256& name) = 0;
@@ -58,8 +59,10 @@ class ObjectStore {
 
   // Takes away what `keep` does not name and whose grace is over, counted from when it was put or
   // begin_grace() was called, and what interrupted puts have left; the number of objects. Call it
-  // with the lock held. Fails (kIo) where the disk refuses; then some are gone and some are not.
-  virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) = 0;
+  // with the lock held. Fails (kIo) where the disk refuses, or once the lock is lost; then some are
+  // gone and some are not.
+  virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
+                                      const ExclusiveLock& lock) = 0;
 
   // Null where there is no such object. Of a remote store it is fetched: its bytes are those of its
   // name.

@@ -88,10 +88,11 @@ Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
   const auto room = Quota::reserve(as.quota, {&named, 1}, as.upload);
   if (!room) return tl::unexpected(room.error());
   if (auto stored = store_file(store, *file, pmesh); !stored) return tl::unexpected(stored.error());
+  if (auto held = (*lock)->check(); !held) return tl::unexpected(held.error());
   auto published = add(catalogue, record, *file, as.by);
   // Where the catalogue did not answer, it may name the file all the same.
   const bool is_unnamed = !published && published.error().code != ErrorCode::kIo;
-  if (is_unnamed && file->is_new) static_cast<void>(store.remove(file->name));
+  if (is_unnamed && file->is_new && (*lock)->check()) static_cast<void>(store.remove(file->name));
   return published;
 }
 

@@ -134,7 +134,8 @@ Expected<void> S3Store::give_up_uploads(std::int64_t begun_before) {
 }
 
 // The marks are listed last: none that comes meanwhile is missed.
-Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) {
+Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
+                                     const ExclusiveLock& lock) {
   const auto objects = list(kObjects);
   if (!objects) return tl::unexpected(objects.error());
   const auto marks = list(kGrace);
@@ -145,11 +146,13 @@ Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::
     const auto mark = marks->entries.find(name);
     const bool is_late = mark == marks->entries.end() || mark->second <= last;
     if (keep.contains(name) || when > last || !is_late) continue;
+    if (auto held = lock.check(); !held) return tl::unexpected(held.error());
     if (auto gone = remove(name); !gone) return tl::unexpected(gone.error());
     ++swept;
   }
   for (const auto& [name, when] : marks->entries) {
     if (when > last) continue;
+    if (auto held = lock.check(); !held) return tl::unexpected(held.error());
     if (auto gone = remove_key(grace_key(name)); !gone) return tl::unexpected(gone.error());
   }
   if (auto done = give_up_uploads(last); !done) return tl::unexpected(done.error());

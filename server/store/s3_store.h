@@ -14,7 +14,7 @@
 namespace vitrine {
 
 // Takes a lock that is held until the result is gone.
-using TakeLock = std::function<Expected<std::shared_ptr<const void>>()>;
+using TakeLock = std::function<Expected<std::shared_ptr<const ExclusiveLock>>()>;
 
 struct S3Options {
   S3Address address;
@@ -31,10 +31,11 @@ class S3Store final : public ObjectStore {
   static Expected<std::unique_ptr<S3Store>> open(S3Options options);
 
   Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
-  Expected<std::shared_ptr<const void>> lock() override { return options_.lock(); }
+  Expected<std::shared_ptr<const ExclusiveLock>> lock() override { return options_.lock(); }
   Expected<void> remove(const Sha256& name) override;
   Expected<void> begin_grace(const Sha256& name) override;
-  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) override;
+  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
+                              const ExclusiveLock& lock) override;
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override;
   Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override;
 

@@ -202,6 +202,30 @@ TEST_F(Claims, an_end_is_told_by_one_and_by_another_once_that_one_is_dead) {
   EXPECT_TRUE(jobs_->claim_untold(kOver).value().empty());
 }
 
+TEST_F(Claims, a_scanner_is_driven_by_one_in_epochs_that_grow) {
+  EXPECT_EQ(jobs_->take_scanner("left", {"first", 1h}, "http://a:1").value(), 1u);
+  EXPECT_EQ(jobs_->take_scanner("left", {"second", 1h}, "http://b:2").value(), std::nullopt);
+  EXPECT_EQ(jobs_->take_scanner("left", {"first", -1s}, "http://a:1").value(), 2u) << "it restarts";
+  EXPECT_EQ(jobs_->renew_scanner("left", 1, 1h).error().code, ErrorCode::kState);
+  EXPECT_EQ(jobs_->take_scanner("left", {"second", 1h}, "http://b:2").value(), 3u);
+  EXPECT_EQ(jobs_->renew_scanner("left", 2, 1h).error().code, ErrorCode::kState);
+  EXPECT_TRUE(jobs_->renew_scanner("left", 3, 1h));
+  EXPECT_EQ(jobs_->renew_scanner("right", 1, 1h).error().code, ErrorCode::kState);
+}
+
+TEST_F(Claims, where_a_scanner_is_driven_is_known_and_whether_it_still_is) {
+  ASSERT_TRUE(jobs_->take_scanner("left", {"first", 1h}, "http://a:1").value());
+  ASSERT_TRUE(jobs_->take_scanner("right", {"second", 1h}, "").value());
+  ASSERT_TRUE(jobs_->drop_leases("second"));
+  const auto drivers = backend_->connect()->scanner_drivers().value();
+  ASSERT_EQ(drivers.size(), 2u);
+  EXPECT_EQ(drivers[0].scanner, "left");
+  EXPECT_EQ(drivers[0].holder, "first");
+  EXPECT_EQ(drivers[0].address, "http://a:1");
+  EXPECT_TRUE(drivers[0].is_current);
+  EXPECT_FALSE(drivers[1].is_current);
+}
+
 TEST_F(Claims, the_steps_of_jobs_are_no_change_of_what_visitors_see) {
   const auto before = models_->revision().value();
   add(job(1));

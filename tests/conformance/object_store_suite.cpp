@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <thread>
+
+#include "support/held_lock.h"
 
 namespace vitrine::test {
 namespace {
@@ -127,14 +131,25 @@ TEST_F(ObjectStoreSuite, a_sweep_takes_what_is_not_named_once_its_grace_is_over)
   put(named);
   put(other);
   const auto lock = store_->lock();
-  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::hours(1)).value(), 0u);
+  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::hours(1), kHeld).value(), 0u);
   EXPECT_TRUE(open(other));
   const auto reading = open(other);
-  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0)).value(), 1u);
+  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0), kHeld).value(), 1u);
   EXPECT_EQ(open(other), nullptr);
   EXPECT_TRUE(open(named));
   EXPECT_EQ(reading->read(0, 2'000).value(), other);  // who reads it reads on
-  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0)).value(), 0u);
+  EXPECT_EQ(store_->sweep({sha256(named)}, std::chrono::seconds(0), kHeld).value(), 0u);
+}
+
+TEST_F(ObjectStoreSuite, who_has_lost_the_lock_takes_nothing_more) {
+  const std::array all{some_bytes(1'000, 1), some_bytes(1'000, 2), some_bytes(1'000, 3)};
+  for (const Bytes& bytes : all)
+    put(bytes);
+  const auto swept = store_->sweep({}, std::chrono::seconds(0), HeldLock(1));
+  ASSERT_FALSE(swept);
+  EXPECT_EQ(swept.error().code, ErrorCode::kIo);
+  EXPECT_EQ(std::ranges::count_if(all, [&](const Bytes& bytes) { return open(bytes) != nullptr; }),
+            2);
 }
 
 TEST_F(ObjectStoreSuite, a_grace_that_begins_anew_outlives_that_of_the_same_age) {
@@ -145,7 +160,7 @@ TEST_F(ObjectStoreSuite, a_grace_that_begins_anew_outlives_that_of_the_same_age)
   for (std::size_t swept = 0; swept == 0;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     ASSERT_TRUE(store_->begin_grace(sha256(renewed)));
-    swept = store_->sweep({}, std::chrono::seconds(2)).value();
+    swept = store_->sweep({}, std::chrono::seconds(2), kHeld).value();
   }
   EXPECT_TRUE(open(renewed));
   EXPECT_EQ(open(other), nullptr);

@@ -85,6 +85,21 @@ TEST(Postgres, one_at_a_time_of_several_processes_holds_the_lock) {
     holder.join();
 }
 
+TEST(Postgres, who_holds_the_lock_is_told_once_the_server_has_given_it_to_another) {
+  const std::string url = new_database();
+  const auto database = postgres::open_database(url).value();
+  const auto lost = database.lock().value();
+  EXPECT_TRUE(lost->check());
+  const auto connection = database.database->lease();
+  connection->run("SELECT pg_terminate_backend(pid) FROM pg_locks WHERE locktype = 'advisory'");
+  const auto other = postgres::open_database(url).value().lock();
+  ASSERT_TRUE(other);
+  EXPECT_TRUE((*other)->check());
+  const auto checked = lost->check();
+  ASSERT_FALSE(checked);
+  EXPECT_THAT(checked.error().message, HasSubstr("the catalogue's lock is lost"));
+}
+
 TEST(Postgres, who_holds_the_lock_works_on_whatever_the_number_of_those_that_wait) {
   const auto database = postgres::open_database(new_database()).value();
   const auto catalogue = make_catalogue(database.database);

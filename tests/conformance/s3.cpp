@@ -14,7 +14,7 @@ class S3 final : public ObjectStoreBackend {
     return S3Store::open({.address = S3Address::parse(bucket_).value(),
                           .keys = kGatewayKeys,
                           .copies = folder_.path(),
-                          .lock = [this]() -> Expected<std::shared_ptr<const void>> {
+                          .lock = [this]() -> Expected<std::shared_ptr<const ExclusiveLock>> {
                             return lock_folder(folder_.path());
                           }})
         .value();

@@ -7,6 +7,7 @@
 #include "server/store/s3_store.h"
 #include "server/store/s3_upload.h"
 #include "support/ceph_gateway.h"
+#include "support/held_lock.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {
@@ -35,7 +36,7 @@ class S3Faults : public testing::Test {
     return {.address = S3Address::parse(url).value(),
             .keys = keys,
             .copies = folder_.path(),
-            .lock = []() -> Expected<std::shared_ptr<const void>> { return nullptr; },
+            .lock = []() -> Expected<std::shared_ptr<const ExclusiveLock>> { return nullptr; },
             .part_bytes = kPart};
   }
   std::unique_ptr<S3Store> open() { return S3Store::open(options(bucket_)).value(); }
@@ -103,9 +104,9 @@ TEST_F(S3Faults, an_upload_that_was_left_is_swept_once_its_grace_is_over) {
   const auto left = [&] {
     return s3_uploads(direct.ask({.query = "uploads="}).value().body).value().entries.size();
   };
-  EXPECT_EQ(store->sweep({}, std::chrono::hours(1)).value(), 0u);
+  EXPECT_EQ(store->sweep({}, std::chrono::hours(1), kHeld).value(), 0u);
   EXPECT_EQ(left(), 1u);
-  EXPECT_EQ(store->sweep({}, std::chrono::seconds(0)).value(), 0u);
+  EXPECT_EQ(store->sweep({}, std::chrono::seconds(0), kHeld).value(), 0u);
   EXPECT_EQ(left(), 0u);
 }
 
@@ -141,7 +142,7 @@ TEST_F(S3Faults, more_objects_than_one_page_holds_are_all_swept) {
   };
   for (int i = 0; i < 1'003; ++i)
     put(i);
-  EXPECT_EQ(open()->sweep({}, std::chrono::seconds(0)).value(), 1'003u);
+  EXPECT_EQ(open()->sweep({}, std::chrono::seconds(0), kHeld).value(), 1'003u);
 }
 
 }  // namespace

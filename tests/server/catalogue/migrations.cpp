@@ -13,7 +13,7 @@ namespace {
 
 // What a later version has added, taken away again.
 const std::string kBeforeClaims =
-    "DROP INDEX job_untold; DROP INDEX job_of_state; DROP TABLE revision;"
+    "DROP INDEX job_untold; DROP INDEX job_of_state; DROP TABLE revision; DROP TABLE scanner;"
     "DROP TRIGGER model_added; DROP TRIGGER model_changed; DROP TRIGGER model_removed;"
     "DROP TRIGGER token_added; DROP TRIGGER token_changed;"
     "ALTER TABLE job DROP COLUMN fence; ALTER TABLE job DROP COLUMN holder;"

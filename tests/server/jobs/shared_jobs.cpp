@@ -169,5 +169,41 @@ TEST_F(SharedJobs, what_is_cancelled_before_anybody_begins_is_never_begun) {
   EXPECT_EQ(first_.queue().run(job.id), nullptr);
 }
 
+TEST_F(SharedJobs, what_is_put_aside_can_be_cancelled_by_another) {
+  JobRecord job;
+  job.id = JobId::generate();
+  job.scanner = "left";
+  JobQueue scans(*catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; },
+                 {.builds = false, .scans = true, .holder = "scans"});
+  std::promise<void> go;
+  scans.lane("left").post([&] { go.get_future().wait(); });
+  ASSERT_TRUE(scans.add(job, {}, {}));
+  ASSERT_TRUE(scans.pause(job.id));
+  scans.beat();
+  EXPECT_TRUE(scans.job_of("left"));
+  EXPECT_EQ(front_.cancel(job.id)->record.state, JobState::kCancelled);
+  scans.beat();
+  EXPECT_EQ(scans.job_of("left"), std::nullopt);
+  go.set_value();
+}
+
+TEST_F(SharedJobs, the_jobs_of_a_scanner_are_left_to_the_daemon_that_drives_it) {
+  JobRecord left, right;
+  left.id = JobId::generate();
+  left.scanner = "left";
+  right.id = JobId::generate();
+  right.scanner = "right";
+  JobQueue scans(
+      *catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; },
+      {.holder = "scans", .drives = [](const std::string& scanner) { return scanner == "left"; }});
+  for (const JobRecord& job : {left, right})
+    add(job);
+  scans.beat();
+  scans.lane("left").run([] {});
+  EXPECT_EQ(stored(left), JobState::kDone);
+  EXPECT_EQ(stored(right), JobState::kQueued);
+  EXPECT_EQ(scans.run(right.id), nullptr);
+}
+
 }  // namespace
 }  // namespace vitrine

@@ -7,6 +7,7 @@
 
 #include <fstream>
 
+#include "support/held_lock.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
 
@@ -81,7 +82,7 @@ TEST_F(FileStoreTest, a_sweep_takes_what_a_crash_left_half_written) {
   ASSERT_TRUE(store_.put(name_, bytes_));
   const fs::path left = path().parent_path() / ".half.part";
   std::ofstream(left) << "an o";
-  EXPECT_EQ(store_.sweep({name_}, std::chrono::hours(1)).value(), 0u);
+  EXPECT_EQ(store_.sweep({name_}, std::chrono::hours(1), test::kHeld).value(), 0u);
   EXPECT_FALSE(fs::exists(left));
   EXPECT_TRUE(fs::exists(path()));
 }
@@ -93,12 +94,12 @@ TEST_F(FileStoreTest, an_object_that_is_put_again_or_loses_its_name_has_its_grac
   };
   grow_old();
   ASSERT_TRUE(store_.put(name_, bytes_));
-  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1)).value(), 0u);
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1), test::kHeld).value(), 0u);
   grow_old();
   ASSERT_TRUE(store_.begin_grace(name_));
-  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1)).value(), 0u);
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1), test::kHeld).value(), 0u);
   grow_old();
-  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1)).value(), 1u);
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1), test::kHeld).value(), 1u);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
 #include "support/catalogue_before.h"
+#include "support/held_lock.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
 
@@ -128,7 +129,7 @@ TEST_F(Publish, what_loses_its_name_is_kept_for_the_grace_from_then_on) {
     std::set<Sha256> named;
     for (const NamedFile& file : files)
       named.insert(file.file);
-    return store_.sweep(named, kGrace).value();
+    return store_.sweep(named, kGrace, test::kHeld).value();
   };
   const auto grow_old = [&] {
     for (const auto& entry :

@@ -27,11 +27,12 @@ class WatchedStore final : public ObjectStore {
   Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override {
     return store_.put(name, bytes);
   }
-  Expected<std::shared_ptr<const void>> lock() override { return store_.lock(); }
+  Expected<std::shared_ptr<const ExclusiveLock>> lock() override { return store_.lock(); }
   Expected<void> remove(const Sha256& name) override { return store_.remove(name); }
   Expected<void> begin_grace(const Sha256& name) override { return store_.begin_grace(name); }
-  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace) override {
-    return store_.sweep(keep, grace);
+  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
+                              const ExclusiveLock& lock) override {
+    return store_.sweep(keep, grace, lock);
   }
   Expected<std::unique_ptr<Object>> open(const Sha256& name) const override {
     ++opened;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/elsewhere.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "server/http/published.h"
+#include "server/remote/remote_server.h"
+
+namespace vitrine {
+namespace {
+
+constexpr const char* kPassedOn = "Vitrine-Passed-On";
+constexpr std::size_t kMostBytes = 64 << 20;   // of a picture
+constexpr std::chrono::seconds kPatience{60};  // a turn of the table takes long
+
+std::vector<std::string> fields_of(const Request& request) {
+  std::vector<std::string> fields = {fmt::format("{}: 1", kPassedOn),
+                                     "Content-Type: application/json"};
+  for (const char* const name : {"Authorization", "Idempotency-Key"}) {
+    const auto found = request.header.find(name);
+    if (found != request.header.end())
+      fields.push_back(fmt::format("{}: {}", name, std::string(found->value())));
+  }
+  return fields;
+}
+
+}  // namespace
+
+bool is_passed_on(const Request& request) {
+  return request.header.find(kPassedOn) != request.header.end();
+}
+
+std::optional<std::string> elsewhere(const std::string& scanner, const Request& request,
+                                     Services& services) {
+  if (is_passed_on(request)) return std::nullopt;
+  return services.scans.address_of(scanner);
+}
+
+Response ask_elsewhere(const std::string& address, const Request& request, Services& services) {
+  const std::string method(request.header.method_string());
+  const std::string json = request.body.empty() ? "" : request.body.dump();
+  std::string body;
+  RemoteServer server;
+  auto answer =
+      server.ask({.method = method,
+                  .url = fmt::format("{}{}{}{}", address, request.path,
+                                     request.query.empty() ? "" : "?", request.query),
+                  .fields = fields_of(request),
+                  .body = {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()},
+                  .deadline = kPatience,
+                  .take = [&](std::span<const std::uint8_t> bytes) {
+                    body.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+                    return body.size() <= kMostBytes;
+                  }});
+  if (!answer) return internal_error(answer.error(), request, services);
+  Response response;
+  response.status = static_cast<unsigned>(answer->status);
+  response.type = answer->field("content-type");
+  response.body = answer->status / 100 == 2 ? std::move(body) : std::move(answer->body);
+  const std::pair<std::string_view, const char*> kept[] = {{"Location", "location"},
+                                                           {"Retry-After", "retry-after"}};
+  for (const auto& [name, key] : kept) {
+    if (std::string value = answer->field(key); !value.empty())
+      response.fields.emplace_back(name, std::move(value));
+  }
+  return response;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What another daemon answers: the one that drives a scanner.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "server/http/router.h"
+#include "server/http/services.h"
+
+namespace vitrine {
+
+// Where the request is to be answered: at the daemon that drives the scanner, unless that is this
+// one, or another has passed the request on already.
+std::optional<std::string> elsewhere(const std::string& scanner, const Request& request,
+                                     Services& services);
+
+// That daemon's answer to the request, which it checks itself: it gets the caller's token. 503
+// where there is none.
+Response ask_elsewhere(const std::string& address, const Request& request, Services& services);
+
+bool is_passed_on(const Request& request);
+
+}  // namespace vitrine

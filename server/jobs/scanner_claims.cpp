@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/scanner_claims.h"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace vitrine {
+namespace {
+
+constexpr std::chrono::seconds kBeat{2};
+constexpr std::chrono::seconds kMargin{1};  // by which this machine's clock may be slower
+
+}  // namespace
+
+ScannerClaims::ScannerClaims(JobCatalogue& catalogue, Log events, Lease lease, std::string address)
+    : catalogue_(catalogue),
+      events_(std::move(events)),
+      lease_(std::move(lease)),
+      address_(std::move(address)) {}
+
+ScannerClaims::Clock ScannerClaims::now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_BOOTTIME, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+void ScannerClaims::start(std::vector<std::string> names) {
+  {
+    const std::scoped_lock lock(mutex_);
+    names_ = std::move(names);
+  }
+  beat();
+  heart_ = std::jthread([this](const std::stop_token& stop) {
+    std::unique_lock lock(resting_);
+    while (!rest_.wait_for(lock, stop, kBeat, [&] { return stop.stop_requested(); }))
+      beat();
+  });
+}
+
+void ScannerClaims::beat() {
+  std::vector<std::string> names;
+  {
+    const std::scoped_lock lock(mutex_);
+    names = names_;
+  }
+  for (const std::string& name : names) {
+    std::optional<Held> held;
+    {
+      const std::scoped_lock lock(mutex_);
+      if (const auto found = held_.find(name); found != held_.end()) held = found->second;
+    }
+    held ? renew(name, *held) : take(name);
+  }
+  look_at_others();
+}
+
+// The lease is counted from before the catalogue was asked.
+void ScannerClaims::take(const std::string& scanner) {
+  const Clock until = now() + lease_.time - kMargin;
+  const auto epoch = catalogue_.take_scanner(scanner, lease_, address_);
+  if (!epoch || !*epoch) return;
+  events_.event(Severity::kInfo, fmt::format("drives scanner {} in epoch {}", scanner, **epoch));
+  const std::scoped_lock lock(mutex_);
+  held_[scanner] = {**epoch, until};
+}
+
+void ScannerClaims::renew(const std::string& scanner, const Held& held) {
+  const Clock until = now() + lease_.time - kMargin;
+  const auto renewed = catalogue_.renew_scanner(scanner, held.epoch, lease_.time);
+  if (!renewed) events_.event(Severity::kWarning, renewed.error().message);
+  const std::scoped_lock lock(mutex_);
+  if (renewed) held_[scanner].until = until;
+  if (!renewed && renewed.error().code == ErrorCode::kState) held_.erase(scanner);
+}
+
+void ScannerClaims::look_at_others() {
+  auto drivers = catalogue_.scanner_drivers();
+  if (!drivers) return;
+  const std::scoped_lock lock(mutex_);
+  drivers_ = std::move(*drivers);
+}
+
+Expected<void> ScannerClaims::check(const std::string& scanner) const {
+  const std::scoped_lock lock(mutex_);
+  const auto held = held_.find(scanner);
+  if (held != held_.end() && now() < held->second.until) return {};
+  return fail(
+      ErrorCode::kIo,
+      held == held_.end()
+          ? fmt::format("another daemon drives scanner {}; stop one of them", scanner)
+          : fmt::format("the catalogue is away, so that scanner {} rests; check it", scanner));
+}
+
+bool ScannerClaims::has_jobs_of(const std::string& scanner) const {
+  const std::scoped_lock lock(mutex_);
+  if (held_.contains(scanner)) return true;
+  if (std::ranges::find(names_, scanner) != names_.end()) return false;
+  const auto driver = std::ranges::find(drivers_, scanner, &ScannerDriver::scanner);
+  return driver == drivers_.end() || driver->holder == lease_.holder;
+}
+
+std::optional<std::string> ScannerClaims::address_of(const std::string& scanner) const {
+  const std::scoped_lock lock(mutex_);
+  const auto driver = std::ranges::find(drivers_, scanner, &ScannerDriver::scanner);
+  if (driver == drivers_.end() || held_.contains(scanner) || driver->holder == lease_.holder ||
+      driver->address.empty()) {
+    return std::nullopt;
+  }
+  return driver->address;
+}
+
+std::vector<std::string> ScannerClaims::addresses() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<std::string> all;
+  for (const ScannerDriver& driver : drivers_) {
+    const bool is_other = driver.holder != lease_.holder && !driver.address.empty();
+    if (is_other && driver.is_current && std::ranges::find(all, driver.address) == all.end())
+      all.push_back(driver.address);
+  }
+  return all;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// A daemon passes on what is asked of a scanner that another drives.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "local_server.h"
+#include "server/catalogue/sqlite_jobs.h"
+#include "server/http/routes.h"
+#include "support/fake_backend.h"
+#include "support/http_client.h"
+
+namespace vitrine {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+class PassedOn : public testing::Test {
+ protected:
+  PassedOn() {
+    EXPECT_TRUE(driver_.scans().start());
+    const auto address = "http://127.0.0.1:" + std::to_string(driver_.port());
+    EXPECT_TRUE(jobs_->take_scanner("rig", {"driver", 1h}, address));
+    claims_.beat();
+    const auto tokens = driver_.catalogue().tokens().value();
+    for (const TokenRecord& token : tokens)
+      EXPECT_TRUE(front_.catalogue().add_token(token));
+  }
+
+  static std::vector<std::unique_ptr<ScannerBackend>> one(test::FakeScanner& world) {
+    std::vector<std::unique_ptr<ScannerBackend>> backends;
+    backends.push_back(std::make_unique<test::FakeBackend>(world));
+    return backends;
+  }
+  test::HttpAnswer ask(const std::string& method, const std::string& path, const std::string& who,
+                       const std::string& body = "") {
+    test::HttpClient client(front_.port());
+    client.send(method + " /api/v1" + path + " HTTP/1.1\r\nHost: a\r\n" + who +
+                "Content-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
+    return client.receive();
+  }
+
+  test::FakeScanner world_;
+  test::LocalServer driver_{public_routes(), std::chrono::seconds(30), one(world_)};
+  const std::string operator_ = driver_.bearer(Role::kOperator);
+  test::TemporaryFolder folder_;
+  std::unique_ptr<JobCatalogue> jobs_ =
+      open_sqlite_jobs(folder_.path() / "catalogue.sqlite").value();
+  ScannerClaims claims_{*jobs_, Log::open("").value(), {"front", 1h}, ""};
+  test::LocalServer front_{public_routes(), std::chrono::seconds(30), {}, {}, &claims_};
+};
+
+TEST_F(PassedOn, commands_reach_the_scanner_and_their_answers_the_caller) {
+  EXPECT_EQ(ask("POST", "/scanners/rig/jog", operator_, R"({"degrees": 90})").status, 200);
+  EXPECT_EQ(world_.degrees, 90);
+  EXPECT_EQ(ask("POST", "/scanners/rig/jog", operator_, R"({"radians": 1})").status, 422);
+  EXPECT_EQ(ask("POST", "/scanners/rig/laser", operator_, R"({"on": true})").status, 200);
+  EXPECT_TRUE(world_.laser);
+  const auto picture = ask("GET", "/scanners/rig/preview", operator_);
+  EXPECT_EQ(picture.field("content-type"), "image/png");
+  EXPECT_EQ(picture.body.substr(1, 3), "PNG");
+  EXPECT_EQ(ask("POST", "/scanners/rig/stop", operator_).status, 200);
+  EXPECT_EQ(world_.stops, 1u);
+}
+
+TEST_F(PassedOn, the_lists_of_all_are_one) {
+  const auto list = json::parse(ask("GET", "/scanners", operator_).body)["scanners"];
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0]["name"], "rig");
+}
+
+TEST_F(PassedOn, a_scan_begins_where_its_scanner_is) {
+  const auto begun = ask("POST", "/scans", operator_, R"({"scanner": "rig", "steps": 12})");
+  ASSERT_EQ(begun.status, 202) << begun.body;
+  const auto job = JobId::parse(json::parse(begun.body)["job"].get<std::string>()).value();
+  EXPECT_EQ(begun.field("location"), "/api/v1/jobs/" + job.to_string());
+  EXPECT_TRUE(driver_.jobs().find_job(job).value());
+}
+
+TEST_F(PassedOn, who_may_not_is_told_so_before) {
+  EXPECT_EQ(ask("POST", "/scanners/rig/jog", "", R"({"degrees": 90})").status, 401);
+  EXPECT_EQ(world_.degrees, 0);
+}
+
+TEST_F(PassedOn, a_daemon_that_does_not_answer_is_503_and_when_to_come_back) {
+  ASSERT_TRUE(jobs_->take_scanner("rig", {"driver", 1h}, "http://127.0.0.1:1"));
+  claims_.beat();
+  const auto answer = ask("GET", "/scanners/rig", operator_);
+  EXPECT_EQ(answer.status, 503);
+  EXPECT_EQ(answer.field("retry-after"), "5");
+}
+
+TEST_F(PassedOn, what_was_passed_on_is_not_passed_on_again) {
+  EXPECT_EQ(ask("GET", "/scanners/rig", operator_ + "Vitrine-Passed-On: 1\r\n").status, 404);
+}
+
+}  // namespace
+}  // namespace vitrine
