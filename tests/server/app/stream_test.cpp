@@ -15,6 +15,11 @@ namespace {
 
 using Json = nlohmann::json;
 
+void end(Daemon& daemon) {
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait().exit_code, 0);
+}
+
 class StreamTest : public ::testing::Test {
  protected:
   std::string url() const { return "/api/v1/models/" + id + "/stream"; }
@@ -101,6 +106,7 @@ TEST_F(StreamTest, OneSocketBringsSeveralModels) {
 }
 
 TEST_F(StreamTest, OpeningModelsIsBoundToTheRateOfRequests) {
+  end(daemon);  // a data folder is one daemon's
   const Daemon strict(folder.path(), {"--request-rate", "1"});
   WebSocketClient client(strict.port(), url(), "pmesh.v1");
   told(client);
@@ -149,6 +155,7 @@ TEST_F(StreamTest, AClientThatGrantsAheadIsSentEverything) {
 
 TEST_F(StreamTest, PagesOfOtherSitesMayStreamUnlessSomeAreListed) {
   EXPECT_NO_THROW(connect("", "Origin: https://museum.example\r\n"));
+  end(daemon);  // a data folder is one daemon's
   const Daemon strict(folder.path(), {"--allowed-origins", "https://museum.example"});
   const auto status = [&](const std::string& origin) {
     try {
