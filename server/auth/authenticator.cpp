@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 
 #include "server/auth/token.h"
 
@@ -10,6 +11,7 @@ namespace vitrine {
 namespace {
 
 constexpr std::size_t kMaxLabel = 200;
+constexpr std::size_t kMostHeld = 4096;
 
 std::int64_t now() {
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
@@ -43,21 +45,68 @@ Expected<NewToken> create_token(Catalogue& catalogue, Role role, std::string lab
   return token;
 }
 
-Expected<std::optional<Caller>> Authenticator::find(std::string_view text) const {
+std::size_t Authenticator::HashOfHash::operator()(const Sha256& hash) const noexcept {
+  std::size_t word;
+  std::memcpy(&word, hash.data(), sizeof word);
+  return word;
+}
+
+Expected<std::optional<Caller>> Authenticator::find(std::string_view text, Clock::time_point now) {
   const auto hash = token_hash(text);
   if (!hash) return std::nullopt;
-  const auto tokens = catalogue_.tokens_like(*hash);
+  return ask(*hash, now);
+}
+
+std::optional<Caller> Authenticator::held(std::string_view text, Clock::time_point now) {
+  const auto hash = token_hash(text);
+  return hash ? held(*hash, now) : std::nullopt;
+}
+
+Expected<bool> Authenticator::is_in_force(const Caller& caller, Clock::time_point now) {
+  if (held(caller.hash, now)) return true;
+  const auto found = ask(caller.hash, now);
+  if (!found) return Unexpected(found.error());
+  return found->has_value();
+}
+
+void Authenticator::forget() {
+  const std::scoped_lock lock(mutex_);
+  ++forgotten_;
+  held_.clear();
+}
+
+Expected<std::optional<Caller>> Authenticator::ask(const Sha256& hash, Clock::time_point now) {
+  std::uint64_t forgotten = 0;
+  {
+    const std::scoped_lock lock(mutex_);
+    forgotten = forgotten_;
+  }
+  const auto tokens = catalogue_.tokens_like(hash);
   if (!tokens) return Unexpected(tokens.error());
   for (const TokenRecord& token : *tokens) {
-    if (are_equal(token.hash, *hash)) return Caller{token.id, token.role};
+    if (!are_equal(token.hash, hash)) continue;
+    const Caller caller{token.id, token.role, token.hash};
+    remember(caller, now, forgotten);
+    return caller;
   }
   return std::nullopt;
 }
 
-Expected<bool> Authenticator::is_in_force(const Caller& caller) const {
-  const auto tokens = catalogue_.tokens();
-  if (!tokens) return Unexpected(tokens.error());
-  return std::ranges::find(*tokens, caller.token, &TokenRecord::id) != tokens->end();
+std::optional<Caller> Authenticator::held(const Sha256& hash, Clock::time_point now) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = held_.find(hash);
+  if (found == held_.end() || now - found->second.asked >= kMemory) return std::nullopt;
+  Memory& memory = found->second;
+  const bool is_due = now - memory.asked >= kMemory / 2 && !memory.is_being_asked;
+  if (is_due) memory.is_being_asked = true;
+  return is_due ? std::nullopt : std::optional(memory.caller);
+}
+
+void Authenticator::remember(const Caller& caller, Clock::time_point now, std::uint64_t forgotten) {
+  const std::scoped_lock lock(mutex_);
+  if (forgotten != forgotten_) return;
+  if (held_.size() >= kMostHeld) held_.clear();
+  held_[caller.hash] = {caller, now};
 }
 
 }  // namespace vitrine

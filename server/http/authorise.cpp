@@ -44,6 +44,12 @@ std::string_view bearer_token(const RequestHeader& header) {
   return {token.data(), token.size()};
 }
 
+Authorisation with_role(const Caller& caller, const Route& route, std::string_view request_id) {
+  if (caller.role >= route.role) return {caller, {}};
+  const auto detail = fmt::format("this needs a token with the role {}", name_of(route.role));
+  return {caller, problem(403, detail, request_id)};
+}
+
 }  // namespace
 
 bool needs_authorisation(const Route& route, const RequestHeader& header) {
@@ -64,9 +70,14 @@ Authorisation authorise(const Route& route, const Credentials& credentials, Serv
     return {{}, away(id)};
   }
   if (!*caller) return {{}, unknown_token(credentials, services)};
-  if ((*caller)->role >= route.role) return {*caller, {}};
-  const auto detail = fmt::format("this needs a token with the role {}", name_of(route.role));
-  return {*caller, problem(403, detail, id)};
+  return with_role(**caller, route, id);
+}
+
+std::optional<Authorisation> authorise_at_once(const Route& route, const Credentials& credentials,
+                                               Services& services) {
+  const auto caller = services.tokens.held(bearer_token(credentials.header));
+  if (!caller) return std::nullopt;
+  return with_role(*caller, route, credentials.request_id);
 }
 
 }  // namespace vitrine

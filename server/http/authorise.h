@@ -15,7 +15,6 @@ struct Credentials {
   std::string_view request_id;
 };
 
-// Whether `authorise` has anything to find out: it waits for the catalogue.
 bool needs_authorisation(const Route& route, const RequestHeader& header);
 
 struct Authorisation {
@@ -23,6 +22,10 @@ struct Authorisation {
   std::optional<Response> refusal;  // 401 without a token in force, 403 where its role does not
                                     // suffice, 429 where the address has tried too many wrong ones
 };
+// Waits for the catalogue.
 Authorisation authorise(const Route& route, const Credentials& credentials, Services& services);
+// Nothing where the catalogue has to be asked.
+std::optional<Authorisation> authorise_at_once(const Route& route, const Credentials& credentials,
+                                               Services& services);
 
 }  // namespace vitrine

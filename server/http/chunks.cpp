@@ -14,6 +14,14 @@ Response chunk_response(const PublishedChunk& chunk, const Request& request) {
   return response;
 }
 
+Response model_chunk(const std::shared_ptr<const PublishedModel>& model, const Request& request) {
+  const auto range = model->find(request.parameters.sha256);
+  if (!range) return problem(404, "there is no such chunk", request.id);
+  Response response = chunk_response({model, *range}, request);
+  response.caching = Caching::kPrivate;
+  return response;
+}
+
 }  // namespace
 
 // The hot path: a look-up in memory, and the bytes go from the page cache to the socket.
@@ -30,15 +38,21 @@ Response show_chunk(const Request& request, Services& services) {
   return chunk_response(*chunk, request);
 }
 
+// Likewise, for who may see the model.
+std::optional<Response> show_held_model_chunk(const Request& request, Services& services) {
+  const bool is_unknown =
+      !request.caller && request.header.count(beast::http::field::authorization) > 0;
+  if (is_unknown) return std::nullopt;
+  const auto model =
+      held_visible(request.parameters.id, request.caller.has_value(), services.models);
+  if (!model) return std::nullopt;
+  return model_chunk(model, request);
+}
+
 // Where the chunks of drafts are.
 Response show_model_chunk(const Request& request, Services& services) {
-  return with_model(request, services, [&](const auto& model) {
-    const auto range = model->find(request.parameters.sha256);
-    if (!range) return problem(404, "there is no such chunk", request.id);
-    Response response = chunk_response({model, *range}, request);
-    response.caching = Caching::kPrivate;
-    return response;
-  });
+  return with_model(request, services,
+                    [&](const auto& model) { return model_chunk(model, request); });
 }
 
 }  // namespace vitrine

@@ -26,6 +26,7 @@ Response remove_model(const Request& request, Services& services);
 Response show_chunk(const Request& request, Services& services);
 std::optional<Response> show_held_chunk(const Request& request, Services& services);
 Response show_model_chunk(const Request& request, Services& services);
+std::optional<Response> show_held_model_chunk(const Request& request, Services& services);
 
 // exports.cpp
 Response export_model(const Request& request,

@@ -71,7 +71,15 @@ inline VisibleModel find_visible(const ModelId& id, bool has_token, PublishedMod
   FoundModel published = models.find(id);
   const bool is_all = published && *published && !(*published)->record().public_part;
   if (!has_token || !published || is_all) return {std::move(published)};
-  return {models.open_whole(id), true};
+  return {models.find_whole(id), true};
+}
+
+// The same model where it is in memory and known to be current; else null.
+inline std::shared_ptr<const PublishedModel> held_visible(const ModelId& id, bool has_token,
+                                                          PublishedModels& models) {
+  auto published = models.held(id);
+  const bool is_all = published && !published->record().public_part;
+  return has_token && !is_all ? models.held_whole(id) : published;
 }
 
 // With what the caller may see of the request's {id}.

@@ -63,11 +63,12 @@ struct Route {
   std::string_view path;  // a template: literals, {rest} (all that is left) and PathParameters
   Handler handler;
   Place place;
-  Role role = Role::kNone;       // the least that a caller needs; kNone: everybody may
-  QuickHandler quick = nullptr;  // tried first, on the connection's own thread, for everybody
-  bool reads_body = true;        // of a POST or PATCH: JSON; else it does not matter, or goes
-                                 // where the answer's sink is
-  bool limited = true;           // by request-rate
+  Role role = Role::kNone;  // the least that a caller needs; kNone: everybody may
+  // Tried on the connection's own thread: first for everybody, and again once a caller is known.
+  QuickHandler quick = nullptr;
+  bool reads_body = true;  // of a POST or PATCH: JSON; else it does not matter, or goes
+                           // where the answer's sink is
+  bool limited = true;     // by request-rate
 };
 
 // Whether other origins' pages may read the answers.

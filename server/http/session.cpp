@@ -327,18 +327,13 @@ class Session {
     const auto target = split_target(text(message.target()));
     const Request request{message,     target->path,  target->query,   exchange.parameters,
                           exchange.id, exchange.body, exchange.caller, exchange.visitor.encrypted};
-    if (route.quick != nullptr) {
-      if (auto quick = route.quick(request, server_.services())) {
-        exchange.response = apply_conditions(message, std::move(*quick), exchange.id);
-        co_return true;
-      }
-    }
+    if (answer_at_once(request, exchange)) co_return true;
     if (route.place != Place::kInline &&
         is_beyond_rate(network_of(exchange.visitor.address), exchange))
       co_return true;
     if (needs_authorisation(route, message)) {
       const bool authorised = co_await authorise_caller(message, exchange);
-      if (!authorised) co_return true;
+      if (!authorised || answer_at_once(request, exchange)) co_return true;
     }
     if (takes_json(route)) {
       const ReadResult read = co_await read_body(parser, exchange);
@@ -348,6 +343,15 @@ class Session {
     if (!exchange.response.sink) co_return true;
     const bool poured = co_await pour(parser, exchange);
     co_return poured;
+  }
+
+  // Sets the answer where it is in memory.
+  bool answer_at_once(const Request& request, Exchange& exchange) {
+    const Route& route = *exchange.route;
+    if (route.quick == nullptr) return false;
+    auto quick = route.quick(request, server_.services());
+    if (quick) exchange.response = apply_conditions(request.header, std::move(*quick), exchange.id);
+    return quick.has_value();
   }
 
   // Sets the answer to one who asks too often.
@@ -361,15 +365,17 @@ class Session {
   }
 
   asio::awaitable<bool> authorise_caller(const Parser::value_type& message, Exchange& exchange) {
-    Authorisation found;
     const Credentials credentials{message, exchange.visitor.address, exchange.id};
-    co_await on_worker(Place::kWorker, text(message.target()), [&] {
-      found = authorise(*exchange.route, credentials, server_.services());
-    });
-    exchange.caller = found.caller;
-    if (found.refusal) exchange.response = std::move(*found.refusal);
-    if (found.refusal || !found.caller) co_return !found.refusal;
-    co_return !is_beyond_rate(found.caller->token.to_string(), exchange);
+    auto found = authorise_at_once(*exchange.route, credentials, server_.services());
+    if (!found) {
+      co_await on_worker(Place::kWorker, text(message.target()), [&] {
+        found = authorise(*exchange.route, credentials, server_.services());
+      });
+    }
+    exchange.caller = found->caller;
+    if (found->refusal) exchange.response = std::move(*found->refusal);
+    if (found->refusal || !found->caller) co_return !found->refusal;
+    co_return !is_beyond_rate(found->caller->token.to_string(), exchange);
   }
 
   asio::awaitable<void> handle(const Request& request, Exchange& exchange) {

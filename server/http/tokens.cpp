@@ -76,6 +76,7 @@ Response revoke_token(const Request& request, Services& services) {
   if (!revoked && revoked.error().code == ErrorCode::kState)
     return problem(404, "there is no such token in force", request.id);
   if (!revoked) return refused(revoked.error(), request, services);
+  services.tokens.forget();
   Response response;
   response.status = 204;
   return response;

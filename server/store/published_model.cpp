@@ -7,6 +7,7 @@
 #include <cstring>
 #include <iterator>
 #include <mutex>
+#include <numeric>
 
 #include "server/store/change.h"
 
@@ -33,9 +34,18 @@ Expected<Manifest> read_manifest(const Object& file, const ModelRecord& record) 
   return manifest;
 }
 
+// The indices of the chunks in the order of their names.
+std::vector<std::uint32_t> by_name(const std::vector<ChunkInfo>& chunks) {
+  std::vector<std::uint32_t> order(chunks.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return chunks[i].sha256; });
+  return order;
+}
+
 // What holding it costs: the manifest, and where each chunk is found.
 std::uint64_t memory_of(const Manifest& manifest) {
-  constexpr std::uint64_t kEntry = sizeof(Sha256) + sizeof(PublishedChunk) + 4 * sizeof(void*);
+  constexpr std::uint64_t kEntry =
+      sizeof(Sha256) + sizeof(PublishedChunk) + 4 * sizeof(void*) + sizeof(std::uint32_t);
   std::uint64_t bytes = sizeof(PublishedModel) + (manifest.chunks.size() + 1) * kEntry +
                         manifest.chunks.size() * sizeof(ChunkInfo) +
                         manifest.levels.size() * sizeof(LevelInfo) +
@@ -53,6 +63,13 @@ std::size_t first_word(const Value& value) {
   return word;
 }
 
+// As the view shows it; nothing where it does not.
+std::optional<ModelRecord> shown(ModelRecord record, bool is_whole) {
+  if (is_whole) return record;
+  if (record.state != ModelState::kPublished) return std::nullopt;
+  return public_view(std::move(record));
+}
+
 }  // namespace
 
 Expected<std::shared_ptr<const PublishedModel>> PublishedModel::open(const ObjectStore& store,
@@ -65,25 +82,27 @@ Expected<std::shared_ptr<const PublishedModel>> PublishedModel::open(const Objec
   std::shared_ptr<PublishedModel> model(new PublishedModel);
   model->record_ = std::move(record);
   model->manifest_ = std::move(*manifest);
+  model->by_name_ = by_name(model->manifest_.chunks);
   model->file_ = std::move(*file);
   return model;
 }
 
 std::optional<ByteRange> PublishedModel::find(const Sha256& sha256) const {
   if (manifest_.base_sha256 == sha256) return base();
-  const auto found = std::ranges::find(manifest_.chunks, sha256, &ChunkInfo::sha256);
-  if (found == manifest_.chunks.end()) return std::nullopt;
-  return ByteRange{found->offset, found->length};
+  const auto name_of = [this](std::uint32_t i) { return manifest_.chunks[i].sha256; };
+  const auto found = std::ranges::lower_bound(by_name_, sha256, {}, name_of);
+  if (found == by_name_.end() || name_of(*found) != sha256) return std::nullopt;
+  return chunk(*found);
 }
 
 std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const noexcept {
   return first_word(sha256);
 }
 
-std::size_t PublishedModels::HashOfId::operator()(const ModelId& id) const noexcept {
+std::size_t PublishedModels::HashOfView::operator()(const View& view) const noexcept {
   std::array<std::uint8_t, 8> random;  // the last bytes; the first are the time
-  std::copy(id.bytes().begin() + 8, id.bytes().end(), random.begin());
-  return first_word(random);
+  std::copy(view.id.bytes().begin() + 8, view.id.bytes().end(), random.begin());
+  return first_word(random) + (view.is_whole ? 1 : 0);
 }
 
 bool PublishedModels::is_fresh(Clock::time_point now, Clock::duration age) const {
@@ -144,7 +163,7 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   if (!revision) return tl::unexpected(revision.error());
   if (*revision != before) {
     const std::shared_lock lock(mutex_);
-    for (const auto& [id, entry] : models_)
+    for (const auto& [view, entry] : models_)
       held.push_back(entry.model);
   }
   const auto kept = unchanged(held);
@@ -162,7 +181,7 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   return {};
 }
 
-// Those that are published as they were.
+// Those that are as they were.
 Expected<std::vector<const PublishedModel*>> PublishedModels::unchanged(
     const std::vector<Model>& models) {
   std::vector<const PublishedModel*> kept;
@@ -175,12 +194,12 @@ Expected<std::vector<const PublishedModel*>> PublishedModels::unchanged(
 }
 
 // One opens it for all who ask meanwhile.
-Expected<PublishedModels::Model> PublishedModels::load(const ModelId& id) {
+Expected<PublishedModels::Model> PublishedModels::load(const View& view) {
   std::shared_ptr<Opening> own, other;
   {
     const std::unique_lock lock(mutex_);
-    if (const auto it = models_.find(id); it != models_.end()) return it->second.model;
-    auto& opening = openings_[id];
+    if (const auto it = models_.find(view); it != models_.end()) return it->second.model;
+    auto& opening = openings_[view];
     if (opening && opening->revision == revision_ && opening->refreshed == refreshed_) {
       other = opening;
     } else {
@@ -190,35 +209,31 @@ Expected<PublishedModels::Model> PublishedModels::load(const ModelId& id) {
   if (other) return other->result.get();
   misses.fetch_add(1, std::memory_order_relaxed);
   try {
-    own->promise.set_value(open(id));
+    own->promise.set_value(open(view));
   } catch (...) {  // out of memory: for all of them
     own->promise.set_exception(std::current_exception());
   }
   const std::unique_lock lock(mutex_);
-  const auto it = openings_.find(id);
+  const auto it = openings_.find(view);
   if (it != openings_.end() && it->second == own) openings_.erase(it);
   return own->result.get();
 }
 
-Expected<PublishedModels::Model> PublishedModels::open(const ModelId& id) {
+Expected<PublishedModels::Model> PublishedModels::open(const View& view) {
   const auto before = catalogue_.revision();
   if (!before) return tl::unexpected(before.error());
-  auto model = open_newest(id, [](ModelRecord record) -> std::optional<ModelRecord> {
-    if (record.state != ModelState::kPublished) return std::nullopt;
-    return public_view(std::move(record));
-  });
-  if (model && *model) remember(*model, *before);
+  auto model = open_newest(view);
+  if (model && *model) remember(view, *model, *before);
   return model;
 }
 
-// As `view` shows its record; null where it shows none. A file that was not there may have lost its
-// name, and been collected, since the record was read: a fault is one where the record is the same.
-template <class View>
-Expected<PublishedModels::Model> PublishedModels::open_newest(const ModelId& id, const View& view) {
+// Null where the view shows none. A file that was not there may have lost its name, and been
+// collected, since the record was read: a fault is one where the record is the same.
+Expected<PublishedModels::Model> PublishedModels::open_newest(const View& view) {
   for (std::optional<std::uint64_t> failed;;) {
-    auto record = catalogue_.find(id);
+    auto record = catalogue_.find(view.id);
     if (!record) return tl::unexpected(record.error());
-    auto seen = *record ? view(std::move(**record)) : std::nullopt;
+    auto seen = *record ? shown(std::move(**record), view.is_whole) : std::nullopt;
     if (!seen) return nullptr;
     const std::uint64_t version = seen->version;
     auto model = PublishedModel::open(store_, std::move(*seen));
@@ -227,26 +242,30 @@ Expected<PublishedModels::Model> PublishedModels::open_newest(const ModelId& id,
   }
 }
 
-void PublishedModels::remember(const Model& model, std::uint64_t revision) {
-  const Manifest& manifest = model->manifest();
-  const std::uint64_t bytes = memory_of(manifest);
+void PublishedModels::remember(const View& view, const Model& model, std::uint64_t revision) {
+  const std::uint64_t bytes = memory_of(model->manifest());
   const std::unique_lock lock(mutex_);
   if (revision != revision_) return;  // what was read may be old by now
-  if (bytes > max_bytes_ || models_.contains(model->record().id)) return;
+  if (bytes > max_bytes_ || models_.contains(view)) return;
   model->asked_ = Clock::now().time_since_epoch().count();
-  models_[model->record().id] = {model, bytes};
+  models_[view] = {model, bytes};
   bytes_ += bytes;
+  if (!view.is_whole) tell_chunks(model);
+  make_room();
+}
+
+void PublishedModels::tell_chunks(const Model& model) {
+  const Manifest& manifest = model->manifest();
   chunks_.insert({manifest.base_sha256, {model, model->base()}});
   for (std::size_t i = 0; i < manifest.chunks.size(); ++i)
     chunks_.insert({manifest.chunks[i].sha256, {model, model->chunk(i)}});
-  make_room();
 }
 
 void PublishedModels::keep_manifest(const Model& model, Document document) {
   const std::uint64_t bytes = sizeof document + document.text.size() + document.etag.size();
   auto kept = std::make_shared<const Document>(std::move(document));
   const std::unique_lock lock(mutex_);
-  const auto it = models_.find(model->record().id);
+  const auto it = models_.find({model->record().id});
   const bool is_held = it != models_.end() && it->second.model == model;
   if (!is_held || model->kept_manifest() || it->second.bytes + bytes > max_bytes_) return;
   std::atomic_store(&model->told_, std::move(kept));
@@ -290,19 +309,23 @@ std::uint64_t PublishedModels::bytes() {
 }
 
 Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const ModelId& id) {
+  return find(View{id});
+}
+
+Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find_whole(const ModelId& id) {
+  return find(View{id, true});
+}
+
+Expected<PublishedModels::Model> PublishedModels::find(const View& view) {
   if (auto fresh = forget_if_changed(); !fresh) return tl::unexpected(fresh.error());
   {
     const std::shared_lock lock(mutex_);
-    if (const auto it = models_.find(id); it != models_.end()) {
+    if (const auto it = models_.find(view); it != models_.end()) {
       count_hit(*it->second.model, Clock::now());
       return it->second.model;
     }
   }
-  return load(id);
-}
-
-Expected<std::shared_ptr<const PublishedModel>> PublishedModels::open_whole(const ModelId& id) {
-  return open_newest(id, [](ModelRecord record) { return std::optional(std::move(record)); });
+  return load(view);
 }
 
 void PublishedModels::refresh() {
@@ -312,10 +335,18 @@ void PublishedModels::refresh() {
 }
 
 std::shared_ptr<const PublishedModel> PublishedModels::held(const ModelId& id) {
+  return held(View{id});
+}
+
+std::shared_ptr<const PublishedModel> PublishedModels::held_whole(const ModelId& id) {
+  return held(View{id, true});
+}
+
+PublishedModels::Model PublishedModels::held(const View& view) {
   const auto now = Clock::now();
   const std::shared_lock lock(mutex_);
   if (!may_show(now)) return nullptr;
-  const auto it = models_.find(id);
+  const auto it = models_.find(view);
   if (it == models_.end()) return nullptr;
   count_hit(*it->second.model, now);
   return it->second.model;
@@ -340,7 +371,7 @@ Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {
   const auto location = catalogue_.find_chunk(sha256);
   if (!location) return tl::unexpected(location.error());
   if (!*location) return PublishedChunk{};
-  const auto model = load((*location)->model);
+  const auto model = load({(*location)->model});
   if (!model) return tl::unexpected(model.error());
   // The model may have got another file since: only its own manifest says what lies where.
   const auto range = *model ? (*model)->find(sha256) : std::nullopt;

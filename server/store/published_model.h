@@ -11,6 +11,7 @@
 #include <memory>
 #include <shared_mutex>
 #include <unordered_map>
+#include <vector>
 
 #include "codec/progressive/manifest.h"
 #include "server/catalogue/catalogue.h"
@@ -58,6 +59,7 @@ class PublishedModel {
 
   ModelRecord record_;
   Manifest manifest_;
+  std::vector<std::uint32_t> by_name_;  // the chunks' indices
   std::unique_ptr<Object> file_;
   mutable std::shared_ptr<const Document> told_;
   mutable std::atomic<std::chrono::steady_clock::rep> asked_{0};  // when somebody last asked for it
@@ -68,7 +70,7 @@ struct PublishedChunk {
   ByteRange range;
 };
 
-// The published models of an installation, opened on first use, by one for all who ask, and kept:
+// The models of an installation, opened on first use, by one for all who ask, and kept:
 // their manifests, and what has been told of those, in `max_bytes` of memory, the least recently
 // asked for dropped first. Thread-safe. What another process publishes is found at once; what it
 // changes or hides is noticed within `staleness`, and all else is kept. While the catalogue is
@@ -91,9 +93,8 @@ class PublishedModels {
   // What is public of it. Null where there is no such model or it is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
 
-  // All of a model, drafts too, for those who may see it: opened anew each time. Null where there
-  // is none.
-  Expected<std::shared_ptr<const PublishedModel>> open_whole(const ModelId& id);
+  // All of a model, drafts too, for those who may see it. Null where there is none.
+  Expected<std::shared_ptr<const PublishedModel>> find_whole(const ModelId& id);
 
   // What this process has published or hidden is so from the next call on.
   void refresh();
@@ -104,6 +105,7 @@ class PublishedModels {
   // The model or the chunk where it is in memory and known to be current. Waits for neither
   // catalogue nor disk.
   std::shared_ptr<const PublishedModel> held(const ModelId& id);
+  std::shared_ptr<const PublishedModel> held_whole(const ModelId& id);
   std::optional<PublishedChunk> held_chunk(const Sha256& sha256);
 
   // A chunk or a base mesh of any published model.
@@ -116,8 +118,14 @@ class PublishedModels {
   struct HashOfHash {
     std::size_t operator()(const Sha256& sha256) const noexcept;
   };
-  struct HashOfId {
-    std::size_t operator()(const ModelId& id) const noexcept;
+  // What is seen of a model: what is public, or all of it.
+  struct View {
+    ModelId id;
+    bool is_whole = false;
+    bool operator==(const View&) const = default;
+  };
+  struct HashOfView {
+    std::size_t operator()(const View& view) const noexcept;
   };
   using Clock = std::chrono::steady_clock;
   using Model = std::shared_ptr<const PublishedModel>;
@@ -125,7 +133,7 @@ class PublishedModels {
     Model model;
     std::uint64_t bytes = 0;
   };
-  using HeldModels = std::unordered_map<ModelId, Held, HashOfId>;
+  using HeldModels = std::unordered_map<View, Held, HashOfView>;
   // A model that is being opened; of no use to who knows of a later change.
   struct Opening {
     std::uint64_t revision, refreshed;
@@ -140,12 +148,14 @@ class PublishedModels {
   Expected<void> forget_if_changed();
   Expected<void> ask_for_changes(Clock::time_point now);
   Expected<std::vector<const PublishedModel*>> unchanged(const std::vector<Model>& models);
-  Expected<Model> load(const ModelId& id);
-  Expected<Model> open(const ModelId& id);
-  template <class View>
-  Expected<Model> open_newest(const ModelId& id, const View& view);
-  void remember(const Model& model, std::uint64_t revision);
-  HeldModels::iterator drop(HeldModels::iterator model);  // with the lock held
+  Model held(const View& view);
+  Expected<Model> find(const View& view);
+  Expected<Model> load(const View& view);
+  Expected<Model> open(const View& view);
+  Expected<Model> open_newest(const View& view);
+  void remember(const View& view, const Model& model, std::uint64_t revision);
+  void tell_chunks(const Model& model);                   // with the lock held
+  HeldModels::iterator drop(HeldModels::iterator model);  // likewise
   void make_room();                                       // likewise
 
   const ObjectStore& store_;
@@ -163,8 +173,9 @@ class PublishedModels {
   std::uint64_t max_bytes_;
   std::uint64_t bytes_ = 0;
   HeldModels models_;
-  std::unordered_multimap<Sha256, PublishedChunk, HashOfHash> chunks_;  // of those, each its own
-  std::unordered_map<ModelId, std::shared_ptr<Opening>, HashOfId> openings_;
+  std::unordered_multimap<Sha256, PublishedChunk, HashOfHash>
+      chunks_;  // of the public views, each its own
+  std::unordered_map<View, std::shared_ptr<Opening>, HashOfView> openings_;
 };
 
 }  // namespace vitrine

@@ -13,11 +13,11 @@
 namespace vitrine {
 namespace {
 
+using std::chrono_literals::operator""ms;
+
 class AuthenticatorTest : public ::testing::Test {
  protected:
-  std::optional<Caller> find(const std::string& text) const {
-    return authenticator_.find(text).value();
-  }
+  std::optional<Caller> find(const std::string& text) { return authenticator_.find(text).value(); }
   // Every byte of the database's files.
   std::string stored() const {
     std::string bytes;
@@ -66,6 +66,41 @@ TEST_F(AuthenticatorTest, NothingThatIsStoredIsAToken) {
             std::string::npos);
   EXPECT_FALSE(find(to_hex(hash)));
   EXPECT_FALSE(find(token.id.to_string()));
+}
+
+TEST_F(AuthenticatorTest, WhoIsKnownIsLetInForATenthOfASecondWithoutTheCatalogue) {
+  const NewToken token = create_token(*catalogue_, Role::kViewer, "a").value();
+  const auto start = Authenticator::Clock::now();
+  EXPECT_FALSE(authenticator_.held(token.text, start));
+  const auto caller = authenticator_.find(token.text, start).value();
+  ASSERT_TRUE(caller);
+  ASSERT_TRUE(catalogue_->revoke_token(token.id)) << "as another process does";
+  EXPECT_EQ(authenticator_.held(token.text, start + 99ms)->token, token.id)
+      << "one was told to ask";
+  EXPECT_TRUE(authenticator_.is_in_force(*caller, start + 99ms).value());
+  EXPECT_FALSE(authenticator_.held(token.text, start + 100ms));
+  EXPECT_FALSE(authenticator_.is_in_force(*caller, start + 100ms).value());
+}
+
+TEST_F(AuthenticatorTest, OneAsksAnewForAllBeforeTheTimeIsOver) {
+  const NewToken token = create_token(*catalogue_, Role::kViewer, "a").value();
+  const auto start = Authenticator::Clock::now();
+  ASSERT_TRUE(authenticator_.find(token.text, start).value());
+  EXPECT_TRUE(authenticator_.held(token.text, start + 49ms));
+  EXPECT_FALSE(authenticator_.held(token.text, start + 50ms));
+  EXPECT_TRUE(authenticator_.held(token.text, start + 50ms));
+  ASSERT_TRUE(authenticator_.find(token.text, start + 50ms).value());
+  EXPECT_TRUE(authenticator_.held(token.text, start + 99ms));
+  EXPECT_FALSE(authenticator_.held(token.text, start + 100ms)) << "the next who asks";
+}
+
+TEST_F(AuthenticatorTest, WhatThisProcessRevokesIsRevokedAtOnce) {
+  const NewToken token = create_token(*catalogue_, Role::kViewer, "a").value();
+  const auto start = Authenticator::Clock::now();
+  ASSERT_TRUE(authenticator_.find(token.text, start).value());
+  ASSERT_TRUE(catalogue_->revoke_token(token.id));
+  authenticator_.forget();
+  EXPECT_FALSE(authenticator_.held(token.text, start));
 }
 
 TEST_F(AuthenticatorTest, ALabelIsOneShortLine) {

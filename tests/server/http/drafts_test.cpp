@@ -52,6 +52,30 @@ TEST_F(Drafts, ADraftIsShownToWhoHasATokenAndNobodyMayKeepIt) {
   EXPECT_EQ(ask("/api/v1" + chunk_, viewer_).status, 404) << "that URL is for everybody's caches";
 }
 
+TEST_F(Drafts, ADraftsChunksComeFromMemoryAsLongAsTheTokenIsInForce) {
+  const auto& models = server_.services().models;
+  ASSERT_EQ(ask(api_ + chunk_, viewer_).body, "a chunk");
+  const std::uint64_t opened = models.misses;
+  EXPECT_EQ(ask(api_ + chunk_, viewer_).body, "a chunk");
+  EXPECT_EQ(models.misses, opened);
+  EXPECT_EQ(ask(api_ + "/chunks/" + std::string(64, 'a'), viewer_).status, 404);
+  EXPECT_EQ(ask(api_ + chunk_).status, 404) << "without a token there is no such model";
+  const auto tokens = server_.catalogue().tokens().value();
+  ASSERT_TRUE(server_.catalogue().revoke_token(tokens[0].id)) << "as another process does";
+  unsigned status = 200;
+  while (status == 200)  // for a tenth of a second
+    status = ask(api_ + chunk_, viewer_).status;
+  EXPECT_EQ(status, 401);
+}
+
+TEST_F(Drafts, ATokenThatIsRevokedHereIsWorthlessAtOnce) {
+  const std::string admin = server_.bearer(Role::kAdmin);
+  ASSERT_EQ(ask(api_ + chunk_, viewer_).status, 200);
+  const auto tokens = server_.catalogue().tokens().value();
+  ASSERT_EQ(ask("/api/v1/tokens/" + tokens[0].id.to_string(), admin, "DELETE").status, 204);
+  EXPECT_EQ(ask(api_ + chunk_, viewer_).status, 401);
+}
+
 TEST_F(Drafts, DraftsAreListedForWhoHasATokenAndAsks) {
   const std::string list = "/api/v1/models?drafts=true";
   EXPECT_EQ(ask(list).status, 401);

@@ -133,6 +133,26 @@ TEST_F(PublishedModelsTest, a_chunk_of_two_models_stays_while_one_of_them_does) 
   EXPECT_EQ(chunk->model->record().id, two);
 }
 
+TEST_F(PublishedModelsTest, what_is_not_public_is_kept_for_those_who_may_see_it) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  const ModelId id = add("one");
+  ASSERT_TRUE(catalogue_->set_state(id, ModelState::kDraft));
+  store_.opened = 0;
+  EXPECT_EQ(lazy.held_whole(id), nullptr);
+  const auto draft = lazy.find_whole(id).value();
+  ASSERT_TRUE(draft);
+  EXPECT_EQ(lazy.find_whole(id).value(), draft);
+  EXPECT_EQ(lazy.held_whole(id), draft);
+  EXPECT_EQ(store_.opened, 1);
+  EXPECT_EQ(lazy.held(id), nullptr);
+  EXPECT_FALSE(lazy.held_chunk(name_of("one")));
+  EXPECT_EQ(lazy.find(id).value(), nullptr);
+  ASSERT_TRUE(catalogue_->remove(id, std::nullopt));
+  lazy.refresh();
+  EXPECT_EQ(lazy.held_whole(id), nullptr);
+  EXPECT_EQ(lazy.find_whole(id).value(), nullptr);
+}
+
 TEST_F(PublishedModelsTest, who_asks_while_a_model_is_opened_waits_for_it) {
   constexpr int kVisitors = 4;
   const ModelId id = add("one");
@@ -167,7 +187,7 @@ TEST_F(PublishedModelsTest, a_file_that_is_collected_before_it_is_open_was_an_ol
       one, [&] { ASSERT_TRUE(replace(store_, *catalogue_, newer.bytes, {}, {.id = one})); });
   EXPECT_EQ(models_.find(one).value()->record().file, sha256(newer.bytes));
   before_the_first(two, [&] { ASSERT_TRUE(catalogue_->remove(two, std::nullopt)); });
-  EXPECT_EQ(models_.open_whole(two).value(), nullptr);
+  EXPECT_EQ(models_.find_whole(two).value(), nullptr);
 }
 
 TEST_F(PublishedModelsTest, a_model_that_is_hidden_while_it_is_replaced_is_replaced_and_hidden) {
