@@ -155,6 +155,8 @@ class Daemon {
 
   Expected<void> open() {
     if (live_.get()->roles.serve) {
+      if (const auto kept = write_quota(live_.get()->data, live_.get()->quota_bytes); !kept)
+        events_.event(Severity::kWarning, kept.error().message);
       if (auto bound = bind(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
         return bound;
     }
@@ -187,8 +189,8 @@ class Daemon {
     keep_watchdog();
     std::vector<std::thread> threads;
     for (unsigned i = 1; i < threads_; ++i)
-      threads.emplace_back([this] { io_.run(); });
-    io_.run();
+      threads.emplace_back([this] { serve_connections(); });
+    serve_connections();
     for (std::thread& thread : threads)
       thread.join();
     scans_.stop();
@@ -202,6 +204,18 @@ class Daemon {
   }
 
  private:
+  // What is thrown where nobody catches it (memory has run out) costs one visitor, not all.
+  void serve_connections() {
+    for (;;) {
+      try {
+        io_.run();
+        return;
+      } catch (const std::exception& fault) {
+        events_.event(Severity::kError, fault.what());
+      }
+    }
+  }
+
   void tell_of(const JobStatus& job) {
     constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
     webhooks_.tell(job.record.webhook, job_json(job).dump(-1, ' ', false, kReplace),

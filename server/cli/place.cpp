@@ -3,22 +3,41 @@
 
 #include <unistd.h>
 
+#include <optional>
 #include <vector>
 
 #include "server/config/read_file.h"
 #include "server/jobs/place_of.h"
+#include "server/store/quota.h"
 
 namespace vitrine::cli {
 
-Expected<InstallationPlace> place_of(const std::string& text) {
+namespace {
+
+// Nothing where it is not a configuration file.
+Expected<std::optional<Settings>> settings_in(const std::string& text) {
   std::error_code unknown;
-  if (!std::filesystem::is_regular_file(text, unknown)) return InstallationPlace{.folder = text};
+  if (!std::filesystem::is_regular_file(text, unknown)) return std::nullopt;
   std::vector<std::string_view> environment;
   for (char** entry = environ; *entry != nullptr; ++entry)
     environment.emplace_back(*entry);
-  const auto settings = read_settings(text, environment);
+  auto settings = read_settings(text, environment);
   if (!settings) return Unexpected(settings.error());
-  return vitrine::place_of(*settings);
+  return std::move(*settings);
+}
+
+}  // namespace
+
+Expected<InstallationPlace> place_of(const std::string& text) {
+  const auto settings = settings_in(text);
+  if (!settings) return Unexpected(settings.error());
+  return *settings ? vitrine::place_of(**settings) : InstallationPlace{.folder = text};
+}
+
+Expected<std::uint64_t> quota_of(const std::string& text) {
+  const auto settings = settings_in(text);
+  if (!settings) return Unexpected(settings.error());
+  return *settings ? (*settings)->quota_bytes : read_quota(text);
 }
 
 Expected<void> check_existing(const InstallationPlace& place) {

@@ -119,9 +119,13 @@ Outcome publish_file(const Arguments& arguments) {
 
   const auto installation = open_installation(*place);
   if (!installation) return failed(installation.error());
+  const auto limit = quota_of(arguments.text("--data"));
+  if (!limit) return failed(limit.error());
+  const Uploads uploads(place->folder / "uploads", {});
+  Quota quota(*installation->catalogue, uploads, *limit);
   const std::string stem = std::filesystem::path(path).stem().string();
   const auto published = publish(*installation->store, *installation->catalogue, *pmesh,
-                                 {.title = arguments.text("--title", stem)});
+                                 {.title = arguments.text("--title", stem)}, {.quota = &quota});
   if (!published) return failed(published.error());
   const std::string id = published->id.to_string();
   if (!published->is_new) {

@@ -282,7 +282,7 @@ constexpr std::array kOptions{
     Option{
         "answer-memory", kBytes, "536870912",
         "Memory that answers may hold which their readers have not taken yet; beyond it they are "
-        "503. What is sent from a file holds none.",
+        "503, and 507 where one alone is larger. What is sent from a file holds none.",
         false, number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
         kReloadable},
     Option{"allowed-origins", kOrigins, "",

@@ -10,7 +10,8 @@ bool BodiesInFlight::enter(const void* owner, std::uint64_t size) {
     ++other->second.senders;
     return true;
   }
-  if (bytes_ >= max_bytes_) return false;
+  const std::uint64_t most = max_bytes_;
+  if (size > most || bytes_ > most - size) return false;
   bytes_ += size;
   if (owner != nullptr) shared_[owner] = {1, size};
   return true;

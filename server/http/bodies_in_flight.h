@@ -15,7 +15,7 @@ namespace vitrine {
 // Thread-safe. Owned by shared pointers: what it has admitted keeps it.
 class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
  public:
-  // A body is admitted as long as those under way come to less than `max_bytes`.
+  // Those under way come to `max_bytes` at most.
   explicit BodiesInFlight(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
   void set_capacity(std::uint64_t max_bytes) { max_bytes_ = max_bytes; }
@@ -24,6 +24,9 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
   // memory once however many send it, and what is stored or below kSmall not at all: every
   // connection may have that.
   std::shared_ptr<const void> admit(const Body& body);
+
+  // Whether there will be room for it once others have gone.
+  bool fits_alone(const Body& body) const { return body_size(body) <= max_bytes_; }
 
   static constexpr std::uint64_t kSmall = 16 * 1024;
 

@@ -46,8 +46,8 @@ ConnectionSet::Admission ConnectionSet::add(const std::shared_ptr<Connection>& c
   connection->counted_as = network_of(connection->remote);
   std::size_t& count = of_network_[connection->counted_as];
   if (count >= per_address_ && !is_proxy) return Admission::kAddressFull;
-  ++count;
   connections_.emplace(connection.get(), connection);
+  ++count;
   return Admission::kAdmitted;
 }
 
@@ -56,6 +56,7 @@ void ConnectionSet::remove(const Connection& connection) {
   {
     const std::scoped_lock lock(mutex_);
     connections_.erase(&connection);
+    lasting_.erase(&connection);
     count_less(connection.counted_as);
     if (connections_.empty()) on_empty = std::exchange(on_empty_, nullptr);
   }
@@ -79,6 +80,30 @@ bool ConnectionSet::count_as(Connection& connection, const std::string& visitor)
   count_less(connection.counted_as);
   connection.counted_as = std::move(network);
   return true;
+}
+
+void ConnectionSet::lasts_for(const Connection& connection, const Caller& caller) {
+  const std::scoped_lock lock(mutex_);
+  lasting_[&connection] = caller;
+}
+
+std::vector<Caller> ConnectionSet::lasting_callers() {
+  std::vector<Caller> callers;
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [connection, caller] : lasting_)
+    callers.push_back(caller);
+  return callers;
+}
+
+void ConnectionSet::end_those_of(const Caller& caller) {
+  const auto is_theirs = [&](const std::shared_ptr<Connection>& connection) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = lasting_.find(connection.get());
+    return found != lasting_.end() && found->second.token == caller.token;
+  };
+  for (const auto& connection : alive()) {
+    if (is_theirs(connection)) post(connection, end);
+  }
 }
 
 void ConnectionSet::set_capacity(std::size_t capacity) {

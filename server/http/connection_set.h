@@ -6,7 +6,9 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <vector>
 
+#include "server/auth/authenticator.h"
 #include "server/config/networks.h"
 #include "server/http/connection.h"
 
@@ -26,6 +28,12 @@ class ConnectionSet {
   // From now on it counts for `visitor`, who is behind the proxy that it came from, and will keep
   // it to itself. False where that visitor has as many as it may: then all stays as it was.
   bool count_as(Connection& connection, const std::string& visitor);
+
+  // From now on it stays open for a caller whose token may be revoked meanwhile.
+  void lasts_for(const Connection& connection, const Caller& caller);
+  std::vector<Caller> lasting_callers();  // once for each connection
+  // Asks those that stay open for this caller to end, as drain() does.
+  void end_those_of(const Caller& caller);
 
   // Those that are open stay.
   void set_capacity(std::size_t capacity);
@@ -49,6 +57,7 @@ class ConnectionSet {
   std::function<void()> on_empty_;
   std::unordered_map<const Connection*, std::weak_ptr<Connection>> connections_;
   std::unordered_map<std::string, std::size_t> of_network_;
+  std::unordered_map<const Connection*, Caller> lasting_;
 };
 
 }  // namespace vitrine

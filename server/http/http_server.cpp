@@ -21,7 +21,9 @@ void answer_at_once(ByteStream& stream, std::string_view text) {
 }  // namespace
 
 Workers::Workers(unsigned threads, std::size_t max_exports)
-    : pool_(threads), exports_(threads), export_seats_(std::make_shared<Seats>(max_exports)) {
+    : pool_(threads),
+      exports_(threads),
+      export_seats_(std::make_shared<Seats>(max_exports, (max_exports + 3) / 4)) {
   for (std::size_t i = 0; i < kLanes; ++i)
     lanes_.push_back(asio::make_strand(exports_.executor()));
 }
@@ -33,16 +35,10 @@ asio::any_io_executor Workers::executor(Place place, std::string_view target) {
   return lanes_[std::hash<std::string_view>{}(target) % kLanes];
 }
 
-std::shared_ptr<const void> Workers::reserve(Place place) {
-  if (place == Place::kWorker) return export_seats_;  // bounded by the number of connections
-  const auto& seats = place == Place::kExport   ? export_seats_
-                      : place == Place::kDevice ? device_seats_
-                                                : disk_seats_;
-  if (seats->taken.fetch_add(1) >= seats->capacity) {
-    seats->taken.fetch_sub(1);
-    return nullptr;
-  }
-  return {seats.get(), [seats](const void*) { seats->taken.fetch_sub(1); }};
+tl::expected<Seats::Seat, Seats::Refusal> Workers::reserve(Place place, const std::string& who) {
+  if (place == Place::kWorker) return nullptr;  // bounded by the number of connections
+  if (place == Place::kExport) return export_seats_->take(who);
+  return (place == Place::kDevice ? device_seats_ : disk_seats_)->take(who);
 }
 
 HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& workers,
@@ -59,6 +55,7 @@ HttpServer::HttpServer(asio::io_context& io, Services& services, Workers& worker
       patience_(options_.patience),
       strand_(asio::make_strand(io)),
       acceptor_(strand_),
+      pause_(strand_),
       sweeper_(strand_) {}
 
 Expected<std::uint16_t> HttpServer::listen(const Endpoint& endpoint) {
@@ -83,21 +80,26 @@ void HttpServer::start() {
       asio::detached);
 }
 
+// Out of descriptors, or of memory: connections that end will free some, and the next visitor may
+// have more luck.
 asio::awaitable<void> HttpServer::accept() {
-  while (acceptor_.is_open()) {
-    auto [error, socket] = co_await acceptor_.async_accept(asio::make_strand(io_), kNoThrow);
-    if (error == asio::error::operation_aborted) co_return;
-    if (error) {  // out of descriptors, most likely: the connections that end will free some
-      asio::steady_timer pause(strand_, std::chrono::milliseconds(100));
-      co_await pause.async_wait(kNoThrow);
-      continue;
-    }
+  for (bool is_well = true; acceptor_.is_open();) {
     try {
-      admit(std::move(socket));
-    } catch (const std::exception& fault) {  // out of memory: the next visitor may have more luck
+      pause_.expires_after(std::chrono::milliseconds(100));
+      if (!is_well) co_await pause_.async_wait(kNoThrow);
+      is_well = false;
+      is_well = co_await accept_one();
+    } catch (const std::exception& fault) {
       services_.errors.event(Severity::kError, fault.what());
     }
   }
+}
+
+// False where there was no visitor.
+asio::awaitable<bool> HttpServer::accept_one() {
+  auto [error, socket] = co_await acceptor_.async_accept(asio::make_strand(io_), kNoThrow);
+  if (!error) admit(std::move(socket));
+  co_return !error;
 }
 
 void HttpServer::admit(ByteStream::Socket socket) {
@@ -105,8 +107,12 @@ void HttpServer::admit(ByteStream::Socket socket) {
   const auto admission = connections_.add(connection);
   if (admission != ConnectionSet::Admission::kAdmitted)
     return refuse(connection->socket, admission);
-  const auto executor = connection->socket.get_executor();
-  asio::co_spawn(executor, serve(std::move(connection)), asio::detached);
+  try {
+    asio::co_spawn(connection->socket.get_executor(), serve(connection), asio::detached);
+  } catch (...) {
+    connections_.remove(*connection);
+    throw;
+  }
 }
 
 void HttpServer::refuse(ByteStream& stream, ConnectionSet::Admission why) {
@@ -133,6 +139,25 @@ asio::awaitable<void> HttpServer::serve(std::shared_ptr<Connection> connection) 
 void HttpServer::sweep() {
   connections_.sweep();
   refresh_certificate();
+  end_revoked();
+}
+
+// Elsewhere, one look at a time: the catalogue may keep it waiting.
+void HttpServer::end_revoked() {
+  auto callers = connections_.lasting_callers();
+  if (callers.empty() || !looking_.expired()) return;
+  const auto look = std::make_shared<int>();
+  looking_ = look;
+  asio::post(workers_.executor(Place::kWorker, ""), [this, look, callers = std::move(callers)] {
+    try {
+      for (const Caller& caller : callers) {
+        const auto in_force = services_.tokens.is_in_force(caller);
+        if (in_force && !*in_force) connections_.end_those_of(caller);
+      }
+    } catch (const std::exception& fault) {
+      services_.errors.event(Severity::kError, fault.what());
+    }
+  });
 }
 
 void HttpServer::refresh_certificate() {

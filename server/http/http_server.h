@@ -15,6 +15,7 @@
 #include "server/http/connection_set.h"
 #include "server/http/listening.h"
 #include "server/http/router.h"
+#include "server/http/seats.h"
 #include "server/http/send.h"
 #include "server/transport/live_tls.h"
 
@@ -38,9 +39,8 @@ class Workers {
   // At most `max_exports` run or wait at a time.
   Workers(unsigned threads, std::size_t max_exports);
 
-  // The right to hand in one task; null where the queue for `place` is full. Keep it until the task
-  // is done.
-  std::shared_ptr<const void> reserve(Place place);
+  // The right to hand in one task for `who`, a network_of(). Keep it until the task is done.
+  tl::expected<Seats::Seat, Seats::Refusal> reserve(Place place, const std::string& who);
 
   // Any thread for Place::kWorker, one of kDeviceThreads for Place::kDevice, of kDiskThreads for
   // Place::kDisk; for Place::kExport, equal targets run one after the other.
@@ -49,12 +49,6 @@ class Workers {
   void join() { pool_.join(), exports_.join(), devices_.join(), disk_.join(); }
 
  private:
-  // Tasks that run or wait at a time. Shared with the seats: connections may outlive the workers.
-  struct Seats {
-    explicit Seats(std::size_t n) : capacity(n) {}
-    const std::size_t capacity;
-    std::atomic<std::size_t> taken{0};
-  };
   static constexpr std::size_t kDeviceThreads = 4, kDeviceSeats = 32;
   static constexpr std::size_t kDiskThreads = 4, kDiskSeats = 64;
 
@@ -63,9 +57,9 @@ class Workers {
   asio::thread_pool devices_{kDeviceThreads};
   asio::thread_pool disk_{kDiskThreads};
   std::vector<asio::strand<asio::thread_pool::executor_type>> lanes_;
-  const std::shared_ptr<Seats> export_seats_;
-  const std::shared_ptr<Seats> device_seats_ = std::make_shared<Seats>(kDeviceSeats);
-  const std::shared_ptr<Seats> disk_seats_ = std::make_shared<Seats>(kDiskSeats);
+  const std::shared_ptr<Seats> export_seats_;  // of which one address has a quarter at most
+  const std::shared_ptr<Seats> device_seats_ = std::make_shared<Seats>(kDeviceSeats, kDeviceSeats);
+  const std::shared_ptr<Seats> disk_seats_ = std::make_shared<Seats>(kDiskSeats, kDiskSeats);
 };
 
 struct HttpOptions {
@@ -111,11 +105,13 @@ class HttpServer {
 
  private:
   asio::awaitable<void> accept();
+  asio::awaitable<bool> accept_one();
   void admit(ByteStream::Socket socket);
   void refuse(ByteStream& stream, ConnectionSet::Admission why);
   void refresh_certificate();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
   void sweep();
+  void end_revoked();
 
   asio::io_context& io_;
   Services& services_;
@@ -126,10 +122,12 @@ class HttpServer {
   RateLimit rate_limit_;
   const std::shared_ptr<BodiesInFlight> bodies_;
   std::atomic<std::chrono::seconds> patience_;
-  asio::strand<asio::io_context::executor_type> strand_;  // of the two below
+  asio::strand<asio::io_context::executor_type> strand_;  // of what follows
   Acceptor acceptor_;
+  asio::steady_timer pause_;           // of the acceptor
   std::filesystem::path socket_file_;  // empty but for a Unix socket
   asio::steady_timer sweeper_;
+  std::weak_ptr<const void> looking_;  // held by who looks for tokens that were revoked
 };
 
 }  // namespace vitrine

@@ -141,6 +141,7 @@ Response make_model(const Request& request, Services& services) {
   const auto begun = jobs.begun_by(*once);
   if (!begun) return refused_job(begun.error(), request, services);
   if (*begun) return accepted(**begun);  // its upload may be gone by now
+  const auto held = services.uploads.hold();
   if (const auto faults = check(*order, request, services); !faults.empty())
     return invalid(faults, request);
   const auto job = jobs.add(PublishJobs::job_for(*order), std::nullopt, *once);

@@ -15,10 +15,10 @@ inline asio::awaitable<void> repeat(asio::steady_timer& timer, asio::steady_time
                                     std::function<void()> task,
                                     std::function<void(std::string_view fault)> failed) {
   for (;;) {
-    timer.expires_after(period);
-    const auto [error] = co_await timer.async_wait(kNoThrow);
-    if (error) co_return;
     try {
+      timer.expires_after(period);
+      const auto [error] = co_await timer.async_wait(kNoThrow);
+      if (error) co_return;
       task();
     } catch (const std::exception& fault) {
       failed(fault.what());

@@ -106,6 +106,19 @@ Response busy(std::string_view id) {
   return response;
 }
 
+Response no_room(bool will_be, std::string_view id) {
+  if (will_be) return busy(id);
+  return problem(507, "the answer is larger than answer-memory allows; ask for a coarser level",
+                 id);
+}
+
+Response no_seat(Seats::Refusal why, std::string_view id) {
+  if (why == Seats::Refusal::kFull) return busy(id);
+  Response response = problem(429, "this address has enough under way; wait", id);
+  response.fields = {{"Retry-After", "5"}};
+  return response;
+}
+
 bool changes(Method method) {
   return method != Method::kGet && method != Method::kOptions;
 }
@@ -388,9 +401,9 @@ class Session {
       run();
       co_return;
     }
-    const auto seat = server_.workers().reserve(route.place);
+    const auto seat = server_.workers().reserve(route.place, network_of(exchange.visitor.address));
     if (!seat) {
-      exchange.response = busy(exchange.id);
+      exchange.response = no_seat(seat.error(), exchange.id);
       co_return;
     }
     co_await on_worker(route.place, text(request.header.target()), run);
@@ -437,6 +450,7 @@ class Session {
                     .address = exchange.visitor.address,
                     .caller = exchange.caller,
                     .head = asks_for_head(target)};
+    if (exchange.caller) server_.connections().lasts_for(*connection_, *exchange.caller);
     buffer_ = beast::flat_buffer();
     co_await server_.options().stream(std::move(call));
     record(exchange, "GET", target, 101, 0);
@@ -447,7 +461,8 @@ class Session {
     if (connection_->draining) exchange.keep_alive = false;
     const bool with_body = request.method() != verb::head;
     const auto room = with_body ? server_.bodies().admit(exchange.response.body) : nullptr;
-    if (with_body && !room) exchange.response = busy(exchange.id);
+    if (with_body && !room)
+      exchange.response = no_room(server_.bodies().fits_alone(exchange.response.body), exchange.id);
     Response& response = exchange.response;
     if (response.events) exchange.keep_alive = false;  // their end is the connection's
     const bool public_read = exchange.public_read && response.caching != Caching::kPrivate;
@@ -459,8 +474,9 @@ class Session {
     const std::uint64_t size = body_size(body);
     std::uint64_t sent =
         co_await send_response(*connection_, std::move(head), std::move(body), server_.pace());
-    if (response.events && with_body)
-      sent = co_await send_events(*connection_, *response.events, server_.pace().patience);
+    const bool lasts = response.events && with_body;
+    if (lasts && exchange.caller) server_.connections().lasts_for(*connection_, *exchange.caller);
+    if (lasts) sent = co_await send_events(*connection_, *response.events, server_.pace().patience);
     record(exchange, text(request.method_string()), text(request.target()), status, sent);
     const bool last = !exchange.keep_alive || connection_->draining;
     lingers_ = sent >= size && last;

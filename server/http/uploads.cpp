@@ -219,6 +219,7 @@ Response remove_upload(const Request& request, Services& services) {
   if (auto refused = refuse_version(request)) return *refused;
   const auto upload = own_upload(request, services);
   if (!upload) return refusal(upload.error(), request.id, services);
+  const auto held = services.uploads.hold();
   const auto job = services.scans.jobs().job_where(
       [&](const JobRecord& one) { return PublishJobs::upload_of(one) == upload->id; });
   if (job) {

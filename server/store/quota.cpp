@@ -3,7 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <fstream>
 #include <map>
+
+#include "codec/files/atomic_file.h"
 
 namespace vitrine {
 namespace {
@@ -26,7 +29,29 @@ std::uint64_t sum(const Sizes& sizes) {
   return all;
 }
 
+std::filesystem::path quota_file(const std::filesystem::path& folder) {
+  return folder / "quota";
+}
+
 }  // namespace
+
+Expected<void> write_quota(const std::filesystem::path& folder, std::uint64_t bytes) {
+  if (const auto before = read_quota(folder); before && *before == bytes) return {};
+  const std::string text = std::to_string(bytes) + "\n";
+  return write_file_atomically(quota_file(folder),
+                               {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+Expected<std::uint64_t> read_quota(const std::filesystem::path& folder) {
+  const std::filesystem::path path = quota_file(folder);
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) return 0;
+  std::uint64_t bytes = 0;
+  if (std::ifstream(path) >> bytes) return bytes;
+  return fail(ErrorCode::kIo, fmt::format("cannot read {}; check it, or start vitrined, which "
+                                          "writes it",
+                                          path.string()));
+}
 
 Expected<std::uint64_t> Quota::announced(const std::optional<UploadId>& spent) const {
   const auto uploads = uploads_.list();

@@ -2,6 +2,7 @@
 // What models and uploads together may take of the disk.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -12,6 +13,11 @@
 #include "server/store/uploads.h"
 
 namespace vitrine {
+
+// The bytes are also in the data folder, for those who publish there beside the daemon. 0: as much
+// as there is. Fails with kIo.
+Expected<void> write_quota(const std::filesystem::path& folder, std::uint64_t bytes);
+Expected<std::uint64_t> read_quota(const std::filesystem::path& folder);
 
 // Thread-safe. Errors: kLimit where something does not fit, kIo where the catalogue or the disk
 // refuses.

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <set>
 #include <span>
 #include <string>
@@ -91,6 +92,10 @@ class Uploads {
 
   Uploading<std::vector<Upload>> list() const;
 
+  // Whoever puts an upload to use, or takes away one that nobody uses, holds this from looking to
+  // doing: in this process they are one after the other.
+  std::unique_lock<std::mutex> hold() { return std::unique_lock(use_); }
+
   // Takes away what has expired at `now` and what interrupted calls have left, but for `in_use`
   // and what cannot be read just now. The number of those.
   Uploading<std::size_t> sweep(const std::set<UploadId>& in_use, std::int64_t now);
@@ -102,6 +107,7 @@ class Uploads {
 
   const std::filesystem::path folder_;
   const UploadLimits limits_;
+  std::mutex use_;
 };
 
 }  // namespace vitrine

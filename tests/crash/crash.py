@@ -158,7 +158,11 @@ class Look:
                 known.is_gone(path)
                 continue
             offset = int(answer.getheader("Upload-Offset") or -1)
-            held = (self.data / "uploads" / (path.rsplit("/", 1)[1] + ".part")).read_bytes()
+            try:
+                held = (self.data / "uploads" / (path.rsplit("/", 1)[1] + ".part")).read_bytes()
+            except FileNotFoundError:  # a job that goes on has used it meanwhile
+                known.is_gone(path)
+                continue
             if offset < sent or held[:offset] != mesh[:offset]:
                 raise AssertionError(f"{path}: {sent} bytes were acknowledged, {offset} are there")
 
@@ -254,7 +258,7 @@ def main():
                 work.start()
                 work.client.enough.wait(PATIENCE)
                 time.sleep(dice.uniform(0, LONGEST))
-            except AssertionError:
+            except BaseException:  # else it would outlive this
                 daemon.kill()
                 print("".join(daemon.printed[-20:]))
                 raise

@@ -185,17 +185,17 @@ TEST_F(StreamTest, AModelThatWasHiddenIsStreamedNoFurther) {
   EXPECT_EQ(owner.receive().kind, WebSocketFrame::kBinary);
 }
 
-TEST_F(StreamTest, ARevokedTokenIsStreamedNoDrafts) {
+TEST_F(StreamTest, ARevokedTokensStreamEndsWithoutBeingAsked) {
   hide();
   const NewToken token = folder.new_token(Role::kViewer);
-  WebSocketClient client = connect("", bearer(token.text));
-  told(client);
+  WebSocketClient client = connect("", bearer(token.text)), other = connect("", operator_);
+  told(client), told(other);
   const std::string target = "/api/v1/tokens/" + token.id.to_string();
   EXPECT_EQ(http_get(daemon.port(), target, bearer(Role::kAdmin), "DELETE").status, 204);
-  client.send_text(R"({"type":"open","model":1,"id":")" + id + "\"}");
-  EXPECT_EQ(told(client)["reason"], "there is no such model");
-  client.send_text(R"({"type":"want","level":1})");
   EXPECT_EQ(client.receive().close_code(), 1012);
+  EXPECT_THROW(connect("", bearer(token.text)), std::runtime_error);
+  other.send_text(R"({"type":"want","level":1})");
+  EXPECT_EQ(other.receive().kind, WebSocketFrame::kBinary);
 }
 
 TEST_F(StreamTest, SkipsWhatTheClientHolds) {

@@ -53,6 +53,19 @@ TEST_F(VitrineCommand, publishing_a_mesh_again_gives_the_same_model_and_says_so)
   EXPECT_EQ(nlohmann::json::parse(again.output), first);
 }
 
+TEST_F(VitrineCommand, publishing_beside_the_daemon_keeps_to_its_quota) {
+  const std::string in = write("in.ply", bumpy_ply(500)), data = empty_folder("data");
+  { const Daemon daemon(data, {"--quota", "100"}); }
+  const std::string file = write("vitrined.conf", "data = " + data + "\nquota = 100\n");
+  for (const std::string& place : {data, file}) {
+    const ProgramResult refused = vitrine({"publish", in, "--data", place});
+    expect_fault(refused, 1);
+    EXPECT_THAT(refused.errors, HasSubstr("0 of 100 bytes are taken"));
+  }
+  { const Daemon daemon(data); }
+  vitrine_json({"publish", in, "--data", data});
+}
+
 TEST_F(VitrineCommand, a_data_folder_that_cannot_be_looked_at_is_named) {
   const std::string folder = path(std::string(300, 'd'));  // no file system has such names
   const ProgramResult result =

@@ -30,8 +30,17 @@ TEST(BodiesInFlight, AdmitsUntilTheyAreFullAndAgainOnceOneHasGone) {
   EXPECT_TRUE(bodies->admit(some_text()));
 }
 
+TEST(BodiesInFlight, WhatIsLargerThanAllOfItIsNotAdmittedAlone) {
+  const auto bodies = std::make_shared<BodiesInFlight>(kSize);
+  EXPECT_FALSE(bodies->admit(some_text(kSize + 1)));
+  EXPECT_FALSE(bodies->admit(shared(kSize + 1)));
+  EXPECT_FALSE(bodies->fits_alone(some_text(kSize + 1)));
+  EXPECT_TRUE(bodies->fits_alone(some_text()));
+  EXPECT_TRUE(bodies->admit(some_text()));
+}
+
 TEST(BodiesInFlight, SharedMemoryCountsOnceWhateverOfItIsSent) {
-  const auto bodies = std::make_shared<BodiesInFlight>(kSize + 1);
+  const auto bodies = std::make_shared<BodiesInFlight>(3 * kSize);
   const Body whole = shared(3 * kSize);
   auto first = bodies->admit(whole);
   const auto part = bodies->admit(body_range(whole, kSize, kSize));
@@ -42,7 +51,7 @@ TEST(BodiesInFlight, SharedMemoryCountsOnceWhateverOfItIsSent) {
 
 TEST(BodiesInFlight, WhatIsSmallOrStaticIsAlwaysAdmitted) {
   static const std::vector<std::uint8_t> bytes(kSize);
-  const auto bodies = std::make_shared<BodiesInFlight>(1);
+  const auto bodies = std::make_shared<BodiesInFlight>(kSize);
   const auto full = bodies->admit(some_text());
   EXPECT_FALSE(bodies->admit(some_text()));
   EXPECT_TRUE(bodies->admit(some_text(kSize - 1)));

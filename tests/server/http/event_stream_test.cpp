@@ -70,6 +70,7 @@ constexpr Route kEventRoutes[] = {
     {Method::kGet, "/countdown", events<Countdown>, Place::kWorker},
     {Method::kGet, "/silence", events<Silence>, Place::kWorker},
     {Method::kGet, "/flood", events<Flood>, Place::kWorker},
+    {Method::kGet, "/secret", events<Silence>, Place::kWorker, Role::kViewer},
 };
 
 std::string get(const std::string& path, const std::string& method = "GET") {
@@ -126,6 +127,22 @@ TEST_F(EventStream, ManyShareOneThreadWithOthers) {
     EXPECT_EQ(client->receive().status, 200);
   }
   EXPECT_EQ(test::http_get(server.port(), "/nowhere").status, 404);
+}
+
+TEST_F(EventStream, ATokenThatIsRevokedEndsIt) {
+  LocalServer server(kEventRoutes);
+  HttpClient client(server.port()), other(server.port());
+  const auto ask = [&](HttpClient& who) {
+    const std::string bearer = server.bearer(Role::kViewer);
+    who.send("GET /secret HTTP/1.1\r\nHost: a\r\n" + bearer + "\r\n");
+    EXPECT_EQ(who.receive().status, 200);
+  };
+  ask(client), ask(other);
+  const auto tokens = server.catalogue().tokens().value();
+  ASSERT_TRUE(server.catalogue().revoke_token(tokens[0].id));
+  EXPECT_TRUE(client.is_closed());
+  server.drain();
+  EXPECT_TRUE(other.is_closed());
 }
 
 TEST_F(EventStream, ADaemonThatStopsEndsIt) {

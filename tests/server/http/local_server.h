@@ -20,7 +20,8 @@ class LocalServer {
   explicit LocalServer(std::span<const Route> routes,
                        std::chrono::seconds patience = std::chrono::seconds(30),
                        std::vector<std::unique_ptr<ScannerBackend>> scanners = {},
-                       HttpOptions options = {}, const ScannerClaims* claims = nullptr)
+                       HttpOptions options = {}, const ScannerClaims* claims = nullptr,
+                       std::size_t max_exports = 1)
       : scans_({*installation_.store,
                 *installation_.catalogue,
                 *installation_.jobs,
@@ -34,6 +35,7 @@ class LocalServer {
                 claims},
                std::move(scanners)),
         metrics_(Router(routes).templates()),
+        workers_(2, max_exports),
         server_(io_, services_, workers_, with(routes, patience, std::move(options))),
         port_(server_.listen({"127.0.0.1", 0}).value()) {
     server_.start();
@@ -120,7 +122,7 @@ class LocalServer {
                      events_,
                      true};
   asio::io_context io_;
-  Workers workers_{2, 1};
+  Workers workers_;
   HttpServer server_;
   std::uint16_t port_;
   std::thread thread_;

@@ -60,6 +60,7 @@ class ModelOrders : public testing::Test {
   // What has been handed in before is done on return.
   void settle() {
     server_.scans().jobs().lane("").run([] {});
+    server_.services().models.refresh();  // else it is noticed within a tenth of a second
   }
   json job_of(const HttpAnswer& accepted) {
     EXPECT_EQ(accepted.status, 202) << accepted.body;
@@ -105,6 +106,26 @@ TEST_F(ModelOrders, AMeshThatWasUploadedBecomesAModel) {
   EXPECT_EQ(shown["faces"], 1'600);
   EXPECT_EQ(shown["state"], "published");
   EXPECT_TRUE(server_.uploads().list().value().empty());
+}
+
+TEST_F(ModelOrders, AnUploadIsUsedOrTakenAwayWhoeverComesFirst) {
+  for (int round = 0; round < 20; ++round) {
+    const std::string id = upload("no mesh");
+    auto made = std::async(std::launch::async, [&] {
+      return ask("POST", "/models", operator_, {{"upload", id}});
+    });
+    const HttpAnswer removed =
+        ask("DELETE", "/uploads/" + id, operator_, nullptr, "Tus-Resumable: 1.0.0\r\n");
+    const HttpAnswer accepted = made.get();
+    if (accepted.status == 202) {
+      EXPECT_NE(removed.status, 204) << "a job needs it";
+      settle();
+      ASSERT_TRUE(server_.uploads().remove(ModelId::parse(id).value()));
+    } else {
+      EXPECT_EQ(fault_of(accepted), "upload");
+      EXPECT_EQ(removed.status, 204) << removed.body;
+    }
+  }
 }
 
 TEST_F(ModelOrders, UnitAndAxisAreTheOrders) {

@@ -85,6 +85,34 @@ TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
   EXPECT_EQ(test::http_get(server.port(), "/slow").status, 200);
 }
 
+TEST(Overload, OneAddressHasAQuarterOfTheSeatsForExports) {
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                 {.proxies = Networks::parse("127.0.0.1").value()}, nullptr, 4);
+  const auto from = [](const std::string& address) {
+    return "X-Forwarded-For: " + address + "\r\n";
+  };
+  test::HttpClient first(server.port()), other(server.port());
+  first.send("GET /slow HTTP/1.1\r\nHost: a\r\n" + from("192.0.2.1") + "\r\n");
+  entered.acquire();
+  const test::HttpAnswer refused = test::http_get(server.port(), "/slow", from("192.0.2.1"));
+  EXPECT_EQ(refused.status, 429);
+  EXPECT_EQ(refused.field("retry-after"), "5");
+  other.send("GET /slow HTTP/1.1\r\nHost: a\r\n" + from("192.0.2.2") + "\r\n");
+  may_end.release(2);
+  EXPECT_EQ(first.receive().status, 200);
+  EXPECT_EQ(other.receive().status, 200);
+  entered.acquire();
+}
+
+TEST(Overload, AnAnswerThatNeverFitsIsSaidToBeTooLarge) {
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                 {.answer_memory = kLarge - 1});
+  const test::HttpAnswer refused = test::http_get(server.port(), "/text");
+  EXPECT_EQ(refused.status, 507);
+  EXPECT_NE(refused.body.find("answer-memory"), std::string::npos);
+  EXPECT_EQ(test::http_get(server.port(), "/text", "", "HEAD").status, 200);
+}
+
 TEST(Overload, ACallThatWaitsHoldsUpNoOtherConnection) {
   const test::LocalServer server(kCrowdedRoutes);  // one thread for connections
   for (const std::string path : {"/work", "/device"}) {
