@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "codec/core/double2.h"
+
 namespace vitrine::exact {
 
 // The same as std::floor for x within the range of 32 bits, and no call.
@@ -16,18 +18,27 @@ inline std::int32_t floor(double x) {
   return towards_zero - (x < towards_zero ? 1 : 0);
 }
 
-// e^x for x in [-40, 40] (clamped), to about 1e-9.
-inline double exp(double x) {
+// The same for |x| < 2^51: adding 1.5 * 2^52 leaves no place for a fraction.
+inline Double2 floor(Double2 x) {
+  constexpr double kNoFraction = 6755399441055744;
+  const Double2 nearest = (x + kNoFraction) - kNoFraction;
+  return nearest - (nearest > x ? both(1) : both(0));
+}
+
+// e^x for x in [-40, 0] (-40 for what is below), to about 1e-9.
+inline Double2 exp_of_negative(Double2 x) {
   constexpr double kLog2e = 1.4426950408889634, kLn2 = 0.6931471805599453;
-  const double t = std::clamp(x, -40.0, 40.0) * kLog2e;
-  const std::int32_t whole = exact::floor(t + 0.5);
-  const double f = (t - whole) * kLn2;  // |f| <= 0.35
-  const double series =
+  const Double2 t = max(x, both(-40)) * kLog2e;
+  const Double2 whole = exact::floor(t + 0.5);
+  const Double2 f = (t - whole) * kLn2;  // |f| <= 0.35
+  const Double2 series =
       1 +
       f * (1 + f * (1.0 / 2 +
                     f * (1.0 / 6 + f * (1.0 / 24 + f * (1.0 / 120 + f * (1.0 / 720 + f / 5040))))));
-  const auto exponent = static_cast<std::uint64_t>(std::int64_t{1023} + whole);
-  return series * std::bit_cast<double>(exponent << 52);
+  // The exponent's bits: at 2^52 a double counts in ones.
+  using Bits = std::uint64_t __attribute__((vector_size(16)));
+  const auto exponent = std::bit_cast<Bits>(whole + (4503599627370496 + 1023.0));
+  return series * std::bit_cast<Double2>(exponent << 52);
 }
 
 // floor(2^fraction_bits * log2(x)), log2 linear between powers of two; x > 0.

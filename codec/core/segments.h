@@ -11,6 +11,13 @@
 
 namespace vitrine {
 
+// What is at `place` is read soon. WebAssembly has no such instruction.
+inline void fetch([[maybe_unused]] const void* place) {
+#ifndef __wasm__
+  __builtin_prefetch(place);
+#endif
+}
+
 template <class T>
 class Segments {
  public:

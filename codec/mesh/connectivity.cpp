@@ -101,7 +101,7 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
         candidates.begin(), candidates.end(), twin,
         [](const DirectedEdge& other, std::uint64_t key) { return other.key < key; });
     if (it != candidates.end() && it->key == twin) {
-      mesh.swing_[prev(e.corner)] = next(it->corner);
+      mesh.step_[prev(e.corner)].swing = next(it->corner);
       continue;
     }
     const VertexId from = static_cast<VertexId>(e.key >> 32);
@@ -117,13 +117,13 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
     if (border[start] == kNoCorner || closed[start]) continue;
     const VertexId loop = kVirtualBit + static_cast<VertexId>(mesh.loop_length_.size());
     std::uint32_t length = 0;
-    const Corner first = static_cast<Corner>(mesh.vertex_.size());
+    const Corner first = static_cast<Corner>(mesh.step_.size());
     for (VertexId a = start; !closed[a]; ++length) {
       closed[a] = true;
       const Corner c = border[a];
-      const VertexId b = mesh.vertex_[prev(c)];
+      const VertexId b = mesh.vertex(prev(c));
       if (border[b] == kNoCorner) return bad("boundary is not a closed loop" + at_face(c));
-      const Corner base = static_cast<Corner>(mesh.vertex_.size());
+      const Corner base = static_cast<Corner>(mesh.step_.size());
       mesh.add_face(b, a, loop);
       mesh.glue(base + 2, c);
       // Edge (virtual, b) of this face is shared with the next one, which leaves from b; the
@@ -131,14 +131,15 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
       if (length > 0) mesh.glue(base - 3 + 1, base);
       a = b;
     }
-    mesh.glue(static_cast<Corner>(mesh.vertex_.size()) - 3 + 1, first);
+    mesh.glue(static_cast<Corner>(mesh.step_.size()) - 3 + 1, first);
     mesh.loop_length_.push_back(length);
   }
   std::vector<std::uint32_t> corners(vertex_count, 0);
-  for (Corner c = 0; c < mesh.vertex_.size(); ++c) {
-    if (is_virtual(mesh.vertex_[c])) continue;
-    ++corners[mesh.vertex_[c]];
-    if (mesh.corner_at_[mesh.vertex_[c]] == kNoCorner) mesh.corner_at_[mesh.vertex_[c]] = c;
+  for (Corner c = 0; c < mesh.step_.size(); ++c) {
+    const VertexId v = mesh.vertex(c);
+    if (is_virtual(v)) continue;
+    ++corners[v];
+    if (mesh.corner_at_[v] == kNoCorner) mesh.corner_at_[v] = c;
   }
   for (VertexId v = 0; v < vertex_count; ++v) {
     const Corner first = mesh.corner_at_[v];
@@ -169,10 +170,8 @@ std::uint32_t Connectivity::ring(VertexId v, std::span<Corner> corners) const {
 }
 
 void Connectivity::add_face(VertexId a, VertexId b, VertexId c) {
-  vertex_.push_back(a);
-  vertex_.push_back(b);
-  vertex_.push_back(c);
-  swing_.resize(vertex_.size(), kNoCorner);
+  for (const VertexId to : {b, c, a})
+    step_.push_back({.to = to});
 }
 
 void Connectivity::add_valence(VertexId v, int delta) {
@@ -189,13 +188,13 @@ VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::u
   const auto before = [n](std::uint32_t k) { return k == 0 ? n - 1 : k - 1; };
   const Corner before_i = corners[before(i)], at_i = corners[i];
   const Corner before_j = corners[before(j)], at_j = corners[j];
-  const VertexId qi = vertex_[next(at_i)], qj = vertex_[next(at_j)];
+  const VertexId qi = neighbour(at_i), qj = neighbour(at_j);
   const VertexId w = vertex_count();
 
   corner_at_.push_back(at_i);
   for (std::uint32_t k = i; k != j; k = k + 1 == n ? 0 : k + 1)
-    vertex_[corners[k]] = w;
-  const Corner a = static_cast<Corner>(vertex_.size()), b = a + 3;
+    set_vertex(corners[k], w);
+  const Corner a = static_cast<Corner>(step_.size()), b = a + 3;
   add_face(v, qi, w);
   add_face(v, w, qj);
   glue(next(before_i), a + 2);
@@ -213,11 +212,11 @@ void Connectivity::collapse(Corner c) {
   // Face B = (v1, v2, apex12); face A = (v2, v1, apex21) lies across the edge (v1, v2).
   const Corner b1 = c, b2 = next(c), b3 = prev(c);
   const Corner a3 = opposite(b3), a2 = next(a3), a1 = prev(a3);  // a2 at v2, a1 at v1
-  const VertexId v1 = vertex_[b1], v2 = vertex_[b2], apex12 = vertex_[b3], apex21 = vertex_[a3];
+  const VertexId v1 = vertex(b1), v2 = vertex(b2), apex12 = vertex(b3), apex21 = vertex(a3);
   // Every corner of v2 becomes one of v1.
   Corner k = b2;
   do {
-    vertex_[k] = v1;
+    set_vertex(k, v1);
     k = swing(k);
   } while (k != b2);
   const Corner over_b1 = opposite(b1), over_b2 = opposite(b2);
@@ -229,17 +228,16 @@ void Connectivity::collapse(Corner c) {
   anchor(apex21, prev(over_a1));
   corner_at_[v2] = kNoCorner;
   for (Corner dead : {b1, b2, b3, a1, a2, a3})
-    vertex_[dead] = kNoCorner;
+    set_vertex(dead, kNoCorner);
   add_valence(apex12, -1);
   add_valence(apex21, -1);
 }
 
 void Connectivity::unsplit(VertexId v) {
-  const Corner b = static_cast<Corner>(vertex_.size()) - 3;  // (v, w, qj)
-  if (vertex_[b] != v) return;
+  const Corner b = static_cast<Corner>(step_.size()) - 3;  // (v, w, qj)
+  if (vertex(b) != v) return;
   collapse(b);
-  vertex_.resize(vertex_.size() - 6, kNoCorner);
-  swing_.resize(vertex_.size(), kNoCorner);
+  step_.resize(step_.size() - 6, {});
   corner_at_.pop_back();
 }
 
@@ -249,11 +247,10 @@ void Connectivity::append(Connectivity part) {
     return;
   }
   const VertexId first = vertex_count(), first_loop = loop_count();
-  const auto shift = static_cast<Corner>(vertex_.size());
-  for (Corner c = 0; c < part.vertex_.size(); ++c) {
-    const VertexId v = part.vertex_[c];
-    vertex_.push_back(v + (is_virtual(v) ? first_loop : first));
-    swing_.push_back(part.swing_[c] + shift);
+  const auto shift = static_cast<Corner>(step_.size());
+  for (Corner c = 0; c < part.step_.size(); ++c) {
+    const auto& [to, swing] = part.step_[c];
+    step_.push_back({to + (is_virtual(to) ? first_loop : first), swing + shift});
   }
   for (VertexId v = 0; v < part.vertex_count(); ++v)
     corner_at_.push_back(part.corner_at_[v] + shift);
@@ -261,8 +258,7 @@ void Connectivity::append(Connectivity part) {
 }
 
 void Connectivity::drop(std::uint32_t vertices, std::uint32_t faces, std::uint32_t loops) {
-  vertex_.resize(vertex_.size() - 3 * std::size_t{faces}, kNoCorner);
-  swing_.resize(vertex_.size(), kNoCorner);
+  step_.resize(step_.size() - 3 * std::size_t{faces}, {});
   corner_at_.resize(corner_at_.size() - vertices, kNoCorner);
   loop_length_.resize(loop_length_.size() - loops);
 }
@@ -274,9 +270,9 @@ void Connectivity::erase(VertexId v) {
     const Corner corner = c;
     c = swing(c);
     for (const Corner k : {corner, next(corner), prev(corner)}) {
-      if (vertex_[k] == kNoCorner) break;  // it went with another of its vertices
-      add_valence(vertex_[k], -1);
-      vertex_[k] = kNoCorner;
+      if (vertex(k) == kNoCorner) break;  // it went with another of its vertices
+      add_valence(vertex(k), -1);
+      set_vertex(k, kNoCorner);
     }
   } while (c != first);
   corner_at_[v] = kNoCorner;

@@ -44,25 +44,26 @@ class Connectivity {
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(corner_at_.size()); }
   std::uint32_t loop_count() const { return static_cast<std::uint32_t>(loop_length_.size()); }
-  std::uint32_t face_count() const { return static_cast<std::uint32_t>(vertex_.size() / 3); }
+  std::uint32_t face_count() const { return static_cast<std::uint32_t>(step_.size() / 3); }
 
-  VertexId vertex(Corner c) const { return vertex_[c]; }
+  VertexId vertex(Corner c) const { return step_[prev(c)].to; }
+  VertexId neighbour(Corner c) const { return step_[c].to; }  // vertex(next(c))
   // The corner across c's opposite edge.
-  Corner opposite(Corner c) const { return prev(swing_[prev(c)]); }
+  Corner opposite(Corner c) const { return prev(swing(prev(c))); }
   Corner corner_at(VertexId real) const { return corner_at_[real]; }  // kNoCorner where removed
   std::uint32_t loop_length(VertexId virt) const { return loop_length_[virt & ~kVirtualBit]; }
-  bool is_dead(std::uint32_t face) const { return corner_at_face_dead(face); }
+  bool is_dead(std::uint32_t face) const { return step_[3 * face].to == kNoCorner; }
   // A face with a virtual corner closes a boundary loop and is not part of the surface.
   bool is_real(std::uint32_t face) const {
-    return !is_virtual(vertex_[3 * face]) && !is_virtual(vertex_[3 * face + 1]) &&
-           !is_virtual(vertex_[3 * face + 2]);
+    return !is_virtual(step_[3 * face].to) && !is_virtual(step_[3 * face + 1].to) &&
+           !is_virtual(step_[3 * face + 2].to);
   }
 
   // The next corner at the same vertex, counter-clockwise.
-  Corner swing(Corner c) const { return swing_[c]; }
+  Corner swing(Corner c) const { return step_[c].swing; }
 
   // Writes the corners at `v` counter-clockwise, starting at corner_at(v); corner i has
-  // vertex(next(corner)) = the ring's i-th vertex. Returns the valence, or 0 where it exceeds
+  // neighbour(corner) = the ring's i-th vertex. Returns the valence, or 0 where it exceeds
   // `corners.size()`.
   std::uint32_t ring(VertexId v, std::span<Corner> corners) const;
 
@@ -95,18 +96,25 @@ class Connectivity {
   void erase(VertexId v);
 
  private:
-  bool corner_at_face_dead(std::uint32_t face) const { return vertex_[3 * face] == kNoCorner; }
+  void set_vertex(Corner c, VertexId v) { step_[prev(c)].to = v; }
   // Makes a and b opposite.
-  void glue(Corner a, Corner b) { swing_[prev(a)] = next(b), swing_[prev(b)] = next(a); }
+  void glue(Corner a, Corner b) {
+    step_[prev(a)].swing = next(b);
+    step_[prev(b)].swing = next(a);
+  }
   void add_face(VertexId a, VertexId b, VertexId c);
   void add_valence(VertexId v, int delta);
   void anchor(VertexId v, Corner c);
 
-  // Walks round vertices are what all work consists of: the table has their steps, which are one
-  // look-up each, and not the opposite corners, which would be one and two turns within a face.
-  Segments<VertexId> vertex_;   // per corner; kNoCorner in all three where the face is dead
-  Segments<Corner> swing_;      // per corner
-  Segments<Corner> corner_at_;  // per real vertex
+  // Walks round vertices are what all work consists of. The table has what a step of one reads,
+  // side by side: the vertex at the other end of the edge and the next corner; not the corner's own
+  // vertex, nor the opposite corner, which would be one and two turns within a face.
+  struct Step {
+    VertexId to = kNoCorner;  // that of next(c); kNoCorner in all three where the face is dead
+    Corner swing = kNoCorner;
+  };
+  Segments<Step> step_;                     // per corner
+  Segments<Corner> corner_at_;              // per real vertex
   std::vector<std::uint32_t> loop_length_;  // per virtual vertex
 };
 

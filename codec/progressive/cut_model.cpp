@@ -3,12 +3,31 @@
 
 #include <algorithm>
 
+#include "codec/core/double2.h"
 #include "codec/progressive/trained_tables.h"
 
 namespace vitrine {
 namespace {
 
 constexpr double kNegligible = 1e-3;  // probability of a candidate that learning passes over
+
+// What is known of each ring vertex, in arrays of which two neighbours are loaded at once; the one
+// behind the last is there to be loaded, too.
+struct RingArrays {
+  RingArrays(const CutRing& ring, double inverse) {
+    for (std::uint32_t k = 0; k <= ring.size; ++k) {
+      const std::uint32_t m = k < ring.size ? k : 0;
+      const Vec3 p = ring.at[m] * inverse;
+      x[k] = p.x, y[k] = p.y, z[k] = p.z;
+      length[k] = vitrine::length(p);
+      valence[k] = ring.valence[m];
+      is_virtual[k] = ring.is_virtual[m] ? 1.0 : 0.0;
+    }
+  }
+
+  static constexpr std::size_t kSize = kMaxSplitValence + 1;
+  std::array<double, kSize> x, y, z, length, valence, is_virtual;
+};
 
 // Sums over the real ring vertices before each position, twice round.
 struct Prefix {
@@ -26,14 +45,14 @@ struct Prefix {
       count[k + 1] = count[k] + (real ? 1 : 0);
     }
   }
-  Vec3 sum(std::uint32_t k) const { return {x[k], y[k], z[k]}; }
 
   static constexpr std::size_t kSize = 2 * kMaxSplitValence + 1;
   std::array<double, kSize> x, y, z, squares;
   std::array<int, kSize> count;
 };
 
-// 1 / n; the quotients are exact roundings, so the table only saves the divisions.
+// 1 / n; the quotients are exact roundings, so the table only saves the divisions. An empty sum is
+// zero, and so is its mean.
 constexpr auto kReciprocal = [] {
   std::array<double, kMaxSplitValence + 2> r{};
   for (std::size_t n = 1; n < r.size(); ++n)
@@ -41,23 +60,93 @@ constexpr auto kReciprocal = [] {
   return r;
 }();
 
-struct Arc {
-  Vec3 mean, sum;
-  double squares = 0;
-  int count = 0;
+struct TwoVec3 {
+  Double2 x, y, z;
+
+  TwoVec3 operator+(const TwoVec3& o) const { return {x + o.x, y + o.y, z + o.z}; }
+  TwoVec3 operator-(const TwoVec3& o) const { return {x - o.x, y - o.y, z - o.z}; }
+  TwoVec3 operator*(Double2 s) const { return {x * s, y * s, z * s}; }
 };
 
-Arc arc(const Prefix& p, std::uint32_t from, std::uint32_t to) {  // both ends included
-  Arc a;
-  a.count = p.count[to + 1] - p.count[from];
-  a.sum = p.sum(to + 1) - p.sum(from);
-  a.squares = p.squares[to + 1] - p.squares[from];
-  if (a.count > 0) a.mean = a.sum * kReciprocal[static_cast<std::size_t>(a.count)];
+Double2 dot(const TwoVec3& a, const TwoVec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Double2 length(const TwoVec3& a) {
+  return sqrt(dot(a, a));
+}
+TwoVec3 twice(const Vec3& v) {
+  return {both(v.x), both(v.y), both(v.z)};
+}
+template <class Arrays>
+Vec3 at(const Arrays& a, std::uint32_t k) {
+  return {a.x[k], a.y[k], a.z[k]};
+}
+template <class Arrays>
+TwoVec3 two_at(const Arrays& a, std::uint32_t k) {
+  return {load2(&a.x[k]), load2(&a.y[k]), load2(&a.z[k])};
+}
+
+// Two arcs that have one end in common.
+struct Arcs {
+  TwoVec3 sum, mean;
+  Double2 squares, count;
+
+  void count_up(int a, int b) {
+    count = Double2{static_cast<double>(a), static_cast<double>(b)};
+    mean = sum * Double2{kReciprocal[static_cast<std::size_t>(a)],
+                         kReciprocal[static_cast<std::size_t>(b)]};
+  }
+};
+
+Arcs arcs_to(const Prefix& p, std::uint32_t from, std::uint32_t to) {  // and to the next
+  Arcs a;
+  a.sum = two_at(p, to + 1) - twice(at(p, from));
+  a.squares = load2(&p.squares[to + 1]) - p.squares[from];
+  a.count_up(p.count[to + 1] - p.count[from], p.count[to + 2] - p.count[from]);
   return a;
 }
 
-double square(double x) {
+Arcs arcs_from(const Prefix& p, std::uint32_t from, std::uint32_t to) {  // and from the next
+  Arcs a;
+  a.sum = twice(at(p, to + 1)) - two_at(p, from);
+  a.squares = p.squares[to + 1] - load2(&p.squares[from]);
+  a.count_up(p.count[to + 1] - p.count[from], p.count[to + 1] - p.count[from + 1]);
+  return a;
+}
+
+Double2 square(Double2 x) {
   return x * x;
+}
+
+using TwoFeatures = std::array<Double2, CutModel::kFeatures>;
+
+// Of the cuts (i, j) and (i, j + 1).
+TwoFeatures features_of(const RingArrays& ring, const Prefix& prefix, std::uint32_t n,
+                        double inverse, std::uint32_t i, std::uint32_t j) {
+  const Arcs near = arcs_to(prefix, i, j), far = arcs_from(prefix, j, i + n);
+  const TwoVec3 d = (far.mean - near.mean) * both(CutModel::kArcToEdge * inverse);
+  const TwoVec3 l = twice(at(ring, i)), r = two_at(ring, j);
+  const TwoVec3 chord = r - l, centre = (l + r) * both(0.5);
+  const Double2 edge = length(d), chord_length = length(chord);
+  const Double2 reach = load2(&ring.length[j]);
+  const Double2 taken = both(j - i) + Double2{0, 1};
+  const Double2 v_valence = n - taken + 2 - 6, w_valence = taken + 2 - 6;
+  const Double2 real = near.count + far.count;
+  // Squared edge lengths to both arcs once the two vertices stand at +-d/2.
+  const Double2 squares = (near.squares + far.squares) * inverse * inverse +
+                          dot(d, near.sum - far.sum) * inverse + real * 0.25 * dot(d, d);
+  return {(square(v_valence) + square(w_valence)) * 0.1,
+          (ring.valence[i] + load2(&ring.valence[j]) - 12) * 0.2,
+          edge,
+          edge * edge,
+          chord_length,
+          length(centre),
+          ring.length[i] + reach,
+          abs(dot(chord, d)) / (chord_length * edge + 1e-3),
+          real > 0 ? squares / real : both(0),
+          max(both(ring.is_virtual[i]), load2(&ring.is_virtual[j])),
+          chord_length * chord_length,
+          square(ring.length[i] - reach)};
 }
 
 }  // namespace
@@ -68,7 +157,10 @@ CutModel::CutModel() {
 }
 
 Vec3 CutModel::estimate(const CutRing& ring, const Cut& cut) {
-  Arc near, far;
+  struct {
+    Vec3 sum;
+    int count = 0;
+  } near, far;
   for (std::uint32_t k = 0; k < ring.size; ++k) {
     if (ring.is_virtual[k]) continue;
     if (k >= cut.i && k <= cut.j) near.sum += ring.at[k], ++near.count;
@@ -78,56 +170,46 @@ Vec3 CutModel::estimate(const CutRing& ring, const Cut& cut) {
          kArcToEdge;
 }
 
+// The cuts from one ring vertex are judged two at a time.
 void CutModel::evaluate(const CutRing& ring) {
+  const double inverse = 1.0 / ring.scale;
+  const RingArrays arrays(ring, inverse);
   const Prefix prefix(ring);
   const std::uint32_t n = ring.size;
-  const double inverse = 1.0 / ring.scale;
   count_ = 0;
-  double best = -1e300;
-  std::array<double, kMaxSplitValence> reach;
-  for (std::uint32_t k = 0; k < n; ++k)
-    reach[k] = length(ring.at[k] * inverse);
+  Double2 best = both(-1e300);
   for (std::uint32_t i = 0; i + 1 < n; ++i) {
-    for (std::uint32_t j = i + 1; j < n; ++j) {
-      Candidate& c = candidates_[count_];
-      c.cut = {i, j};
-      const Arc near = arc(prefix, i, j), far = arc(prefix, j, i + n);
-      const Vec3 d = (far.mean - near.mean) * (kArcToEdge * inverse);
-      const Vec3 l = ring.at[i] * inverse, r = ring.at[j] * inverse;
-      const Vec3 chord = r - l, centre = (l + r) * 0.5;
-      const double edge = length(d), chord_length = length(chord);
-      const double v_valence = static_cast<double>(n - (j - i) + 2) - 6;
-      const double w_valence = static_cast<double>(j - i + 2) - 6;
-      const double real = near.count + far.count;
-      // Squared edge lengths to both arcs once the two vertices stand at +-d/2.
-      const double squares = (near.squares + far.squares) * inverse * inverse +
-                             dot(d, near.sum - far.sum) * inverse + real * 0.25 * dot(d, d);
-      c.features = {(square(v_valence) + square(w_valence)) * 0.1,
-                    (ring.valence[i] + ring.valence[j] - 12) * 0.2,
-                    edge,
-                    edge * edge,
-                    chord_length,
-                    length(centre),
-                    reach[i] + reach[j],
-                    std::fabs(dot(chord, d)) / (chord_length * edge + 1e-3),
-                    real > 0 ? squares / real : 0.0,
-                    ring.is_virtual[i] || ring.is_virtual[j] ? 1.0 : 0.0,
-                    chord_length * chord_length,
-                    square(reach[i] - reach[j])};
-      double s = 0;
+    for (std::uint32_t j = i + 1; j < n; j += 2) {
+      const TwoFeatures features = features_of(arrays, prefix, n, inverse, i, j);
+      Double2 score = both(0);
       for (std::size_t k = 0; k < kFeatures; ++k)
-        s += weights_[k] * c.features[k];
-      probability_[count_++] = s;
-      best = std::max(best, s);
+        score += weights_[k] * features[k];
+      const bool second = j + 1 < n;
+      if (!second) score[1] = score[0];
+      best = max(best, score);
+      store2(&probability_[count_], score);
+      Candidate* const candidate = &candidates_[count_];
+      candidate[0].cut = {i, j};
+      candidate[1].cut = {i, j + 1};
+      for (std::size_t k = 0; k < kFeatures; k += 2) {
+        const Double2 a = features[k], b = features[k + 1];
+        store2(&candidate[0].features[k], Double2{a[0], b[0]});
+        store2(&candidate[1].features[k], Double2{a[1], b[1]});
+      }
+      count_ += second ? 2 : 1;
     }
   }
+  to_probabilities(std::max(best[0], best[1]));
+}
+
+void CutModel::to_probabilities(double best) {
+  for (std::uint32_t k = 0; k < count_; k += 2)
+    store2(&probability_[k], exact::exp_of_negative(load2(&probability_[k]) - best));
   double total = 0;
-  for (std::uint32_t k = 0; k < count_; ++k) {
-    probability_[k] = exact::exp(probability_[k] - best);
-    total += probability_[k];
-  }
   for (std::uint32_t k = 0; k < count_; ++k)
-    probability_[k] /= total;
+    total += probability_[k];
+  for (std::uint32_t k = 0; k < count_; k += 2)
+    store2(&probability_[k], load2(&probability_[k]) / total);
 }
 
 // One step of stochastic gradient ascent on the chosen candidate's log-probability.

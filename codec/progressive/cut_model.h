@@ -65,6 +65,7 @@ class CutModel {
   };
 
   void evaluate(const CutRing& ring);
+  void to_probabilities(double best);  // from scores, of which `best` is the highest
   void learn(std::uint32_t chosen);
 
   template <class Coder>
@@ -95,8 +96,9 @@ class CutModel {
   Features weights_;
   std::uint32_t learned_ = 0;
   std::uint32_t count_ = 0;
-  std::array<Candidate, kMaxPairs> candidates_;
-  std::array<double, kMaxPairs> probability_;  // of each; negative once it was asked for
+  // One more than there can be: they are written two at a time.
+  std::array<Candidate, kMaxPairs + 1> candidates_;
+  std::array<double, kMaxPairs + 1> probability_;  // of each; negative once it was asked for
   std::array<AdaptiveBit, kBits> bits_;
 };
 

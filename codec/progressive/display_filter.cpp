@@ -18,7 +18,7 @@ RingShape shape_of(const MeshState& mesh, VertexId v) {
   int count = 0;
   Corner c = first;
   do {
-    const VertexId a = faces.vertex(next(c)), b = faces.vertex(prev(c));
+    const VertexId a = faces.neighbour(c), b = faces.vertex(prev(c));
     if (is_virtual(a) || is_virtual(b)) {
       shape.closed = false;
       return shape;

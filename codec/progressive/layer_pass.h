@@ -99,8 +99,9 @@ class LayerPass {
     const std::vector<VertexId> order =
         visiting_order(mesh_.positions, mesh_.members[frame_.region]);
     reserve_splits();
-    for (const VertexId v : order) {
-      if (auto ok = visit(v); !ok) return ok;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      mesh_.fetch_rings(order, k);
+      if (auto ok = visit(order[k]); !ok) return ok;
     }
     if (chunk_.size() != frame_.splits) return damaged("too few splits");
     return {};

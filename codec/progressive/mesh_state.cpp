@@ -2,6 +2,7 @@
 #include "codec/progressive/mesh_state.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "codec/progressive/colour.h"
@@ -50,6 +51,23 @@ void MeshState::remove(const Newborn& newest) {
   connectivity.drop(newest.vertices, newest.faces, newest.loops);
   for (std::uint32_t i = 0; i < newest.vertices; ++i)
     disinherit();
+}
+
+void MeshState::fetch_rings(std::span<const VertexId> order, std::size_t k) const {
+  constexpr std::size_t kRings = 8, kSteps = 6;  // few rings are longer
+  if (k % kRings != 0) return;
+  const auto soon = order.subspan(std::min(k + kRings, order.size()));
+  std::array<Corner, kRings> corner;
+  const std::size_t rings = std::min(soon.size(), kRings);
+  for (std::size_t i = 0; i < rings; ++i)
+    corner[i] = connectivity.corner_at(soon[i]);
+  for (std::size_t step = 0; step < kSteps; ++step) {
+    for (std::size_t i = 0; i < rings; ++i) {
+      const VertexId q = connectivity.neighbour(corner[i]);
+      if (!is_virtual(q)) fetch(&vertex[q]), fetch(&positions[q]);
+      corner[i] = connectivity.swing(corner[i]);
+    }
+  }
 }
 
 void MeshState::count_valence(VertexId v) {
@@ -115,7 +133,7 @@ void MeshState::mark_border(VertexId v) {
   record.border = false;
   Corner c = first;
   do {
-    const VertexId q = connectivity.vertex(next(c));
+    const VertexId q = connectivity.neighbour(c);
     record.border = !is_virtual(q) && vertex[q].region != record.region;
     c = connectivity.swing(c);
   } while (c != first && !record.border);

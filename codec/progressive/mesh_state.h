@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/core/segments.h"
@@ -82,6 +83,10 @@ struct MeshState {
   Expected<void> add(const BaseMesh& part, std::uint16_t k, std::uint8_t level);
   // Takes back what add() brought last and nothing has changed since.
   void remove(const Newborn& newest);
+
+  // For a visit of `order` that has come to its k-th vertex: has the one-rings of those that come
+  // soon brought near, several at a time, so that the visits need not wait for each.
+  void fetch_rings(std::span<const VertexId> order, std::size_t k) const;
 
   void count_valence(VertexId v);
   // Appends what the vertex that was split off `v` inherits from it.

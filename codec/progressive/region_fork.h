@@ -32,8 +32,10 @@ void code_fork(MeshState& mesh, Coder& coder, const RegionTree& tree, std::uint3
     mesh.vertex[v].region = static_cast<std::uint16_t>(tree.nodes[child].first);
     mesh.members[tree.nodes[child].first].push_back(v);
   }
-  for (const VertexId v : all)
-    mesh.mark_border(v);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    mesh.fetch_rings(all, k);
+    mesh.mark_border(all[k]);
+  }
 }
 
 }  // namespace vitrine

@@ -27,7 +27,7 @@ HalfRing half_ring(const MeshState& mesh, Corner towards_partner) {
   for (Corner c = mesh.connectivity.swing(towards_partner);
        c != towards_partner && half.size < kMaxNeighbours; c = mesh.connectivity.swing(c)) {
     half.corners[half.size] = c;
-    half.vertices[half.size++] = mesh.connectivity.vertex(next(c));
+    half.vertices[half.size++] = mesh.connectivity.neighbour(c);
   }
   return half;
 }
@@ -183,13 +183,13 @@ bool gather_ring(const MeshState& mesh, VertexId v, Ring& ring) {
   std::uint32_t start = 0;
   std::uint64_t smallest = ~std::uint64_t{0};
   for (std::uint32_t k = 0; k < ring.size; ++k) {
-    const std::uint64_t id = mesh.canonical(mesh.connectivity.vertex(next(corners[k])));
+    const std::uint64_t id = mesh.canonical(mesh.connectivity.neighbour(corners[k]));
     if (id < smallest) smallest = id, start = k;
   }
   for (std::uint32_t k = 0; k < ring.size; ++k) {
     const std::uint32_t from = start + k < ring.size ? start + k : start + k - ring.size;
     ring.corners[k] = corners[from];
-    ring.vertices[k] = mesh.connectivity.vertex(next(corners[from]));
+    ring.vertices[k] = mesh.connectivity.neighbour(corners[from]);
   }
   return true;
 }

@@ -49,14 +49,14 @@ bool fan_survives(const Surface& surface, const Star& star, VertexId centre, Ver
 Star::Star(const Connectivity& mesh, VertexId v) {
   valence = mesh.ring(v, corner);
   for (std::uint32_t i = 0; i < valence; ++i) {
-    vertex[i] = mesh.vertex(next(corner[i]));
+    vertex[i] = mesh.neighbour(corner[i]);
     on_border |= is_virtual(vertex[i]);
   }
 }
 
 EdgeStar::EdgeStar(const Connectivity& mesh, Corner c)
     : v1(mesh.vertex(c)),
-      v2(mesh.vertex(next(c))),
+      v2(mesh.neighbour(c)),
       apex12(mesh.vertex(prev(c))),
       apex21(mesh.vertex(mesh.opposite(prev(c)))),
       star1(mesh, v1),

@@ -68,7 +68,7 @@ void Matcher::sum_rings() {
     const Corner first = mesh.corner_at(v);
     Corner c = first;
     do {
-      const VertexId w = mesh.vertex(next(c));
+      const VertexId w = mesh.neighbour(c);
       if (!is_virtual(w)) sum += surface_.point(w), ++size;
       c = mesh.swing(c);
     } while (c != first);
@@ -84,7 +84,7 @@ void Matcher::list_edges(const LevelRules& rules) {
     const Corner first = mesh.corner_at(v);
     Corner c = first;
     do {
-      const VertexId w = mesh.vertex(next(c));
+      const VertexId w = mesh.neighbour(c);
       const bool listed =
           !is_virtual(w) && v < w && !(rules.by_region && surface_.region[v] != surface_.region[w]);
       if (listed) {
@@ -104,7 +104,7 @@ void Matcher::list_edges(const LevelRules& rules) {
 // v~ up to rounding, for a fraction of the price of merged_position().
 Vec3 Matcher::likely_target(const LevelRules& rules, Corner c) const {
   const Connectivity& mesh = surface_.mesh;
-  const VertexId v = mesh.vertex(c), w = mesh.vertex(next(c));
+  const VertexId v = mesh.vertex(c), w = mesh.neighbour(c);
   const Vec3 p = surface_.point(v), q = surface_.point(w);
   const Vec3 middle = (p + q) * 0.5;
   if (rules.placement == Placement::kMidpoint) return middle;
@@ -130,7 +130,7 @@ void Matcher::choose(const LevelRules& rules, std::span<const KeyedIndex> edges,
 
 void Matcher::choose(const LevelRules& rules, Corner c) {
   const Connectivity& mesh = surface_.mesh;
-  if (taken_[mesh.vertex(c)] || taken_[mesh.vertex(next(c))]) return;
+  if (taken_[mesh.vertex(c)] || taken_[mesh.neighbour(c)]) return;
   const EdgeStar edge(mesh, c);
   if (!keeps_manifold(mesh, edge)) return;
   const Vec3i target = merged_position(surface_, edge, rules.placement, rules.parity);

@@ -52,7 +52,7 @@ std::uint32_t label_components(const Connectivity& mesh, std::vector<std::uint32
       const VertexId v = pending.back();
       pending.pop_back();
       for_each_corner(mesh, v, [&](Corner c) {
-        const VertexId w = mesh.vertex(next(c));
+        const VertexId w = mesh.neighbour(c);
         if (is_virtual(w) || label[w] != kNone) return;
         label[w] = count;
         pending.push_back(w);
@@ -93,7 +93,7 @@ Component component_of(const Surface& surface, std::span<const VertexId> members
     out.mesh.positions.push_back(surface.position[v]);
     if (!surface.colour.empty()) out.mesh.colours.push_back(surface.colour[v]);
     for_each_corner(surface.mesh, v, [&](Corner c) {
-      const VertexId a = surface.mesh.vertex(next(c)), b = surface.mesh.vertex(prev(c));
+      const VertexId a = surface.mesh.neighbour(c), b = surface.mesh.vertex(prev(c));
       if (v < a && v < b && !is_virtual(a) && !is_virtual(b))
         out.mesh.faces.push_back({index(v), index(a), index(b)});
     });

@@ -43,7 +43,7 @@ class Accumulator {
     if (size == 0) return;
     const Quadric q =
         plane_quadric(outward * (1 / size), at(next(c)), kBorderWeight * dot(edge, edge));
-    quadric_[mesh_.vertex(next(c))] += q;
+    quadric_[mesh_.neighbour(c)] += q;
     quadric_[mesh_.vertex(prev(c))] += q;
   }
 

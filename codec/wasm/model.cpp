@@ -223,7 +223,7 @@ Vec3 Model::normal(VertexId v) const {
   Vec3 sum;
   Corner c = first;
   do {
-    const VertexId a = mesh.vertex(next(c)), b = mesh.vertex(prev(c));
+    const VertexId a = mesh.neighbour(c), b = mesh.vertex(prev(c));
     if (!is_virtual(a) && !is_virtual(b)) sum += cross(shown(a) - origin, shown(b) - origin);
     c = mesh.swing(c);
   } while (c != first);
