@@ -10,7 +10,7 @@
 namespace vitrine {
 namespace {
 
-constexpr std::chrono::seconds kBeat{2};
+constexpr std::chrono::seconds kScannerBeat{2};
 constexpr std::chrono::seconds kMargin{1};  // by which this machine's clock may be slower
 
 }  // namespace
@@ -35,7 +35,7 @@ void ScannerClaims::start(std::vector<std::string> names) {
   beat();
   heart_ = std::jthread([this](const std::stop_token& stop) {
     std::unique_lock lock(resting_);
-    while (!rest_.wait_for(lock, stop, kBeat, [&] { return stop.stop_requested(); }))
+    while (!rest_.wait_for(lock, stop, kScannerBeat, [&] { return stop.stop_requested(); }))
       beat();
   });
 }
