@@ -19,11 +19,11 @@ constexpr std::array kBuilds{JobKind::kPublish};
 const Lease kLong{"long", 1h};
 const Lease kOver{"over", -1s};  // it has run out at once
 
-JobRecord job(std::uint8_t value, JobState state = JobState::kQueued) {
+JobRecord build_job(std::uint8_t value, JobState state = JobState::kQueued) {
   return {.id = id_of(value), .kind = JobKind::kPublish, .state = state};
 }
 
-ModelRecord model(std::uint8_t value) {
+ModelRecord named_model(std::uint8_t value) {
   ModelRecord record;
   record.id = id_of(value);
   return record;
@@ -48,7 +48,7 @@ class Claims : public testing::Test {
 };
 
 TEST_F(Claims, a_job_that_waits_is_taken_once) {
-  add(job(1));
+  add(build_job(1));
   const JobRecord taken = claim(1, kLong);
   EXPECT_EQ(taken.state, JobState::kRunning);
   EXPECT_EQ(taken.fence, 1u);
@@ -60,7 +60,7 @@ TEST_F(Claims, a_job_that_waits_is_taken_once) {
 
 TEST_F(Claims, of_many_who_want_it_at_a_time_one_has_it) {
   for (std::uint8_t round = 1; round <= 10; ++round) {
-    add(job(round));
+    add(build_job(round));
     std::atomic<int> takers = 0;
     std::vector<std::thread> threads;
     for (int i = 0; i < 4; ++i) {
@@ -77,7 +77,7 @@ TEST_F(Claims, of_many_who_want_it_at_a_time_one_has_it) {
 }
 
 TEST_F(Claims, who_has_let_the_lease_run_out_changes_nothing_once_another_has_the_job) {
-  add(job(1));
+  add(build_job(1));
   JobRecord late = claim(1, kOver);
   EXPECT_TRUE(is_waiting(1));
   const JobRecord next = claim(1, kLong);
@@ -85,7 +85,7 @@ TEST_F(Claims, who_has_let_the_lease_run_out_changes_nothing_once_another_has_th
   EXPECT_EQ(jobs_->renew(late, 1h).error().code, ErrorCode::kState);
   late.state = JobState::kDone;
   EXPECT_EQ(jobs_->update(late).error().code, ErrorCode::kState);
-  const auto added = models_->add(model(1), {}, JobClaim{late.id, late.fence});
+  const auto added = models_->add(named_model(1), {}, JobClaim{late.id, late.fence});
   ASSERT_FALSE(added);
   EXPECT_EQ(added.error().code, ErrorCode::kState);
   EXPECT_EQ(models_->find(id_of(1)).value(), std::nullopt);
@@ -93,19 +93,19 @@ TEST_F(Claims, who_has_let_the_lease_run_out_changes_nothing_once_another_has_th
 }
 
 TEST_F(Claims, a_model_and_that_its_job_has_made_it_are_known_at_once) {
-  add(job(1));
+  add(build_job(1));
   const JobRecord mine = claim(1, kLong);
-  ASSERT_TRUE(models_->add(model(7), {}, JobClaim{mine.id, mine.fence}));
+  ASSERT_TRUE(models_->add(named_model(7), {}, JobClaim{mine.id, mine.fence}));
   EXPECT_TRUE(models_->find(id_of(7)).value());
   EXPECT_EQ(jobs_->find_job(id_of(1)).value()->model, id_of(7));
-  EXPECT_FALSE(models_->add(model(7), {}, JobClaim{mine.id, mine.fence})) << "it exists";
+  EXPECT_FALSE(models_->add(named_model(7), {}, JobClaim{mine.id, mine.fence})) << "it exists";
 }
 
 TEST_F(Claims, a_model_is_changed_by_who_has_the_job_alone) {
-  ASSERT_TRUE(models_->add(model(7), {}));
-  add(job(1));
+  ASSERT_TRUE(models_->add(named_model(7), {}));
+  add(build_job(1));
   const JobRecord late = claim(1, kOver), next = claim(1, kLong);
-  ModelRecord changed = model(7);
+  ModelRecord changed = named_model(7);
   changed.title = "A head";
   EXPECT_FALSE(models_->update(changed, std::nullopt, JobClaim{late.id, late.fence}));
   EXPECT_EQ(models_->find(id_of(7)).value()->title, "");
@@ -114,7 +114,7 @@ TEST_F(Claims, a_model_is_changed_by_who_has_the_job_alone) {
 }
 
 TEST_F(Claims, a_lease_that_is_renewed_goes_on_and_tells_how_far_the_job_is) {
-  add(job(1));
+  add(build_job(1));
   JobRecord mine = claim(1, kOver);
   mine.stage = "building";
   mine.progress = 0.5;
@@ -124,7 +124,7 @@ TEST_F(Claims, a_lease_that_is_renewed_goes_on_and_tells_how_far_the_job_is) {
 }
 
 TEST_F(Claims, a_job_that_is_put_back_waits_at_once) {
-  add(job(1));
+  add(build_job(1));
   JobRecord mine = claim(1, kLong);
   mine.state = JobState::kQueued;
   ASSERT_TRUE(jobs_->update(mine));
@@ -133,7 +133,7 @@ TEST_F(Claims, a_job_that_is_put_back_waits_at_once) {
 
 TEST_F(Claims, what_nobody_works_on_is_cancelled_at_once) {
   for (const std::uint8_t value : std::array<std::uint8_t, 3>{1, 2, 3})
-    add(job(value, value == 3 ? JobState::kPaused : JobState::kQueued));
+    add(build_job(value, value == 3 ? JobState::kPaused : JobState::kQueued));
   const JobRecord late = claim(2, kOver);
   for (const std::uint8_t value : std::array<std::uint8_t, 3>{1, 2, 3}) {
     const JobRecord cancelled = jobs_->cancel(id_of(value), 1'700'000'000'000).value();
@@ -148,7 +148,7 @@ TEST_F(Claims, what_nobody_works_on_is_cancelled_at_once) {
 }
 
 TEST_F(Claims, who_works_on_a_job_hears_that_it_is_to_be_cancelled) {
-  add(job(1));
+  add(build_job(1));
   const JobRecord mine = claim(1, kLong);
   EXPECT_EQ(backend_->connect()->cancel(id_of(1), 1).value(), mine);
   EXPECT_TRUE(jobs_->renew(mine, 1h).value());
@@ -158,8 +158,8 @@ TEST_F(Claims, who_works_on_a_job_hears_that_it_is_to_be_cancelled) {
 }
 
 TEST_F(Claims, what_a_dead_holder_had_waits_and_what_others_have_stays_theirs) {
-  add(job(1));
-  add(job(2));
+  add(build_job(1));
+  add(build_job(2));
   claim(1, {"dead", 1h});
   claim(2, {"alive", 1h});
   ASSERT_TRUE(jobs_->drop_leases("dead"));
@@ -169,10 +169,10 @@ TEST_F(Claims, what_a_dead_holder_had_waits_and_what_others_have_stays_theirs) {
 
 TEST_F(Claims, the_oldest_that_wait_come_first_and_of_the_wanted_kinds_alone) {
   for (const std::uint8_t value : std::array<std::uint8_t, 3>{3, 1, 2})
-    add(job(value));
-  add(job(4, JobState::kPaused));
-  add(job(5, JobState::kDone));
-  JobRecord scan = job(6);
+    add(build_job(value));
+  add(build_job(4, JobState::kPaused));
+  add(build_job(5, JobState::kDone));
+  JobRecord scan = build_job(6);
   scan.kind = JobKind::kScan;
   add(scan);
   const auto ids = [&](std::span<const JobKind> kinds, std::uint32_t limit) {
@@ -189,10 +189,10 @@ TEST_F(Claims, the_oldest_that_wait_come_first_and_of_the_wanted_kinds_alone) {
 }
 
 TEST_F(Claims, an_end_is_told_by_one_and_by_another_once_that_one_is_dead) {
-  JobRecord ended = job(1, JobState::kDone);
+  JobRecord ended = build_job(1, JobState::kDone);
   ended.webhook = "http://museum.example/told";
   add(ended);
-  add(job(2, JobState::kDone));  // which nobody wants to hear of
+  add(build_job(2, JobState::kDone));  // which nobody wants to hear of
   EXPECT_EQ(jobs_->claim_untold({"teller", 1h}).value(), std::vector{ended});
   EXPECT_TRUE(backend_->connect()->claim_untold({"other", 1h}).value().empty());
   ASSERT_TRUE(jobs_->drop_leases("teller"));
@@ -228,11 +228,11 @@ TEST_F(Claims, where_a_scanner_is_driven_is_known_and_whether_it_still_is) {
 
 TEST_F(Claims, the_steps_of_jobs_are_no_change_of_what_visitors_see) {
   const auto before = models_->revision().value();
-  add(job(1));
+  add(build_job(1));
   const JobRecord mine = claim(1, kLong);
   ASSERT_TRUE(jobs_->renew(mine, 1h));
   EXPECT_EQ(models_->revision().value(), before);
-  ASSERT_TRUE(models_->add(model(7), {}, JobClaim{mine.id, mine.fence}));
+  ASSERT_TRUE(models_->add(named_model(7), {}, JobClaim{mine.id, mine.fence}));
   EXPECT_NE(models_->revision().value(), before);
 }
 
