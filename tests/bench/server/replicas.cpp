@@ -21,14 +21,14 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr std::size_t kModels = 64, kChunkBytes = 16 * 1024, kReplicas = 3;
+constexpr std::size_t kScans = 64, kPieceBytes = 16 * 1024, kReplicas = 3;
 constexpr const char *kOne = "one", *kThree = "three";  // hosts whom nginx is asked for
 
 // One bucket, one database and four daemons on them: one alone, and three side by side.
 class Replicas {
  public:
   Replicas() : installation_(open_installation(elsewhere_.place()).value()) {
-    for (std::size_t i = 0; i < kModels; ++i)
+    for (std::size_t i = 0; i < kScans; ++i)
       publish_one(i);
     for (std::size_t i = 0; i <= kReplicas; ++i)
       daemons_.emplace_back(
@@ -69,7 +69,7 @@ class Replicas {
 
  private:
   void publish_one(std::size_t number) {
-    std::string chunk(kChunkBytes, '\0');
+    std::string chunk(kPieceBytes, '\0');
     for (std::size_t at = 0; at < chunk.size(); ++at)
       chunk[at] = static_cast<char>(at * (2 * number + 1) >> 3);
     const test::TinyPmesh pmesh = test::tiny_pmesh("base " + std::to_string(number), chunk);
@@ -126,7 +126,7 @@ class Throughput {
     const auto rate = [&](const std::string& host) {
       Load load{.port = port_, .requests = {}, .status = status, .connections = 256};
       load.time = std::chrono::milliseconds(effort_.quick ? 500 : 3000);
-      for (std::size_t i = 0; i < kModels; ++i)
+      for (std::size_t i = 0; i < kScans; ++i)
         load.requests.push_back(request_of(i, host));
       return deliver(load).requests_per_second;
     };
@@ -152,7 +152,7 @@ double bytes_per_viewer(const Replicas& replicas, std::uint16_t port, const std:
   std::vector<Viewer> viewers;
   const auto connect = [&](std::size_t more) {
     for (const std::size_t end = viewers.size() + more; viewers.size() < end;) {
-      viewers.emplace_back(port, replicas.models()[viewers.size() % kModels], host);
+      viewers.emplace_back(port, replicas.models()[viewers.size() % kScans], host);
       viewers.back().greet();
     }
   };
