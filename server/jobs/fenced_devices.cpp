@@ -39,7 +39,7 @@ class FencedBoard final : public Board {
 
 }  // namespace
 
-ScannerDevices fenced(ScannerDevices devices, May may) {
+ScannerDevices fenced(ScannerDevices devices, const May& may) {
   ScannerDevices fenced;
   fenced.open_camera = [open = std::move(devices.open_camera), may] {
     return may().and_then([&] { return open(); });

@@ -9,6 +9,6 @@ namespace vitrine {
 
 // The same devices, opened and commanded as long as `may` says so: its error is theirs. Whoever may
 // not any more closes the board, which switches laser and motor off, and does nothing else to it.
-ScannerDevices fenced(ScannerDevices devices, std::function<Expected<void>()> may);
+ScannerDevices fenced(ScannerDevices devices, const std::function<Expected<void>()>& may);
 
 }  // namespace vitrine

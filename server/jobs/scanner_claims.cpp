@@ -2,9 +2,9 @@
 #include "server/jobs/scanner_claims.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
+#include <ctime>
 #include <utility>
 
 namespace vitrine {
