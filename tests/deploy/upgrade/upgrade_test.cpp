@@ -19,6 +19,14 @@ using testing::Not;
 constexpr const char* kSearch = "SELECT id, state, created, title";
 constexpr const char* kJobs = "SELECT id, kind, state, scanner";
 constexpr const char* kNothing = "SELECT 1";
+constexpr const char* kVersion = "SELECT coalesce(max(version), 0) FROM migration";
+
+// The version is what a migration is to change: whether an old program starts at a newer one is for
+// that program to say.
+std::vector<std::string> without_version(std::vector<std::string> answers) {
+  std::erase_if(answers, [](const std::string& answer) { return answer.starts_with(kVersion); });
+  return answers;
+}
 
 class NewDaemon {
  public:
@@ -75,7 +83,7 @@ TEST_P(Upgrade, an_old_daemon_is_answered_as_ever) {
   const auto alone = answers_after(kNothing);
   for (const std::string& answer : alone)
     EXPECT_THAT(answer, Not(HasSubstr(kRefused)));
-  EXPECT_EQ(old.say(recording_.work), alone);
+  EXPECT_EQ(without_version(old.say(recording_.work)), without_version(alone));
 }
 
 TEST_P(Upgrade, a_new_daemon_knows_what_the_old_one_writes) {
