@@ -38,7 +38,8 @@ class NewDaemon {
 
   std::vector<std::string> titles() {
     std::vector<std::string> titles;
-    for (const ModelRecord& model : catalogue().search({.drafts = true}).value().models)
+    const auto found = catalogue().search({.drafts = true}).value();
+    for (const ModelRecord& model : found.models)
       titles.push_back(model.title);
     return titles;
   }
