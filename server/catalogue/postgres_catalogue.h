@@ -20,7 +20,9 @@ struct OpenDatabase {
 };
 
 // Creates or migrates the tables. `url`: postgresql://USER@HOST/DATABASE, with what else libpq
-// knows. Fails with kIo where the server is not reached or refuses; no message tells the password.
+// knows. Fails with kIo where the server is not reached or refuses, kUnsupported where a newer
+// version of the software has tables that this one cannot go on with; no message tells the
+// password.
 Expected<OpenDatabase> open_database(const std::string& url);
 
 }  // namespace vitrine::postgres

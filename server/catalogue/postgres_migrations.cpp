@@ -6,7 +6,7 @@ namespace {
 
 // Numbered on their own: the first is what SQLite's have led to. The revision counts the changes of
 // what visitors and tokens meet, not the steps of jobs.
-constexpr const char* kMigrations[] = {
+constexpr const char* kSteps[] = {
     R"sql(
 CREATE TABLE model (
   id BYTEA PRIMARY KEY, state BIGINT NOT NULL, created BIGINT NOT NULL,
@@ -70,6 +70,7 @@ CREATE TABLE scanner (
 );
 )sql",
 };
+constexpr std::int64_t kSince = 1;
 constexpr const char* kOneAtATime = "SELECT pg_advisory_lock(7957706764961114213)";
 constexpr const char* kNext = "SELECT pg_advisory_unlock(7957706764961114213)";
 
@@ -77,7 +78,7 @@ constexpr const char* kNext = "SELECT pg_advisory_unlock(7957706764961114213)";
 
 void migrate(sql::Connection& connection) {
   connection.run(kOneAtATime);
-  sql::migrate(connection, kMigrations);
+  sql::migrate(connection, {.steps = kSteps, .since = kSince});
   connection.run(kNext);
 }
 

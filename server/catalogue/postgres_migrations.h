@@ -5,8 +5,7 @@
 
 namespace vitrine::postgres {
 
-// Creates or migrates the tables, one process at a time. Migrations only add, so that an older
-// version goes on beside a newer one.
+// Creates or migrates the tables, one process at a time; fails as sql::migrate() does.
 void migrate(sql::Connection& connection);
 
 }  // namespace vitrine::postgres

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/catalogue/sql.h"
 
-#include <algorithm>
+#include <optional>
 
 namespace vitrine::sql {
 
@@ -12,25 +12,56 @@ bool Statement::any() {
   return found;
 }
 
-std::int64_t migrate(Connection& connection, std::span<const char* const> migrations) {
-  Transaction transaction(connection);
-  connection.run(
-      "CREATE TABLE IF NOT EXISTS migration (version INTEGER PRIMARY KEY, "
-      "applied TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP)");
-  std::int64_t found = 0;
-  {
-    const Query newest(connection.prepare("SELECT coalesce(max(version), 0) FROM migration"));
-    newest->step();
-    found = newest->integer(0);
-  }
-  const auto wanted = static_cast<std::int64_t>(migrations.size());
-  for (std::int64_t version = found; version < wanted; ++version) {
-    connection.run(migrations[static_cast<std::size_t>(version)]);
+namespace {
+
+std::int64_t newest_version(Connection& connection) {
+  const Query row(connection.prepare("SELECT coalesce(max(version), 0) FROM migration"));
+  row->step();
+  return row->integer(0);
+}
+
+void apply(Connection& connection, std::span<const char* const> steps) {
+  const auto wanted = static_cast<std::int64_t>(steps.size());
+  for (std::int64_t version = newest_version(connection); version < wanted; ++version) {
+    connection.run(steps[static_cast<std::size_t>(version)]);
     const Query record(connection.prepare("INSERT INTO migration(version) VALUES (?)"));
     record->bind(version + 1).step();
   }
+}
+
+// Since which version programs go on with the tables of `version`; nothing where nobody has said.
+std::optional<std::int64_t> compatible_since(Connection& connection, std::int64_t version) {
+  const Query row(connection.prepare("SELECT since FROM compatible WHERE version = ?"));
+  if (!row->bind(version).step()) return std::nullopt;
+  return row->integer(0);
+}
+
+void record_since(Connection& connection, std::int64_t version, std::int64_t since) {
+  const Query record(
+      connection.prepare("INSERT INTO compatible(version, since) VALUES (?, ?) "
+                         "ON CONFLICT DO NOTHING"));
+  record->bind(version).bind(since).step();
+}
+
+}  // namespace
+
+void migrate(Connection& connection, const Migrations& migrations) {
+  Transaction transaction(connection);
+  connection.run(
+      "CREATE TABLE IF NOT EXISTS migration (version INTEGER PRIMARY KEY, "
+      "applied TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP);"
+      "CREATE TABLE IF NOT EXISTS compatible (version INTEGER PRIMARY KEY, "
+      "since INTEGER NOT NULL)");
+  const auto known = static_cast<std::int64_t>(migrations.steps.size());
+  if (const std::int64_t found = newest_version(connection); found > known) {
+    const auto since = compatible_since(connection, found);
+    if (since && *since <= known) return;
+    throw Failure("a newer version of Vitrine has changed its tables", ErrorCode::kUnsupported,
+                  "install that version");
+  }
+  apply(connection, migrations.steps);
+  record_since(connection, known, migrations.since);
   transaction.commit();
-  return std::max(found, wanted);
 }
 
 }  // namespace vitrine::sql

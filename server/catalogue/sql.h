@@ -19,7 +19,7 @@ namespace vitrine::sql {
 struct Failure : std::runtime_error {
   Failure(const std::string& message, ErrorCode kind, const char* next_step)
       : std::runtime_error(message), code(kind), advice(next_step) {}
-  ErrorCode code;      // kIo, or kLimit where the disk is full
+  ErrorCode code;      // kIo; kLimit where the disk is full; kUnsupported as migrate() says
   const char* advice;  // what to do
 };
 
@@ -133,8 +133,17 @@ Expected<T> guarded(Database& database, Action action) {
   }
 }
 
-// Brings the tables to the newest version: migration i leads from i to i + 1. Never edit one that
-// has been released. Returns the version found where that is newer, else the newest.
-std::int64_t migrate(Connection& connection, std::span<const char* const> migrations);
+// The tables of a back end: step i leads from version i to i + 1. Never edit one that has been
+// released.
+struct Migrations {
+  std::span<const char* const> steps;
+  // The oldest version whose programs go on with the tables of the newest, so that old and new ones
+  // may run side by side. Raise it with a step that does more than add what has a default.
+  std::int64_t since;
+};
+
+// Brings the tables to the newest version. Those of a newer one stay as they are; fails with
+// kUnsupported where that one says that these programs cannot go on with them, or says nothing.
+void migrate(Connection& connection, const Migrations& migrations);
 
 }  // namespace vitrine::sql

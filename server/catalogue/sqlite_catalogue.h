@@ -10,7 +10,7 @@
 namespace vitrine {
 
 // Creates or migrates the database. Fails with kIo where the file is refused, kUnsupported where a
-// newer version of the software wrote it. The folder must exist.
+// newer version of the software has tables that this one cannot go on with. The folder must exist.
 Expected<std::unique_ptr<Catalogue>> open_sqlite_catalogue(const std::filesystem::path& file);
 
 }  // namespace vitrine

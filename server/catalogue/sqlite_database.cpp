@@ -11,7 +11,7 @@
 namespace vitrine::sqlite {
 namespace {
 
-constexpr const char* kMigrations[] = {
+constexpr const char* kSteps[] = {
     R"sql(
 CREATE TABLE model (
   id BLOB PRIMARY KEY, state INTEGER NOT NULL, created INTEGER NOT NULL,
@@ -95,6 +95,7 @@ CREATE TABLE scanner (
 ) WITHOUT ROWID;
 )sql",
 };
+constexpr std::int64_t kSince = 8;  // programs before that look at nothing but the version
 
 class SqliteConnection final : public sql::Connection {
  public:
@@ -149,12 +150,7 @@ Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::pa
     const auto connection = database->lease();
     connection->run(
         "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
-    if (sql::migrate(*connection, kMigrations) >
-        static_cast<std::int64_t>(std::size(kMigrations))) {
-      return fail(ErrorCode::kUnsupported,
-                  fmt::format("{} was written by a newer version of Vitrine; install that version",
-                              file.string()));
-    }
+    sql::migrate(*connection, {.steps = kSteps, .since = kSince});
     return database;
   } catch (const sql::Failure& failure) {
     return sql::refused("cannot open the catalogue " + file.string(), failure);

@@ -127,17 +127,19 @@ TEST(Postgres, several_that_start_at_once_make_the_tables_once) {
     start.join();
 }
 
-TEST(Postgres, an_older_version_goes_on_beside_the_tables_of_a_newer_one) {
+TEST(Postgres, an_older_version_goes_on_beside_the_tables_of_a_newer_one_that_says_so) {
   const std::string url = new_database();
   const auto database = postgres::open_database(url).value().database;
   database->lease()->run(
-      "INSERT INTO migration(version) VALUES (1000);"
+      "INSERT INTO migration(version) VALUES (1000); INSERT INTO compatible VALUES (1000, 3);"
       "ALTER TABLE model ADD COLUMN of_later TEXT NOT NULL DEFAULT ''");
   const auto catalogue = make_catalogue(postgres::open_database(url).value().database);
   ModelRecord model;
   model.id = ModelId::generate();
   EXPECT_TRUE(catalogue->add(model, {}));
   EXPECT_TRUE(make_catalogue(database)->find(model.id).value());
+  database->lease()->run("UPDATE compatible SET since = 1000 WHERE version = 1000");
+  EXPECT_THAT(fault(url), HasSubstr("newer version"));
 }
 
 }  // namespace

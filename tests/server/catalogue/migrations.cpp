@@ -65,12 +65,25 @@ TEST_F(Migrations, nobody_is_told_of_what_ended_before_that_was_kept) {
   EXPECT_TRUE(open_sqlite_jobs(file_).value()->untold_jobs().value().empty());
 }
 
-TEST_F(Migrations, a_catalogue_of_a_newer_version_is_refused_and_left_alone) {
+TEST_F(Migrations, goes_on_with_the_tables_of_a_newer_version_that_says_so) {
+  ModelRecord model;
+  model.id = ModelId::generate();
+  ASSERT_TRUE(open_sqlite_catalogue(file_));
+  run("ALTER TABLE model ADD COLUMN of_later TEXT NOT NULL DEFAULT ''");
+  run("INSERT INTO migration(version) VALUES (1000); INSERT INTO compatible VALUES (1000, 8)");
+  ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
+  EXPECT_TRUE(open_sqlite_catalogue(file_).value()->find(model.id).value());
+}
+
+TEST_F(Migrations, a_newer_version_that_says_otherwise_or_nothing_is_refused_and_left_alone) {
   ASSERT_TRUE(open_sqlite_catalogue(file_));
   run("INSERT INTO migration(version) VALUES (1000)");
   const auto opened = open_sqlite_catalogue(file_);
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(opened.error().message.find("install that version"), std::string::npos);
+  run("INSERT INTO compatible VALUES (1000, 1000)");
+  EXPECT_FALSE(open_sqlite_catalogue(file_));
 }
 
 TEST_F(Migrations, a_file_that_is_no_database_is_refused_by_name) {
