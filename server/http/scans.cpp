@@ -30,6 +30,22 @@ Response with_scan(const Request& request, Services& services, Answer&& answer) 
   return problem(404, "there is no such scan", request.id);
 }
 
+// As the daemon tells that drives its scanner, where it goes on elsewhere: only that one knows how
+// long it will take, and what it waits for.
+nlohmann::ordered_json told(const ScanInfo& scan, const Request& request, Services& services) {
+  const auto known = scan_json(scan);
+  if (has_ended(scan.job.record.state)) return known;
+  const auto address = elsewhere(scan.entry.scanner, request, services);
+  if (!address) return known;
+  const std::string path = "/api/v1/scans/" + scan.entry.id.to_string();
+  const Request one{request.header, path, {}, {}, request.id, request.body, request.caller};
+  const auto answer = ask_elsewhere(*address, one, services);
+  const auto* const text = std::get_if<std::string>(&answer.body);
+  const auto json = nlohmann::ordered_json::parse(text != nullptr ? *text : "", nullptr,
+                                                  /*allow_exceptions=*/false);
+  return answer.status == 200 && json.is_object() ? json : known;
+}
+
 Response started(const ScanStarted& scan) {
   Response response =
       json_answer({{"id", scan.scan.to_string()}, {"job", scan.job.to_string()}}, 202);
@@ -91,7 +107,7 @@ Response list_scans(const Request& request, Services& services) {
   if (!scans) return internal_error(scans.error(), request, services);
   auto list = nlohmann::ordered_json::array();
   for (const ScanInfo& scan : *scans)
-    list.push_back(scan_json(scan));
+    list.push_back(told(scan, request, services));
   nlohmann::ordered_json json = {{"scans", std::move(list)}, {"next", nullptr}};
   if (scans->size() == page->limit) json["next"] = scans->back().entry.id.to_string();
   return json_answer(json);

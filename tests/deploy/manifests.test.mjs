@@ -86,7 +86,16 @@ async function faults(objects) {
   return ts.getPreEmitDiagnostics(ts.createProgram([file], options, host)).map(({ messageText }) => ts.flattenDiagnosticMessageText(messageText, "\n"));
 }
 
+/** What the schemas of Kubernetes' API say of an object: of values, too, but nothing of names that are not there. */
+function assertValid(object) {
+  const { [object.kind]: Model } = require(`kubernetes-models/${object.apiVersion}/${object.kind}`);
+  new Model(object).validate();
+}
+
 test("the manifests are valid", async () => {
+  objects.forEach(assertValid);
+  const udb = { apiVersion: "v1", kind: "Service", spec: { ports: [{ port: 53, protocol: "UDB" }] } };
+  assert.throws(() => assertValid(udb), /protocol/);
   assert.deepEqual(await faults(objects), []);
   const wrong = { apiVersion: "v1", kind: "Service", spec: { ports: [{ port: 1, targetPrt: 3 }] } };
   assert.match((await faults([wrong])).join(), /targetPrt/);
@@ -141,6 +150,18 @@ test("selectors, claims, settings and services that manifests name are there", (
 test("the settings of all pods are ones that the daemon takes", () => {
   const shared = Object.assign({}, ...of("ConfigMap").filter(({ metadata }) => metadata.name === "vitrine").map(({ data }) => data), ...of("Secret").map(({ stringData }) => stringData));
   for (const { spec: { containers: [{ env }] } } of pods()) assertTaken({ ...shared, ...Object.fromEntries(env.map(({ name, value }) => [name, value])) });
+});
+
+test("those that serve reach the one that scans", () => {
+  const { template, serviceName } = of("StatefulSet")[0].spec;
+  const [{ env, ports }] = template.spec.containers;
+  const { hostname, port } = new URL(env.find(({ name }) => name === "VITRINE_SCAN_ADDRESS").value);
+  const { metadata, spec } = of("Service").find(({ metadata: { name } }) => name === serviceName);
+  assert.equal(hostname, `scan-0.${metadata.name}.${metadata.namespace}.svc`);
+  assert.equal(spec.clusterIP, "None"); // so that the pod's own port is asked
+  assert.equal(Number(port), ports.find(({ name }) => name === "http").containerPort);
+  const egress = of("NetworkPolicy").flatMap(({ spec }) => spec.egress ?? []).flatMap((rule) => rule.ports);
+  assert.ok(egress.some((open) => open.port === Number(port)));
 });
 
 test("what the autoscaler counts is a metric of the daemon's", async () => {

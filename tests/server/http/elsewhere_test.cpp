@@ -79,6 +79,17 @@ TEST_F(PassedOn, a_scan_begins_where_its_scanner_is) {
   EXPECT_TRUE(driver_.jobs().find_job(job).value());
 }
 
+TEST_F(PassedOn, a_list_of_scans_tells_what_their_driver_tells) {
+  const auto begun = ask("POST", "/scans", operator_, R"({"scanner": "rig", "steps": 12})");
+  const auto id = ScanId::parse(json::parse(begun.body)["id"].get<std::string>()).value();
+  const ScanEntry unknown{.id = id, .job = JobId::generate(), .scanner = "rig", .title = "Behind"};
+  const JobRecord running{.id = unknown.job, .state = JobState::kRunning, .scanner = "rig"};
+  ASSERT_TRUE(front_.jobs().add(running, unknown, {}));  // as its catalogue has it
+  const auto list = json::parse(ask("GET", "/scans", operator_).body)["scans"];
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0]["steps"], 12);
+}
+
 TEST_F(PassedOn, who_may_not_is_told_so_before) {
   EXPECT_EQ(ask("POST", "/scanners/rig/jog", "", R"({"degrees": 90})").status, 401);
   EXPECT_EQ(world_.degrees, 0);
