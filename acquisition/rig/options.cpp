@@ -36,10 +36,14 @@ that only COMMAND sees. Runs COMMAND and exits as it does.
                        state accuracy
   --address IP         the camera's, of an interface of this machine (default 127.0.0.1); one rig an
                        address
-  --private-network    camera and COMMAND on a loopback of their own: several rigs on one machine
+  --private-network    camera and COMMAND on a loopback of their own: several rigs on one machine. A
+                       rig that COMMAND starts there may have the address 127.0.0.2
   --dialect NAME       the board's: horus or fabscan (default horus)
   --write-config FILE  what `vitrine` is to know of the scanner, as JSON
   --name NAME          the scanner's in there (default rig)
+  --write-commands FILE
+                       what the board is told, a line each, after the time in milliseconds since
+                       1970
   --write-truth FILE   the object in the table's frame at 0 degrees in mm, as PLY, with a flag
                        `seen` a vertex: visible to laser and camera; then no COMMAND is needed
   --help, --version)";
@@ -94,11 +98,12 @@ class Parser {
   }
 
   static bool takes_value(std::string_view word) {
-    constexpr std::string_view kNames[] = {"--mesh",        "--up",      "--height-mm",
-                                           "--seed",        "--steps",   "--degrees-per-second",
-                                           "--fault",       "--stripe",  "--speckle",
-                                           "--address",     "--dialect", "--write-config",
-                                           "--write-truth", "--name",    "--table"};
+    constexpr std::string_view kNames[] = {"--mesh",          "--up",      "--height-mm",
+                                           "--seed",          "--steps",   "--degrees-per-second",
+                                           "--fault",         "--stripe",  "--speckle",
+                                           "--address",       "--dialect", "--write-config",
+                                           "--write-truth",   "--name",    "--table",
+                                           "--write-commands"};
     return std::find(std::begin(kNames), std::end(kNames), word) != std::end(kNames);
   }
 
@@ -151,6 +156,7 @@ class Parser {
     if (option == "--name") options_.name = value;
     if (option == "--write-truth") options_.write_truth = value;
     if (option == "--table") options_.table = value;
+    if (option == "--write-commands") options_.write_commands = value;
     return {};
   }
 

@@ -25,7 +25,7 @@ struct RigOptions {
   double degrees_per_second = 0;  // of the table; 0: it is there at once
   std::vector<Fault> faults;
   std::string address = "127.0.0.1", dialect = "horus", name = "rig";
-  std::string write_config, write_truth, table;  // files; empty: not asked for
+  std::string write_config, write_truth, write_commands, table;  // files; empty: not asked for
   std::vector<std::string> command;
 };
 

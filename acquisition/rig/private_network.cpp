@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <net/if.h>
+#include <netinet/in.h>
 #include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
@@ -34,7 +35,14 @@ bool raise_loopback() {
   ifreq request{};
   std::strcpy(request.ifr_name, "lo");
   request.ifr_flags = IFF_UP | IFF_RUNNING;
-  return ::ioctl(socket.get(), SIOCSIFFLAGS, &request) == 0;
+  if (::ioctl(socket.get(), SIOCSIFFLAGS, &request) != 0) return false;
+  // Aravis has a camera answer at none but an address that an interface has for its own.
+  std::strcpy(request.ifr_name, "lo:2");
+  sockaddr_in second{};
+  second.sin_family = AF_INET;
+  second.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 1);
+  std::memcpy(&request.ifr_addr, &second, sizeof second);
+  return ::ioctl(socket.get(), SIOCSIFADDR, &request) == 0;
 }
 
 }  // namespace

@@ -76,7 +76,8 @@ Expected<int> serve(const RigOptions& options, const Subject* object) {
                                  .camera_address = options.address,
                                  .fabscan = options.dialect == "fabscan",
                                  .degrees_per_second = options.degrees_per_second,
-                                 .table = options.table});
+                                 .table = options.table,
+                                 .commands = options.write_commands});
   if (!scanner) return Unexpected(scanner.error());
   auto door = open_door(folder.socket(), (*scanner)->stage());
   if (!door) return Unexpected(door.error());

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "acquisition/rig/noise.h"
 #include "acquisition/rig/table_file.h"
 
@@ -36,10 +38,12 @@ Scanner::Scanner(const ScannerOptions& options, double degrees)
               .on_move = [this](double moved) { stage_.passes(degrees_ + moved); },
               .on_turn = [this](double moved) { stage_.turned_to(degrees_ + moved); },
               .on_laser = [this](bool on) { stage_.laser(on); },
-              .on_motor = [this](bool on) { stage_.motor(on); }}),
+              .on_motor = [this](bool on) { stage_.motor(on); },
+              .on_command = [this](std::string_view text) { write_down(text); }}),
       camera_cable_([this] { camera_->unplug(); }, [this] { tell(camera_->plug_in()); }),
       board_cable_([this] { board_.unplug(); }, [this] { tell(plug_board()); }) {
   stage_.passes(degrees);
+  if (!options.commands.empty()) commands_.open(options.commands);
 }
 
 Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options) {
@@ -66,6 +70,17 @@ Expected<void> Scanner::plug_board() {
 // When a motion begins: a real table gets there though this process be killed on the way.
 void Scanner::keep(double goal) {
   if (!options_.table.empty()) tell(write_table(options_.table, goal));
+}
+
+void Scanner::write_down(std::string_view text) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto at = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+  std::string shown;
+  for (const char c : text)
+    shown += c >= ' ' && c < '\x7f' ? std::string(1, c)
+             : c == '\n'            ? ""
+                                    : fmt::format("<{:02x}>", c);
+  commands_ << at << ' ' << shown << std::endl;
 }
 
 void Scanner::turned(int turns) {

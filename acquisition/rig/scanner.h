@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -24,9 +26,10 @@ struct ScannerOptions {
   Realism realism;
   std::vector<Fault> faults;
   std::string camera_address = "127.0.0.1";
-  bool fabscan = false;           // the board, instead of Horus
-  double degrees_per_second = 0;  // of the table; 0: it is there at once
-  std::filesystem::path table;    // keeps where it stands; empty: it stands at 0 degrees at first
+  bool fabscan = false;            // the board, instead of Horus
+  double degrees_per_second = 0;   // of the table; 0: it is there at once
+  std::filesystem::path table;     // keeps where it stands; empty: it stands at 0 degrees at first
+  std::filesystem::path commands;  // is told all that the board is; empty: nobody is
 };
 
 // The same for the same seed: a rig that is started anew is the rig it was.
@@ -44,6 +47,7 @@ class Scanner {
   Scanner(const ScannerOptions& options, double degrees);
   Expected<void> plug_board();
   void keep(double goal);
+  void write_down(std::string_view text);
   void turned(int turns);
   Exposed expose(const Exposure& exposure, const SensorRegion& region);
   Delivery delivery(int turns);
@@ -53,6 +57,7 @@ class Scanner {
   Renderer renderer_;     // of the camera's thread alone, as are the next two
   std::uint64_t frames_ = 0;
   int missed_at_ = -1;  // motions, when a trigger was missed last
+  std::ofstream commands_;
   Stage stage_;
   std::unique_ptr<GigeCamera> camera_;
   UsbBoard board_;

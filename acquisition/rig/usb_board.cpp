@@ -361,7 +361,9 @@ void UsbBoard::Impl::submit(UMockdevIoctlClient* handle, Client& client) {
     control(transfer);
   } else {
     const auto bytes = transfer.bytes();
-    firmware_->receive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, now());
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    events_.on_command(text);
+    firmware_->receive(text, now());
     transfer.finish(0, bytes.size());
   }
   client.finished.push_back(std::move(transfer));

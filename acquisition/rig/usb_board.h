@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "acquisition/rig/firmware.h"
@@ -27,6 +28,7 @@ struct UsbBoardEvents {
   std::function<void(double degrees)> on_move = [](double) {};  // where the table is now
   std::function<void(double degrees)> on_turn = [](double) {};  // where it has come to stand
   std::function<void(bool on)> on_laser = [](bool) {}, on_motor = [](bool) {};
+  std::function<void(std::string_view text)> on_command = [](std::string_view) {};  // as it comes
 };
 
 // Starts this program anew under umockdev's library if it is not yet: without it other programs are

@@ -10,7 +10,7 @@ import { promisify } from "node:util";
 
 const run = promisify(execFile);
 // The daemon refuses settings that it does not know, such as those of this test.
-const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith("VITRINE_")));
+export const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith("VITRINE_")));
 
 // A line of the daemon's own, or of the runtime under it.
 const kFault = /event=(error|critical)|terminate called|Sanitizer/;
@@ -31,7 +31,7 @@ export class Daemon {
   }
 
   constructor(bin, folder, data, options) {
-    Object.assign(this, { bin, folder, data, options, log: "" });
+    Object.assign(this, { bin, folder, data, options, env: { ...env }, log: "" });
   }
 
   /** What is started so that the daemon runs with `words`. */
@@ -44,7 +44,7 @@ export class Daemon {
     const words = ["--listen", listen, "--admin-listen", "127.0.0.1:0", "--data", this.data, "--port-file", portFile,
                    "--admin-port-file", join(this.folder, "admin-port")];
     const [program, ...rest] = this.command(words);
-    this.child = spawn(program, rest, { cwd: this.folder, env, stdio: ["ignore", "ignore", "pipe"] });
+    this.child = spawn(program, rest, { cwd: this.folder, env: this.env, stdio: ["ignore", "ignore", "pipe"] });
     this.child.stderr.on("data", (text) => (this.log += text));
     this.exit = once(this.child, "close").then(([code, signal]) => code ?? signal);
     const ended = this.exit.then((code) => Promise.reject(new Error(`vitrined ended with ${code}: ${this.log}`)));

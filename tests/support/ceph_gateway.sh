@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # ceph_gateway.sh FOLDER: a Ceph object gateway with all that it needs (a monitor, and one storage
-# daemon in memory) on free ports of 127.0.0.1. Prints the gateway's port once it answers, and ends
-# with its standard input.
+# daemon in memory) on free ports of 127.0.0.1. Prints the gateway's port once it answers, then does
+# what its standard input says of the gateway (stop, start), each answered with a line, and ends with it.
 set -euo pipefail
 cd "$1"
 umask 077
@@ -82,10 +82,25 @@ ceph osd crush add osd.0 1.0 root=default host=h >/dev/null 2>&1
 start osd ceph-osd -f -i 0
 radosgw-admin user create --uid museum --display-name museum --access-key museum \
   --secret-key the-secret-of-the-museum >user.out 2>&1
-start gateway radosgw -f -n client.rgw
-until (exec 3<>"/dev/tcp/127.0.0.1/$gateway_port") 2>/dev/null; do
-  kill -0 "${children[@]}"
-  sleep 0.1
-done
+start_gateway() {
+  start gateway radosgw -f -n client.rgw
+  until (exec 3<>"/dev/tcp/127.0.0.1/$gateway_port") 2>/dev/null; do
+    kill -0 "${children[@]}"
+    sleep 0.1
+  done
+}
+stop_gateway() {
+  local gateway=${children[-1]}
+  unset 'children[-1]'
+  kill -9 "$gateway"
+  wait "$gateway" 2>/dev/null || true
+}
+start_gateway
 echo "$gateway_port"
-cat >/dev/null
+while read -r command; do
+  case $command in
+    stop) stop_gateway ;;
+    start) start_gateway ;;
+  esac
+  echo "done"
+done
