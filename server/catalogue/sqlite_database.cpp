@@ -108,9 +108,15 @@ class SqliteConnection final : public sql::Connection {
     return *statement;
   }
   // Takes the write lock at once, so that no two writers can deadlock on an upgrade.
-  void begin() override { run("BEGIN IMMEDIATE"); }
+  void begin() override {
+    if (sqlite3_get_autocommit(database_.handle()) == 0) roll_back();  // that could not be before
+    run("BEGIN IMMEDIATE");
+  }
   void roll_back() noexcept override {
-    sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+    try {
+      roll_back_.reset().step();
+    } catch (const std::exception&) {  // memory has run out; begin() tries again
+    }
   }
   std::uint64_t revision() override {
     const sql::Query row(prepare("SELECT number FROM revision"));
@@ -125,6 +131,7 @@ class SqliteConnection final : public sql::Connection {
 
  private:
   Database database_;
+  Statement roll_back_{database_, "ROLLBACK"};  // to need no memory for it when there is none
   std::map<std::string, std::unique_ptr<Statement>> statements_;
 };
 

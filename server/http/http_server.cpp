@@ -74,28 +74,20 @@ void HttpServer::set_limits(std::size_t max_connections, std::chrono::seconds pa
 }
 
 void HttpServer::start() {
-  asio::co_spawn(strand_, accept(), asio::detached);
-  asio::co_spawn(
-      strand_,
-      repeat(
-          sweeper_, std::chrono::seconds(1), [this] { sweep(); },
-          [this](std::string_view fault) { services_.errors.event(Severity::kError, fault); }),
-      asio::detached);
-}
-
-// Out of descriptors, or of memory: connections that end will free some, and the next visitor may
-// have more luck.
-asio::awaitable<void> HttpServer::accept() {
-  for (bool is_well = true; acceptor_.is_open();) {
-    try {
-      pause_.expires_after(std::chrono::milliseconds(100));
-      if (!is_well) co_await pause_.async_wait(kNoThrow);
-      is_well = false;
-      is_well = co_await accept_one();
-    } catch (const std::exception& fault) {
-      services_.errors.event(Severity::kError, fault.what());
-    }
-  }
+  const auto failed = [this](std::string_view fault) {
+    services_.errors.event(Severity::kError, fault);
+  };
+  // Out of descriptors, or of memory: connections that end will free some, and the next visitor may
+  // have more luck.
+  asio::co_spawn(strand_,
+                 keep_trying(
+                     pause_, std::chrono::milliseconds(100), [this] { return acceptor_.is_open(); },
+                     [this] { return accept_one(); }, failed),
+                 asio::detached);
+  asio::co_spawn(strand_,
+                 repeat(
+                     sweeper_, std::chrono::seconds(1), [this] { sweep(); }, failed),
+                 asio::detached);
 }
 
 // False where there was no visitor.

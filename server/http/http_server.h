@@ -104,7 +104,6 @@ class HttpServer {
   Pace pace() const { return {patience_.load(std::memory_order_relaxed), options_.min_rate}; }
 
  private:
-  asio::awaitable<void> accept();
   asio::awaitable<bool> accept_one();
   void admit(ByteStream::Socket socket);
   void refuse(ByteStream& stream, ConnectionSet::Admission why);

@@ -20,7 +20,7 @@ struct ParameterFault {
 Response problem(unsigned status, std::string_view detail, std::string_view request_id,
                  const std::vector<ParameterFault>& errors = {});
 
-// 503, and when to come back: what the answer is made of is not to be had now.
+// 503, and when to come back: what the answer is made of, or room for it, is not to be had now.
 Response away(std::string_view request_id);
 
 }  // namespace vitrine

@@ -26,4 +26,23 @@ inline asio::awaitable<void> repeat(asio::steady_timer& timer, asio::steady_time
   }
 }
 
+// Makes one attempt after the other as long as `goes_on`, and waits for `pause` after one that gave
+// false, or threw, which is told to `failed`.
+inline asio::awaitable<void> keep_trying(asio::steady_timer& timer,
+                                         asio::steady_timer::duration pause,
+                                         std::function<bool()> goes_on,
+                                         std::function<asio::awaitable<bool>()> attempt,
+                                         std::function<void(std::string_view fault)> failed) {
+  for (bool is_well = true; goes_on();) {
+    try {
+      timer.expires_after(pause);
+      if (!is_well) co_await timer.async_wait(kNoThrow);
+      is_well = false;
+      is_well = co_await attempt();
+    } catch (const std::exception& fault) {
+      failed(fault.what());
+    }
+  }
+}
+
 }  // namespace vitrine

@@ -99,21 +99,14 @@ Response not_allowed(std::string allow, std::string_view id) {
   return response;
 }
 
-// The queue is full: it moves within seconds.
-Response busy(std::string_view id) {
-  Response response = problem(503, "", id);
-  response.fields = {{"Retry-After", "5"}};
-  return response;
-}
-
 Response no_room(bool will_be, std::string_view id) {
-  if (will_be) return busy(id);
+  if (will_be) return away(id);
   return problem(507, "the answer is larger than answer-memory allows; ask for a coarser level",
                  id);
 }
 
 Response no_seat(Seats::Refusal why, std::string_view id) {
-  if (why == Seats::Refusal::kFull) return busy(id);
+  if (why == Seats::Refusal::kFull) return away(id);  // it moves within seconds
   Response response = problem(429, "this address has enough under way; wait", id);
   response.fields = {{"Retry-After", "5"}};
   return response;
@@ -428,7 +421,8 @@ class Session {
       server_.services().errors.event(
           Severity::kError,
           std::string("request ") + std::string(request.id) + ": " + fault.what());
-      return problem(500, "", request.id);
+      const bool no_memory = dynamic_cast<const std::bad_alloc*>(&fault) != nullptr;
+      return no_memory ? away(request.id) : problem(500, "", request.id);
     }
   }
 

@@ -23,6 +23,7 @@
 
 #include "codec/files/file_descriptor.h"
 #include "server/jobs/page_ranges.h"
+#include "server/jobs/spare_memory.h"
 
 namespace vitrine {
 namespace {
@@ -206,6 +207,8 @@ std::uint64_t spilled_bytes() {
 
 namespace {
 
+constinit SpareMemory spare;
+
 // A build reads all over arrays of megabytes: in large pages, which the kernel gives at its will, a
 // tenth of its time is saved in page faults and misses of the address cache.
 void* take_in_memory(std::size_t size) noexcept {
@@ -223,7 +226,8 @@ void* take(std::size_t size) noexcept {
     if (void* p = here->take(size)) return p;
   }
   void* p = take_in_memory(size);
-  if (here != nullptr && p != nullptr) here->hold(p);
+  if (p == nullptr) return spare.take(size);
+  if (here != nullptr) here->hold(p);
   return p;
 }
 
@@ -237,6 +241,7 @@ void* take_or_throw(std::size_t size) {
 }
 
 void give_back(void* p) noexcept {
+  if (spare.give_back(p)) return;
   Spill* const here = spill;
   if (here != nullptr && here->owns(p)) return here->give_back(p);
   if (here != nullptr && p != nullptr) here->let_go(p);

@@ -58,6 +58,8 @@ def functions(lines):
     for start, line in enumerate(lines):
         if re.search(r"\)[^;{}]*\{$", line) and not re.match(r"\s*describe\(", line):
             indent = line[:len(line) - len(line.lstrip())]
+            if line.lstrip().startswith(": "):  # a constructor's initialisers
+                indent = indent[4:]
             closing = re.compile(re.escape(indent) + r"\}")
             end = next((i for i in range(start + 1, len(lines)) if closing.match(lines[i])), start)
             yield start, end
