@@ -6,33 +6,31 @@
 namespace vitrine {
 namespace {
 
-const Backoff kAtOnce{.pause = [](std::chrono::milliseconds) {}};
+class Patience : public testing::Test {
+ protected:
+  // Asks for what fails so many times in that way.
+  Expected<int> ask(ErrorCode code, int failures) {
+    const JobRun run{JobRecord()};
+    const Backoff at_once{.pause = [](std::chrono::milliseconds) {}};
+    return patiently(
+        run,
+        [&]() -> Expected<int> {
+          if (++calls_ <= failures) return fail(code, "not now");
+          return calls_;
+        },
+        at_once);
+  }
 
-TEST(Patience, what_is_away_for_a_while_is_asked_again) {
-  const JobRun run{JobRecord()};
-  int calls = 0;
-  const auto done = patiently(
-      run,
-      [&]() -> Expected<int> {
-        if (++calls < 10) return fail(ErrorCode::kIo, "away");
-        return calls;
-      },
-      kAtOnce);
-  EXPECT_EQ(done.value(), 10);
+  int calls_ = 0;
+};
+
+TEST_F(Patience, what_is_away_for_a_while_is_asked_again) {
+  EXPECT_EQ(ask(ErrorCode::kIo, 9).value(), 10);
 }
 
-TEST(Patience, what_is_refused_is_not_asked_again) {
-  const JobRun run{JobRecord()};
-  int calls = 0;
-  const auto refused = patiently(
-      run,
-      [&]() -> Expected<void> {
-        ++calls;
-        return fail(ErrorCode::kState, "no");
-      },
-      kAtOnce);
-  EXPECT_FALSE(refused);
-  EXPECT_EQ(calls, 1);
+TEST_F(Patience, what_is_refused_is_not_asked_again) {
+  EXPECT_FALSE(ask(ErrorCode::kState, 9));
+  EXPECT_EQ(calls_, 1);
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ namespace vitrine {
 namespace {
 
 JobRecord upload() {
-  JobRecord job;
-  job.id = JobId::generate();
-  job.kind = JobKind::kPublish;
-  job.webhook = "http://museum.example/";
-  return job;
+  return {.id = JobId::generate(), .kind = JobKind::kPublish, .webhook = "http://museum.example/"};
+}
+
+JobRecord scan_at(const std::string& scanner) {
+  return {.id = JobId::generate(), .scanner = scanner};
 }
 
 // A daemon whose only job goes on until it is let go or something is wished of it.
@@ -30,7 +30,11 @@ class Builder {
   ~Builder() { let_go(); }
 
   JobQueue& queue() { return queue_; }
-  void await_beginning() { begun_.get_future().wait(); }
+  // Looks for something to do, and finds it.
+  void begin() {
+    queue_.beat();
+    begun_.get_future().wait();
+  }
   void let_go() {
     const std::scoped_lock lock(mutex_);
     goes_ = true;
@@ -69,6 +73,23 @@ class SharedJobs : public testing::Test {
  protected:
   JobState stored(const JobRecord& job) { return catalogue_->find_job(job.id).value()->state; }
   void add(const JobRecord& job) { ASSERT_TRUE(front_.add(job, {}, {})); }
+  // A job that the first one does.
+  JobRecord begun() {
+    const JobRecord job = upload();
+    add(job);
+    first_.begin();
+    return job;
+  }
+  // The second one has taken it over: the first one's lease has run out.
+  void take_over() {
+    ASSERT_TRUE(catalogue_->drop_leases("first"));
+    second_.begin();
+  }
+  // A daemon for scans, of a scanner that obeys at once.
+  JobQueue scanning(TakenJobs taken) {
+    taken.holder = "scans";
+    return {*catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; }, taken};
+  }
 
   test::TemporaryFolder folder_;
   std::unique_ptr<JobCatalogue> catalogue_ =
@@ -84,8 +105,7 @@ TEST_F(SharedJobs, what_one_takes_in_another_does_and_the_first_sees_how_far_it_
   const auto watched = front_.watch(job.id).value();
   ASSERT_TRUE(watched);
   EXPECT_EQ(watched->job().state, JobState::kQueued);
-  first_.queue().beat();
-  first_.await_beginning();
+  first_.begin();
   first_.queue().beat();
   front_.beat();
   EXPECT_EQ(watched->job().state, JobState::kRunning);
@@ -104,14 +124,9 @@ TEST_F(SharedJobs, what_one_takes_in_another_does_and_the_first_sees_how_far_it_
 }
 
 TEST_F(SharedJobs, who_was_away_beyond_the_lease_stops_and_leaves_the_job_to_another) {
-  const JobRecord job = upload();
-  add(job);
-  first_.queue().beat();
-  first_.await_beginning();
+  const JobRecord job = begun();
   const auto watched = first_.queue().run(job.id);
-  ASSERT_TRUE(catalogue_->drop_leases("first"));  // as time does
-  second_.queue().beat();
-  second_.await_beginning();
+  take_over();
   first_.queue().beat();
   EXPECT_EQ(first_.end(), JobWish::kLost);
   first_.settle();
@@ -129,13 +144,8 @@ TEST_F(SharedJobs, who_was_away_beyond_the_lease_stops_and_leaves_the_job_to_ano
 }
 
 TEST_F(SharedJobs, an_end_that_comes_too_late_is_none) {
-  const JobRecord job = upload();
-  add(job);
-  first_.queue().beat();
-  first_.await_beginning();
-  ASSERT_TRUE(catalogue_->drop_leases("first"));
-  second_.queue().beat();
-  second_.await_beginning();
+  const JobRecord job = begun();
+  take_over();
   first_.let_go();
   EXPECT_EQ(first_.end(), JobWish::kNone);
   first_.settle();
@@ -145,10 +155,7 @@ TEST_F(SharedJobs, an_end_that_comes_too_late_is_none) {
 }
 
 TEST_F(SharedJobs, whoever_cancels_a_job_reaches_who_does_it) {
-  const JobRecord job = upload();
-  add(job);
-  first_.queue().beat();
-  first_.await_beginning();
+  const JobRecord job = begun();
   EXPECT_EQ(front_.cancel(job.id)->record.state, JobState::kRunning);
   first_.queue().beat();
   EXPECT_EQ(first_.end(), JobWish::kCancel);
@@ -170,11 +177,8 @@ TEST_F(SharedJobs, what_is_cancelled_before_anybody_begins_is_never_begun) {
 }
 
 TEST_F(SharedJobs, what_is_put_aside_can_be_cancelled_by_another) {
-  JobRecord job;
-  job.id = JobId::generate();
-  job.scanner = "left";
-  JobQueue scans(*catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; },
-                 {.builds = false, .scans = true, .holder = "scans"});
+  const JobRecord job = scan_at("left");
+  JobQueue scans = scanning({.builds = false});
   std::promise<void> go;
   scans.lane("left").post([&] { go.get_future().wait(); });
   ASSERT_TRUE(scans.add(job, {}, {}));
@@ -188,14 +192,9 @@ TEST_F(SharedJobs, what_is_put_aside_can_be_cancelled_by_another) {
 }
 
 TEST_F(SharedJobs, the_jobs_of_a_scanner_are_left_to_the_daemon_that_drives_it) {
-  JobRecord left, right;
-  left.id = JobId::generate();
-  left.scanner = "left";
-  right.id = JobId::generate();
-  right.scanner = "right";
-  JobQueue scans(
-      *catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; },
-      {.holder = "scans", .drives = [](const std::string& scanner) { return scanner == "left"; }});
+  const JobRecord left = scan_at("left"), right = scan_at("right");
+  JobQueue scans =
+      scanning({.drives = [](const std::string& scanner) { return scanner == "left"; }});
   for (const JobRecord& job : {left, right})
     add(job);
   scans.beat();
