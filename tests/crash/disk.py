@@ -4,6 +4,7 @@
 
 usage: disk.py BINARIES
 """
+import json
 import os
 import subprocess
 import sys
@@ -42,6 +43,12 @@ def is_served(client, model):
     return status == 200 and answer.status == 200 and len(body) == int(answer.getheader("Content-Length"))
 
 
+def doctors_word_on_the_disk(binaries, data):
+    words = [str(binaries / "vitrine"), "doctor", "--data", str(data), "--json"]
+    report = json.loads(subprocess.run(words, capture_output=True, text=True, check=False).stdout)
+    return next(check for check in report["checks"] if check["check"] == "disk")
+
+
 def a_full_disk(binaries, data):
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={SIZE}", "tmpfs", str(data)], check=True)
     token = new_token(binaries, data)
@@ -75,6 +82,8 @@ def a_full_disk(binaries, data):
     filler.unlink()
     job = job_of(client, mesh)
     assert job["state"] == "done" and is_served(client, job["model"]), job
+    disk = doctors_word_on_the_disk(binaries, data)
+    assert disk["verdict"] == "fail" and "GB free of" in disk["detail"] and "free some space" in disk["advice"], disk
     assert daemon.stop() == 0
     assert any("free some space" in line for line in daemon.printed), daemon.printed
 

@@ -91,6 +91,16 @@ test("a proxy that drops fields is found out", async () => {
   });
 });
 
+test("a clock that is wrong is found out", async () => {
+  const fields = (headers) => (headers.date = new Date(Date.now() - 3_600_000).toUTCString());
+  await proxied({ fields }, async (url) => {
+    const { by } = await doctor("--url", url);
+    assert.equal(by["server clock"].verdict, "warn");
+    assert.match(by["server clock"].detail, /^36\d\d s from/);
+    assert.match(by["server clock"].advice, /synchronise/);
+  });
+});
+
 test("a certificate that nobody trusts is named", async () => {
   const key = join(folder, "key.pem"), cert = join(folder, "cert.pem");
   execFileSync("openssl", ["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "10", "-subj", "/CN=127.0.0.1", "-keyout", key, "-out", cert], { stdio: "ignore" });

@@ -133,5 +133,13 @@ TEST_F(ExportTest, WhoSavesDataIsToldSoAndCachesKnow) {
   EXPECT_EQ(get("ply?level=0").field("vary"), "Save-Data");
 }
 
+TEST_F(ExportTest, WhoSavesDataIsGivenWhatAsMuchBringsAndNotTheWhole) {
+  const HttpAnswer whole = get("ply"), saving = get("ply", "Save-Data: on\r\n");
+  EXPECT_EQ(saving.body, whole.body) << "so small a model fits";
+  EXPECT_EQ(metric(daemon.admin_port(), "vitrine_exports_made_total"), 2) << "by another wish";
+  EXPECT_EQ(get("ply?level=highest", "Save-Data: on\r\n").body, whole.body);
+  EXPECT_EQ(metric(daemon.admin_port(), "vitrine_exports_made_total"), 2) << "what is said counts";
+}
+
 }  // namespace
 }  // namespace vitrine::test

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "codec/import/image.h"
 #include "displayed_model.h"
+#include "server/auth/authenticator.h"
 
 namespace vitrine::test {
 namespace {
@@ -53,6 +56,34 @@ TEST_F(InterchangeTest, APosterIsAPictureOfTheSizeAskedFor) {
   const std::string held = "If-None-Match: " + poster.field("etag") + "\r\n";
   EXPECT_EQ(get(api + "/poster.png?width=240", held).status, 304);
   EXPECT_EQ(get(api + "/poster.png?width=240", "Range: bytes=1-3\r\n").body, "PNG");
+}
+
+TEST_F(InterchangeTest, APosterShowsTheModelBeforeNothing) {
+  const std::string file = get(api + "/poster.png?width=240").body;
+  const Image image =
+      decode_image({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, 240 * 240)
+          .value();
+  std::set<std::uint8_t> shades;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+    shades.insert(image.pixels[i]);
+  EXPECT_GT(shades.size(), 20u) << "light falls on a wavy sheet";
+}
+
+TEST_F(InterchangeTest, WhatIsMadeOfADraftIsForNobodyElse) {
+  const auto installation = open_installation({.folder = folder.path()}).value();
+  const auto token = create_token(*installation.catalogue, Role::kOperator, "").value();
+  const std::string who = "Authorization: Bearer " + token.text + "\r\n";
+  EXPECT_EQ(http_get(port(), api + "/unpublish", who, "POST").status, 200);
+  for (const std::string& target :
+       {api + "/export.ply", api + "/poster.png", "/api/v1/iiif/" + id + "/manifest.json"}) {
+    EXPECT_EQ(get(target).status, 404) << target;
+    const HttpAnswer own = get(target, who);
+    EXPECT_EQ(own.status, 200) << target;
+    EXPECT_EQ(own.field("cache-control"), "private, no-store") << target;
+    EXPECT_EQ(own.field("access-control-allow-origin"), "") << target;
+  }
+  EXPECT_EQ(get("/api/v1/oembed?url=" + page).status, 404);
+  EXPECT_EQ(get("/api/v1/oembed?url=" + page, who).status, 404) << "frames are for everybody";
 }
 
 TEST_F(InterchangeTest, AnIiifManifestShowsThePosterAndOffersTheModel) {

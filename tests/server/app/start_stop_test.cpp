@@ -199,7 +199,8 @@ TEST(Stop, SigtermEndsIdleConnectionsAndTheDaemonWithACleanLog) {
   const std::string id = folder.publish("A small bust");
   Daemon daemon(folder.path());
   HttpClient idle(daemon.port());
-  EXPECT_EQ(idle.get("/api/v1/models/" + id).status, 200);
+  const HttpAnswer seen = idle.get("/api/v1/models/" + id);
+  EXPECT_EQ(seen.status, 200);
   EXPECT_EQ(http_get(daemon.port(), "/nothing\"here").status, 404);
   daemon.signal(SIGTERM);
   EXPECT_TRUE(idle.is_closed());
@@ -216,6 +217,7 @@ TEST(Stop, SigtermEndsIdleConnectionsAndTheDaemonWithACleanLog) {
     EXPECT_TRUE(std::regex_match(text, line)) << text;
   }
   EXPECT_EQ(count, 2u);
+  EXPECT_THAT(daemon.access_log(), HasSubstr(" id=" + seen.field("x-request-id") + " "));
 }
 
 TEST(Stop, FinishesATransferThatIsUnderWay) {

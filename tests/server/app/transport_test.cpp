@@ -160,6 +160,22 @@ std::string from(const std::string& address) {
   return "X-Forwarded-For: " + address + "\r\n";
 }
 
+TEST(Limits, ATokenHasOneBudgetWhereverItIsUsed) {
+  ServedFolder folder;
+  const std::string model = "/api/v1/models/" + folder.publish("A small bust");
+  const auto bearer = [&] {
+    return "Authorization: Bearer " + folder.token(Role::kViewer) + "\r\n";
+  };
+  const std::string token = bearer(), other = bearer();
+  const Daemon daemon(folder.path(), {"--request-rate", "1", "--trusted-proxies", "127.0.0.1"});
+  HttpClient client(daemon.port());
+  HttpAnswer answer;
+  for (int i = 0; i < 200 && answer.status != 429; ++i)  // each from an address of its own
+    answer = client.get(model, token + from("192.0.2." + std::to_string(i)));
+  EXPECT_EQ(answer.status, 429);
+  EXPECT_EQ(client.get(model, other + from("192.0.2.0")).status, 200);
+}
+
 TEST(Limits, AllOfAnIpv6NetworkShareOnesBudget) {
   ServedFolder folder;
   const std::string model = "/api/v1/models/" + folder.publish("A small bust");
@@ -206,6 +222,7 @@ TEST(Limits, AStreamBehindAProxyCountsForItsVisitor) {
   while (first->receive().kind != WebSocketFrame::kClose) {
   }
   EXPECT_TRUE(first->is_closed());
+  first.reset();
   for (bool is_in = false; !is_in;) {  // once the daemon has seen the end of it
     try {
       open("2001:db8::3");

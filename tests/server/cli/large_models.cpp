@@ -2,7 +2,7 @@
 // Models of many regions, and what is seen and left of a build of one that is stopped.
 #include <gmock/gmock.h>
 
-#include "on_terminal.h"
+#include "support/on_terminal.h"
 #include "vitrine_command.h"
 
 namespace vitrine::test {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "on_terminal.h"
 #include "server/cli/console.h"
+#include "support/on_terminal.h"
 #include "vitrine_command.h"
 
 namespace vitrine::test {

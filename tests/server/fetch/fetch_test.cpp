@@ -15,6 +15,7 @@
 #include "server/store/publish.h"
 #include "support/certificate.h"
 #include "support/daemon.h"
+#include "support/on_terminal.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
 #include "support/wavy_sheet.h"
@@ -24,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 const std::vector<std::uint8_t>& sheet() {
@@ -103,6 +105,14 @@ TEST_F(FetchTest, MeetsWhatIsAskedFor) {
   EXPECT_EQ(Json::parse(seconds.output)["faces"], 28322) << "all of it comes in that time";
   EXPECT_TRUE(Json::parse(seconds.output).contains("promise"));
   EXPECT_EQ(files(), 4u);
+}
+
+TEST_F(FetchTest, TheBarTellsTrianglesBytesAndError) {
+  const Daemon daemon(data.path());
+  OnTerminal fetch({VITRINE_BIN_DIR "/vitrine", "fetch", url(daemon.port()), "-o",
+                    (results.path() / "sheet.ply").string()});
+  EXPECT_EQ(fetch.finish(), 0) << fetch.seen();
+  EXPECT_THAT(fetch.seen(), ContainsRegex("[0-9]+ triangles, [0-9.]+ MB, error [0-9]"));
 }
 
 TEST_F(FetchTest, BringsWhatACameraSees) {

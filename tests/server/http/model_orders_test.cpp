@@ -165,8 +165,13 @@ TEST_F(ModelOrders, AWrongOrderNamesItsField) {
   EXPECT_EQ(fault_of(ask("POST", "/models", operator_, {{"upload", "../../etc"}})), "upload");
   EXPECT_EQ(fault_of(ask("POST", "/models", server_.bearer(Role::kOperator), {{"upload", whole}})),
             "upload");
-  const json wrong = {{"bits", 99},     {"unit", "ell"}, {"up", "x"},
-                      {"replace", "x"}, {"publish", 1},  {"colour", "red"}};
+  const json wrong = {{"bits", 99},
+                      {"unit", "ell"},
+                      {"up", "x"},
+                      {"replace", "x"},
+                      {"publish", 1},
+                      {"colour", "red"},
+                      {"webhook", "http://elsewhere.example/"}};
   for (const auto& [name, value] : wrong.items()) {
     const json order = {{"upload", whole}, {name, value}};
     EXPECT_EQ(fault_of(ask("POST", "/models", operator_, order)), name);
