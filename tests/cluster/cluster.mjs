@@ -5,6 +5,7 @@ import { execFile } from "node:child_process";
 import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { setTimeout as pause } from "node:timers/promises";
 import { promisify } from "node:util";
 import { startRigs } from "./rigs.mjs";
 import { env } from "../e2e/daemon.mjs";
@@ -82,7 +83,7 @@ trusted-proxies = 127.0.0.1
 
   /** The replica whose identity is one of those that `sql` gives, once there is one. */
   async #heldBy(role, sql) {
-    for (;;) {
+    for (;; await pause(20)) {
       const holders = (await this.postgres.query(sql)).flat();
       for (const replica of this.having(role)) if (holders.includes(await replica.holder())) return replica;
     }

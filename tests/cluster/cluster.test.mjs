@@ -21,7 +21,7 @@ import { Viewer } from "./viewer.mjs";
 const kSides = [220, 200, 180], kBriefSides = [70, 60]; // of the meshes
 const kViewers = 3;
 const kAway = 20_000; // ms that PostgreSQL, then the store, are stopped
-const kLongestGap = 5_000; // ms that a viewer may see nothing when a replica that serves dies
+const kLongestGap = 5_000; // ms that a viewer may see nothing when a replica that serves dies, or an engine is away
 const kPatience = 150_000; // ms for anything at all
 const rounds = Number(process.env.VITRINE_ROUNDS ?? 1);
 const seed = Number(process.env.VITRINE_SEED ?? Date.now() % 1_000_000);
@@ -88,23 +88,34 @@ async function jobsEnd() {
   for (const waiting = [...curator.orders]; waiting.some(({ model }) => !model);) await pause(200);
 }
 
+/** That something came to every viewer every now and then. */
+function assertSeen(from) {
+  for (const { progress } of viewers) assert.deepEqual(invariants.lostSessions(progress, from, performance.now(), kLongestGap), []);
+}
+
 async function serversDie() {
   for (const replica of cluster.having("serve").sort(() => random() - 0.5)) {
     await pause(1_000 * random());
     const from = performance.now();
     await replica.crash();
     await pause(kLongestGap + 1_000);
-    for (const viewer of viewers) assert.deepEqual(invariants.lostSessions(viewer.progress, from, performance.now(), kLongestGap), []);
+    assertSeen(from);
   }
+}
+
+/** Stops a replica that is at work on a job until another has the job. */
+async function sleepsAtWork() {
+  const sleeper = await cluster.builder(), held = `SELECT 1 FROM job WHERE state = 1 AND holder = '${await sleeper.holder()}'`;
+  sleeper.signal("SIGSTOP");
+  const isAtWork = (await cluster.postgres.query(held)).length > 0; // and not just done
+  while ((await cluster.postgres.query(held)).length > 0) await pause(500);
+  sleeper.signal("SIGCONT");
+  return isAtWork;
 }
 
 async function buildersDieAndSleep() {
   await (await cluster.builder()).crash();
-  const sleeper = await cluster.builder(), id = await sleeper.holder();
-  sleeper.signal("SIGSTOP");
-  const held = `SELECT 1 FROM job WHERE state = 1 AND holder = '${id}'`;
-  while ((await cluster.postgres.query(held)).length > 0) await pause(500);
-  sleeper.signal("SIGCONT");
+  while (!(await sleepsAtWork()));
   await jobsEnd();
 }
 
@@ -123,13 +134,15 @@ async function driversDieAndSleep() {
 /** The cluster without one of its engines for a while, in which somebody dies, too. */
 async function without(engine) {
   note("an engine is away");
+  const from = performance.now();
   await engine.ask("stop");
-  const dies = random() * kAway;
+  const dies = random() * kAway, victim = oneOf(cluster.replicas);
   await pause(dies);
-  const dying = oneOf(cluster.replicas).crash();
+  const dying = victim.crash();
   await pause(kAway - dies);
   await engine.ask("start");
   note("the engine is back");
+  if (!cluster.having("serve").includes(victim)) assertSeen(from); // else its copies may have been the only ones
   await dying;
   for (const replica of cluster.replicas) await replica.ready();
   await jobsEnd();
