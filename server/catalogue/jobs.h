@@ -129,7 +129,7 @@ class JobCatalogue {
   virtual Expected<void> update(const ScanEntry& scan) = 0;
 
   // Takes the job, which runs from now on, with another fence. Nothing where it does not wait, and
-  // no lease has run out: somebody else has it.
+  // no lease has run out: somebody else has it. That it is to be cancelled is still so.
   virtual Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) = 0;
   // Of those kinds that are to be taken, the oldest; at most `limit`.
   virtual Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
@@ -158,6 +158,7 @@ class JobCatalogue {
   virtual Expected<std::vector<JobRecord>> jobs(const PageOf& page) = 0;
   virtual Expected<std::vector<ScanEntry>> scans(const PageOf& page) = 0;
   virtual Expected<std::vector<JobRecord>> unfinished_jobs() = 0;  // oldest first
+  virtual Expected<std::vector<JobRecord>> paused_jobs() = 0;      // likewise
   virtual Expected<JobCounts> count_jobs() = 0;
 
   // Those that have ended and whose webhooks have not been told so; oldest first.

@@ -110,11 +110,14 @@ Expected<std::shared_ptr<const ExclusiveLock>> Database::lock() {
     if (!connection || !connection->is_alive()) connection = std::make_unique<Connection>(url_);
     connection->run(kEndsWhenSilent);
     connection->lock(kLock);
+    return std::make_shared<Lock>(shared_from_this(), std::move(connection));
   } catch (const sql::Failure& failure) {
     own_turn_.release();
     return sql::refused("the catalogue refuses its lock", failure);
+  } catch (...) {  // out of memory
+    own_turn_.release();
+    throw;
   }
-  return std::make_shared<Lock>(shared_from_this(), std::move(connection));
 }
 
 Expected<OpenDatabase> open_database(const std::string& url) {

@@ -193,7 +193,7 @@ class SqlJobs final : public JobCatalogue {
       if (!free->bind(id.bytes()).any()) return std::nullopt;
       const Query row(connection.prepare(
           fmt::format("UPDATE job SET state = 1, fence = fence + 1, attempts = attempts + 1, "
-                      "cancelled = 0, holder = ?2, lease = {} + ?3 WHERE id = ?1 RETURNING {}",
+                      "holder = ?2, lease = {} + ?3 WHERE id = ?1 RETURNING {}",
                       connection.now(), kJobColumns)));
       row->bind(id.bytes()).bind(lease.holder).bind(number(lease.time.count()));
       JobRecord job = all<JobRecord>(*row).front();
@@ -249,7 +249,8 @@ class SqlJobs final : public JobCatalogue {
 
   Expected<void> drop_leases(const std::string& holder) override {
     return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query rows(connection.prepare("UPDATE job SET lease = 0 WHERE holder = ? RETURNING 1"));
+      const Query rows(connection.prepare(
+          "UPDATE job SET lease = 0 WHERE holder = ? AND lease != 0 RETURNING 1"));
       rows->bind(holder).any();
       const Query scanners(
           connection.prepare("UPDATE scanner SET lease = 0 WHERE holder = ? RETURNING 1"));
@@ -315,10 +316,12 @@ class SqlJobs final : public JobCatalogue {
     return list<ScanEntry>("scan", kScanColumns, page);
   }
 
-  Expected<std::vector<JobRecord>> unfinished_jobs() override { return jobs_where("state < ?"); }
+  Expected<std::vector<JobRecord>> unfinished_jobs() override { return jobs_where("state < 3"); }
+
+  Expected<std::vector<JobRecord>> paused_jobs() override { return jobs_where("state = 2"); }
 
   Expected<std::vector<JobRecord>> untold_jobs() override {
-    return jobs_where("state >= ? AND told != 1 AND webhook != ''");
+    return jobs_where("state >= 3 AND told != 1 AND webhook != ''");
   }
 
   Expected<std::vector<JobRecord>> claim_untold(const Lease& lease) override {
@@ -400,13 +403,13 @@ class SqlJobs final : public JobCatalogue {
     return fmt::format("(state = 0 OR (state = 1 AND lease < {}))", connection.now());
   }
 
-  // Oldest first; the condition's ? is the first state in which a job has ended.
+  // Oldest first.
   Expected<std::vector<JobRecord>> jobs_where(std::string_view condition) {
     using Jobs = std::vector<JobRecord>;
     return sql::guarded<Jobs>(*database_, [&](Connection& connection) -> Expected<Jobs> {
       const Query rows(connection.prepare(
           fmt::format("SELECT {} FROM job WHERE {} ORDER BY id", kJobColumns, condition)));
-      return all<JobRecord>(rows->bind(number(JobState::kDone)));
+      return all<JobRecord>(*rows);
     });
   }
 

@@ -222,10 +222,11 @@ Response remove_upload(const Request& request, Services& services) {
   const auto held = services.uploads.hold();
   const auto job = services.scans.jobs().job_where(
       [&](const JobRecord& one) { return PublishJobs::upload_of(one) == upload->id; });
-  if (job) {
+  if (!job) return tus(internal_error(job.error(), request, services));
+  if (*job) {
     return tus(problem(409,
                        fmt::format("job {} needs the upload; wait for its end or cancel it",
-                                   job->record.id.to_string()),
+                                   (*job)->id.to_string()),
                        request.id));
   }
   if (const auto removed = services.uploads.remove(upload->id); !removed)

@@ -139,27 +139,17 @@ JobQueue::JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task, Tak
 
 Expected<void> JobQueue::start() {
   if (auto dropped = catalogue_.drop_leases(taken_.holder); !dropped) return dropped;
-  const auto left = catalogue_.unfinished_jobs();
-  if (!left) return Unexpected(left.error());
-  {
-    const std::scoped_lock lock(mutex_);
-    for (const JobRecord& job : *left) {
-      if (taken_.has(job) && job.state == JobState::kPaused) take_up(job, 0);
-    }
-  }
+  if (auto taken = take_up_paused(); !taken) return taken;
   look_for_jobs(UINT32_MAX);
   tell_ends();
-  heart_ = std::jthread([this](const std::stop_token& stop) {
-    std::unique_lock lock(beating_);
-    while (!resting_.wait_for(lock, stop, kBeat, [&] { return stop.stop_requested(); }))
-      beat();
-  });
+  heart_.emplace(kBeat, events_, [this] { beat(); });
   return {};
 }
 
 void JobQueue::beat() {
   store_again();
   renew_leases();
+  static_cast<void>(take_up_paused());
   look_for_jobs(kAtATime);
   look_at_others();
   tell_ends();
@@ -176,7 +166,7 @@ void JobQueue::stop() {
   }
   for (const auto& [name, lane] : lanes)
     lane->finish();
-  heart_ = {};  // what ends slowly is held until then
+  heart_.reset();  // what ends slowly is held until then
 }
 
 bool JobQueue::is_stopping() const {
@@ -195,9 +185,13 @@ void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   post(run);
 }
 
+// Taken first, so that whoever may be at it still has no say in it any more.
 void JobQueue::give_up(const Run& run) {
+  const auto taken = catalogue_.claim(run->job().id, {taken_.holder, kLease});
+  if (!taken || !*taken) return lose(run);
   {
     const std::scoped_lock lock(run->mutex_);
+    run->status_.record = **taken;
     run->status_.record.error = fmt::format(
         "the daemon died {} times at work on this; look into its log, then start it again",
         kMaxAttempts);
@@ -258,6 +252,9 @@ Expected<void> JobQueue::post_command(const std::string& scanner, std::function<
 Expected<JobQueue::Run> JobQueue::unfinished(const JobId& id) const {
   const auto found = runs_.find(id);
   if (found != runs_.end()) return found->second;
+  const auto job = catalogue_.find_job(id);
+  if (!job) return Unexpected(job.error());
+  if (*job && !has_ended((*job)->state)) return not_now(**job, "is another daemon's");
   return fail(ErrorCode::kState, fmt::format("job {} has ended; start another", id.to_string()));
 }
 
@@ -292,14 +289,13 @@ std::optional<JobStatus> JobQueue::job_of(const std::string& scanner) const {
   return run ? std::optional(run->status()) : std::nullopt;
 }
 
-std::optional<JobStatus> JobQueue::job_where(
-    const std::function<bool(const JobRecord&)>& is) const {
-  const std::scoped_lock lock(mutex_);
-  for (const auto& [id, run] : runs_) {
-    const JobStatus status = run->status();
-    if (is(status.record)) return status;
-  }
-  return std::nullopt;
+Expected<std::optional<JobRecord>> JobQueue::job_where(
+    const std::function<bool(const JobRecord&)>& is) {
+  store_again();
+  auto jobs = catalogue_.unfinished_jobs();
+  if (!jobs) return Unexpected(jobs.error());
+  const auto found = std::ranges::find_if(*jobs, is);
+  return found == jobs->end() ? std::nullopt : std::optional(std::move(*found));
 }
 
 bool JobQueue::set_state(const Run& run, JobState state) {
@@ -371,7 +367,7 @@ Expected<JobStatus> JobQueue::cancel(const JobId& id) {
   const std::scoped_lock lock(mutex_);
   const auto found = runs_.find(id);
   const Run run = found == runs_.end() ? nullptr : found->second;
-  if (run && run->is_at_work()) {
+  if (run && run->is_at_work() && run->wish() != JobWish::kLost) {
     run->ask(JobWish::kCancel);
     return run->status();
   }
@@ -498,6 +494,18 @@ void JobQueue::renew_leases() {
   }
 }
 
+// Those of a scanner that this daemon has come to drive, too.
+Expected<void> JobQueue::take_up_paused() {
+  const auto paused = catalogue_.paused_jobs();
+  if (!paused) return Unexpected(paused.error());
+  const std::scoped_lock lock(mutex_);
+  for (const JobRecord& job : *paused) {
+    const bool is_new = !runs_.contains(job.id) && !unstored(job.id);
+    if (!stopping_ && is_new && taken_.has(job)) take_up(job, 0);
+  }
+  return {};
+}
+
 void JobQueue::look_for_jobs(std::uint32_t limit) {
   const auto waiting = catalogue_.waiting_jobs(kinds_of(taken_), limit);
   const std::scoped_lock lock(mutex_);
@@ -510,6 +518,9 @@ void JobQueue::look_for_jobs(std::uint32_t limit) {
 }
 
 void JobQueue::look_at_others() {
+  const auto is_aside = [](const JobRun& run) {
+    return run.job().state == JobState::kPaused && !run.is_at_work();
+  };
   std::vector<Run> others;
   {
     const std::scoped_lock lock(mutex_);
@@ -517,8 +528,8 @@ void JobQueue::look_at_others() {
     for (const auto& [id, other] : others_) {
       if (Run run = other.lock()) others.push_back(std::move(run));
     }
-    for (const auto& [id, run] : runs_) {  // what is put aside others may cancel
-      if (run->job().state == JobState::kPaused && !run->is_at_work()) others.push_back(run);
+    for (const auto& [id, run] : runs_) {  // what is put aside others may cancel, or take over
+      if (is_aside(*run)) others.push_back(run);
     }
   }
   for (const Run& other : others) {
@@ -526,7 +537,10 @@ void JobQueue::look_at_others() {
     if (!job || !*job) continue;
     const std::scoped_lock lock(mutex_);
     const bool is_ended = has_ended((*job)->state);
-    if (!is_ended && runs_.contains((*job)->id)) continue;
+    if (!is_ended && runs_.contains((*job)->id)) {
+      if (!is_aside(*other) || taken_.has(**job)) continue;
+      lose(other);  // another drives its scanner by now
+    }
     if (is_ended) {
       others_.erase((*job)->id);
       runs_.erase((*job)->id);

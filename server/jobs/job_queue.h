@@ -11,10 +11,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "server/catalogue/jobs.h"
+#include "server/jobs/heart.h"
 #include "server/jobs/lane.h"
 #include "server/log/log.h"
 
@@ -159,8 +159,8 @@ class JobQueue {
   // The unfinished job of a scanner.
   std::optional<JobStatus> job_of(const std::string& scanner) const;
 
-  // The oldest unfinished job that is such a one.
-  std::optional<JobStatus> job_where(const std::function<bool(const JobRecord&)>& is) const;
+  // The oldest unfinished job, of whichever daemon, that is such a one.
+  Expected<std::optional<JobRecord>> job_where(const std::function<bool(const JobRecord&)>& is);
 
   // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
   // is done, where it is busy; a job that is put aside is in the way unless `beside_paused`.
@@ -189,6 +189,7 @@ class JobQueue {
   static JobState state_after(JobRun& run, const Expected<JobEnd>& result);
   void end(const Run& run, const Expected<JobEnd>& result);
   void renew_leases();
+  Expected<void> take_up_paused();
   void look_for_jobs(std::uint32_t limit);
   void look_at_others();
   void tell_ends();
@@ -214,9 +215,7 @@ class JobQueue {
   std::mutex storing_;  // guards what follows
   std::map<JobId, JobRecord> unstored_;
 
-  std::mutex beating_;  // guards what follows
-  std::condition_variable_any resting_;
-  std::jthread heart_;
+  std::optional<Heart> heart_;
 };
 
 }  // namespace vitrine

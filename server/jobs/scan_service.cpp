@@ -276,11 +276,12 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
   return ScanStarted{scan.id, added->id};
 }
 
-Expected<void> ScanService::check_unused(const ScanEntry& scan) const {
+Expected<void> ScanService::check_unused(const ScanEntry& scan) {
   const auto job = queue_.job_where([&](const JobRecord& one) { return one.scan == scan.id; });
-  if (!job) return {};
-  return fail(ErrorCode::kState, fmt::format("job {} works on the scan; wait for its end",
-                                             job->record.id.to_string()));
+  if (!job) return Unexpected(job.error());
+  if (!*job) return {};
+  return fail(ErrorCode::kState,
+              fmt::format("job {} works on the scan; wait for its end", (*job)->id.to_string()));
 }
 
 Expected<void> ScanService::pause(const ScanEntry& scan) {

@@ -60,7 +60,7 @@ class ScanService {
   std::vector<ScannerStatus> scanners();
   ScannerStation* scanner(std::string_view name);  // null where there is none of that name
   std::vector<std::string> names() const;          // of those that are configured here
-  // Where the daemon is that drives it; nothing where that is this one, or nobody.
+  // As ScannerClaims::address_of().
   std::optional<std::string> address_of(const std::string& name) const;
   std::vector<std::string> addresses() const;  // of all those
   // A fresh picture, the latest of the scan while one is under way.
@@ -107,7 +107,7 @@ class ScanService {
   Expected<void> recall();
   void recall(JobRecord job);
   Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);
-  Expected<void> check_unused(const ScanEntry& scan) const;
+  Expected<void> check_unused(const ScanEntry& scan);
 
   const ScanMeans means_;
   std::mutex stopping_;  // one stop() at a time

@@ -33,11 +33,7 @@ void ScannerClaims::start(std::vector<std::string> names) {
     names_ = std::move(names);
   }
   beat();
-  heart_ = std::jthread([this](const std::stop_token& stop) {
-    std::unique_lock lock(resting_);
-    while (!rest_.wait_for(lock, stop, kScannerBeat, [&] { return stop.stop_requested(); }))
-      beat();
-  });
+  heart_.emplace(kScannerBeat, events_, [this] { beat(); });
 }
 
 void ScannerClaims::beat() {
@@ -105,22 +101,24 @@ bool ScannerClaims::has_jobs_of(const std::string& scanner) const {
 std::optional<std::string> ScannerClaims::address_of(const std::string& scanner) const {
   const std::scoped_lock lock(mutex_);
   const auto driver = std::ranges::find(drivers_, scanner, &ScannerDriver::scanner);
-  if (driver == drivers_.end() || held_.contains(scanner) || driver->holder == lease_.holder ||
-      driver->address.empty()) {
+  if (driver == drivers_.end() || held_.contains(scanner) || !is_elsewhere(*driver))
     return std::nullopt;
-  }
-  return driver->address;
+  return driver->is_current ? driver->address : "";
 }
 
 std::vector<std::string> ScannerClaims::addresses() const {
   const std::scoped_lock lock(mutex_);
   std::vector<std::string> all;
   for (const ScannerDriver& driver : drivers_) {
-    const bool is_other = driver.holder != lease_.holder && !driver.address.empty();
-    if (is_other && driver.is_current && std::ranges::find(all, driver.address) == all.end())
+    const bool is_there = is_elsewhere(driver) && driver.is_current;
+    if (is_there && std::ranges::find(all, driver.address) == all.end())
       all.push_back(driver.address);
   }
   return all;
+}
+
+bool ScannerClaims::is_elsewhere(const ScannerDriver& driver) const {
+  return driver.holder != lease_.holder && !driver.address.empty();
 }
 
 }  // namespace vitrine

@@ -5,15 +5,14 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "server/catalogue/jobs.h"
+#include "server/jobs/heart.h"
 #include "server/log/log.h"
 
 namespace vitrine {
@@ -23,21 +22,20 @@ class ScannerClaims {
  public:
   // `address`: ScannerDriver::address. The catalogue outlives it.
   ScannerClaims(JobCatalogue& catalogue, Log events, Lease lease, std::string address);
-  ~ScannerClaims() { heart_ = {}; }
-  ScannerClaims(const ScannerClaims&) = delete;
-  ScannerClaims& operator=(const ScannerClaims&) = delete;
-
   // Takes those of `names`, which are configured here, that are free. From then on there is a
   // beat() every two seconds.
   void start(std::vector<std::string> names);
   // Renews what is held, and takes what has become free.
   void beat();
+  // Nothing is renewed or taken any more.
+  void stop() { heart_.reset(); }
 
   // Whether the scanner may be commanded now: kIo where not, with who may or why.
   Expected<void> check(const std::string& scanner) const;
   // Whether its jobs are this daemon's: it drives the scanner, or nobody ever did but itself.
   bool has_jobs_of(const std::string& scanner) const;
-  // Where the daemon is that drives it; nothing where that is this one, or nobody.
+  // Where the daemon is that drives it; empty where it did last and has let its lease run out.
+  // Nothing where that is this one, or nobody, or where it is not to be reached.
   std::optional<std::string> address_of(const std::string& scanner) const;
   std::vector<std::string> addresses() const;  // of all others, each once
 
@@ -51,6 +49,7 @@ class ScannerClaims {
   void take(const std::string& scanner);
   void renew(const std::string& scanner, const Held& held);
   void look_at_others();
+  bool is_elsewhere(const ScannerDriver& driver) const;
 
   JobCatalogue& catalogue_;
   const Log events_;
@@ -62,9 +61,7 @@ class ScannerClaims {
   std::map<std::string, Held> held_;
   std::vector<ScannerDriver> drivers_;  // as last seen
 
-  std::mutex resting_;
-  std::condition_variable_any rest_;
-  std::jthread heart_;
+  std::optional<Heart> heart_;
 };
 
 }  // namespace vitrine

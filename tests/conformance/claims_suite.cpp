@@ -157,6 +157,20 @@ TEST_F(Claims, who_works_on_a_job_hears_that_it_is_to_be_cancelled) {
   EXPECT_TRUE(jobs_->update(ended));
 }
 
+TEST_F(Claims, that_a_job_is_to_be_cancelled_outlives_whoever_did_not_come_to_hear_of_it) {
+  add(build_job(1));
+  add(build_job(2));
+  claim(1, {"dead", 1h});
+  JobRecord mine = claim(2, kLong);
+  for (const std::uint8_t value : std::array<std::uint8_t, 2>{1, 2})
+    EXPECT_EQ(jobs_->cancel(id_of(value), 1).value().state, JobState::kRunning);
+  ASSERT_TRUE(jobs_->drop_leases("dead"));
+  mine.state = JobState::kQueued;  // its daemon ends
+  ASSERT_TRUE(jobs_->update(mine));
+  for (const std::uint8_t value : std::array<std::uint8_t, 2>{1, 2})
+    EXPECT_TRUE(jobs_->renew(claim(value, kLong), 1h).value());
+}
+
 TEST_F(Claims, what_a_dead_holder_had_waits_and_what_others_have_stays_theirs) {
   add(build_job(1));
   add(build_job(2));
@@ -186,6 +200,9 @@ TEST_F(Claims, the_oldest_that_wait_come_first_and_of_the_wanted_kinds_alone) {
   EXPECT_EQ(ids(kBuilds, UINT32_MAX).size(), 3u);
   EXPECT_EQ(ids(std::array{JobKind::kCalibrate, JobKind::kScan}, 9), std::vector{id_of(6)});
   EXPECT_TRUE(ids({}, 9).empty());
+  const auto paused = jobs_->paused_jobs().value();
+  ASSERT_EQ(paused.size(), 1u);
+  EXPECT_EQ(paused.front().id, id_of(4));
 }
 
 TEST_F(Claims, an_end_is_told_by_one_and_by_another_once_that_one_is_dead) {

@@ -108,15 +108,30 @@ TEST_F(ModelOrders, AMeshThatWasUploadedBecomesAModel) {
   EXPECT_TRUE(server_.uploads().list().value().empty());
 }
 
+TEST_F(ModelOrders, AnUploadThatAJobOfAnotherDaemonNeedsStays) {
+  const std::string id = upload("no mesh");
+  const JobRecord job = PublishJobs::job_for({.upload = ModelId::parse(id).value()});
+  ASSERT_TRUE(server_.jobs().add(job, {}, {}));
+  const auto remove = [&] {
+    return ask("DELETE", "/uploads/" + id, operator_, nullptr, "Tus-Resumable: 1.0.0\r\n").status;
+  };
+  EXPECT_EQ(remove(), 409);
+  ASSERT_TRUE(server_.jobs().cancel(job.id, 1));
+  EXPECT_EQ(remove(), 204);
+}
+
 TEST_F(ModelOrders, AnUploadIsUsedOrTakenAwayWhoeverComesFirst) {
   for (int round = 0; round < 20; ++round) {
     const std::string id = upload("no mesh");
+    std::promise<void> both;  // have answered: a job that has ended by then needs it no more
+    server_.scans().jobs().lane("").post([all = both.get_future().share()] { all.wait(); });
     auto made = std::async(std::launch::async, [&] {
       return ask("POST", "/models", operator_, {{"upload", id}});
     });
     const HttpAnswer removed =
         ask("DELETE", "/uploads/" + id, operator_, nullptr, "Tus-Resumable: 1.0.0\r\n");
     const HttpAnswer accepted = made.get();
+    both.set_value();
     if (accepted.status == 202) {
       EXPECT_NE(removed.status, 204) << "a job needs it";
       settle();

@@ -55,6 +55,18 @@ TEST_F(Claimants, who_was_stopped_beyond_the_lease_commands_nothing_and_hears_wh
   EXPECT_FALSE(first->has_jobs_of("left"));
 }
 
+TEST_F(Claimants, nobody_waits_for_a_daemon_whose_lease_has_run_out) {
+  const auto first = daemon("first", 1h, "http://a:1"), second = daemon("second", 1h);
+  first->start({"left"});
+  second->beat();
+  EXPECT_EQ(second->address_of("left"), "http://a:1");
+  ASSERT_TRUE(catalogue_->drop_leases("first"));  // as time does
+  second->beat();
+  EXPECT_EQ(second->address_of("left"), "");
+  EXPECT_TRUE(second->addresses().empty());
+  EXPECT_FALSE(second->has_jobs_of("left")) << "it may come back";
+}
+
 TEST_F(Claimants, a_lease_that_has_run_out_is_known_without_the_catalogue) {
   const auto daemon_ = daemon("first", 0ms);
   daemon_->start({"left"});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Daemons that share the jobs of one catalogue.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <future>
@@ -113,6 +114,8 @@ TEST_F(SharedJobs, what_one_takes_in_another_does_and_the_first_sees_how_far_it_
   EXPECT_EQ(watched->job().progress, 0.5);
   second_.queue().beat();
   EXPECT_EQ(second_.queue().run(job.id), nullptr);
+  EXPECT_THAT(second_.queue().pause(job.id).error().message,
+              testing::HasSubstr("is another daemon's"));
   first_.let_go();
   EXPECT_EQ(first_.end(), JobWish::kNone);
   first_.settle();
@@ -189,6 +192,51 @@ TEST_F(SharedJobs, what_is_put_aside_can_be_cancelled_by_another) {
   scans.beat();
   EXPECT_EQ(scans.job_of("left"), std::nullopt);
   go.set_value();
+}
+
+TEST_F(SharedJobs, who_comes_back_after_a_job_was_given_up_changes_nothing) {
+  const JobRecord job = upload();
+  add(job);
+  JobRecord late;
+  for (int death = 0; death < 3; ++death)
+    late = catalogue_->claim(job.id, {"late", std::chrono::seconds(-1)}).value().value();
+  first_.queue().beat();
+  EXPECT_EQ(stored(job), JobState::kFailed);
+  late.state = JobState::kDone;
+  EXPECT_FALSE(catalogue_->update(late));
+  EXPECT_EQ(stored(job), JobState::kFailed);
+  EXPECT_EQ(first_.told(), std::vector{JobState::kFailed});
+}
+
+TEST_F(SharedJobs, what_is_put_aside_goes_over_with_its_scanner) {
+  JobRecord job;
+  job.id = JobId::generate();
+  job.scanner = "left";
+  std::string driver = "first";
+  const auto queue_of = [&](const std::string& holder) {
+    return std::make_unique<JobQueue>(
+        *catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; },
+        TakenJobs{.holder = holder,
+                  .drives = [&driver, holder](const std::string&) { return driver == holder; }});
+  };
+  const auto first = queue_of("first"), second = queue_of("second");
+  std::promise<void> go;
+  first->lane("left").post([&] { go.get_future().wait(); });
+  ASSERT_TRUE(first->add(job, {}, {}));
+  ASSERT_TRUE(first->pause(job.id));
+  go.set_value();
+  first->lane("left").run([] {});
+  second->beat();
+  EXPECT_EQ(second->job_of("left"), std::nullopt);
+  driver = "second";
+  first->beat();
+  second->beat();
+  EXPECT_EQ(first->job_of("left"), std::nullopt);
+  ASSERT_TRUE(second->job_of("left"));
+  EXPECT_FALSE(second->add({.id = JobId::generate(), .scanner = "left"}, {}, {})) << "it is busy";
+  ASSERT_TRUE(second->resume(job.id));
+  second->lane("left").run([] {});
+  EXPECT_EQ(stored(job), JobState::kDone);
 }
 
 TEST_F(SharedJobs, the_jobs_of_a_scanner_are_left_to_the_daemon_that_drives_it) {
