@@ -80,10 +80,6 @@ Expected<std::shared_ptr<LiveTls>> open_tls(const Settings& settings) {
   return LiveTls::open(files);
 }
 
-std::filesystem::path uploads_of(const Settings& settings) {
-  return settings.uploads.empty() ? settings.data / "uploads" : settings.uploads;
-}
-
 // Everything that serves, in the order in which it may depend on what comes before.
 class Daemon {
  public:
@@ -198,6 +194,7 @@ class Daemon {
     webhooks_.stop();
     workers_.stop();
     workers_.join();
+    claims_->stop();
     if (const auto dropped = installation_.jobs->drop_leases(lock_.id); !dropped)
       events_.event(Severity::kError, dropped.error().message);
     events_.event(Severity::kInfo, "stopped");
@@ -405,10 +402,11 @@ int serve(Configuration configuration) {
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
   auto tls = open_tls(settings);
   if (!tls) return report(tls.error());
+  if (const auto made = make_data_folder(settings.data); !made) return report(made.error());
+  auto lock = lock_data_folder(settings.data);  // before another daemon's catalogue is migrated
+  if (!lock) return report(lock.error());
   auto installation = open_installation(place_of(settings));
   if (!installation) return report(installation.error());
-  auto lock = lock_data_folder(settings.data);
-  if (!lock) return report(lock.error());
   auto access_log = Log::open(settings.access_log);
   if (!access_log) return report(access_log.error());
   auto claims = std::make_unique<ScannerClaims>(

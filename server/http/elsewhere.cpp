@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/config/networks.h"
 #include "server/http/published.h"
 #include "server/remote/remote_server.h"
 
@@ -14,6 +15,7 @@ namespace {
 constexpr const char* kPassedOn = "Vitrine-Passed-On";
 constexpr std::size_t kMostBytes = 64 << 20;   // of a picture
 constexpr std::chrono::seconds kPatience{60};  // a turn of the table takes long
+constexpr std::chrono::seconds kToConnect{3};  // it is in the same building
 
 std::vector<std::string> fields_of(const Request& request) {
   std::vector<std::string> fields = {fmt::format("{}: 1", kPassedOn),
@@ -23,7 +25,32 @@ std::vector<std::string> fields_of(const Request& request) {
     if (found != request.header.end())
       fields.push_back(fmt::format("{}: {}", name, std::string(found->value())));
   }
+  if (!request.visitor.empty())
+    fields.push_back(fmt::format("X-Forwarded-For: {}", request.visitor));
   return fields;
+}
+
+// What HEAD leaves out the session does.
+std::string method_to_ask(const Request& request) {
+  const bool is_head = request.header.method() == beast::http::verb::head;
+  return is_head ? "GET" : std::string(request.header.method_string());
+}
+
+Response passed_back(RemoteAnswer answer, std::string body, const Request& request) {
+  Response response;
+  response.status = static_cast<unsigned>(answer.status);
+  response.type = answer.field("content-type");
+  response.body = answer.status / 100 == 2 ? std::move(body) : std::move(answer.body);
+  if (request.caller) response.caching = Caching::kPrivate;
+  const std::pair<std::string_view, const char*> kept[] = {
+      {"Location", "location"},
+      {"Retry-After", "retry-after"},
+      {"WWW-Authenticate", "www-authenticate"}};
+  for (const auto& [name, key] : kept) {
+    if (std::string value = answer.field(key); !value.empty())
+      response.fields.emplace_back(name, std::move(value));
+  }
+  return response;
 }
 
 }  // namespace
@@ -39,33 +66,28 @@ std::optional<std::string> elsewhere(const std::string& scanner, const Request& 
 }
 
 Response ask_elsewhere(const std::string& address, const Request& request, Services& services) {
-  const std::string method(request.header.method_string());
+  if (address.empty()) return away(request.id);
+  tl::expected<Seats::Seat, Seats::Refusal> seat;
+  if (!request.caller) seat = services.elsewhere->take(network_of(request.visitor));
+  if (!seat) return away(request.id);
   const std::string json = request.body.empty() ? "" : request.body.dump();
   std::string body;
   RemoteServer server;
   auto answer =
-      server.ask({.method = method,
+      server.ask({.method = method_to_ask(request),
                   .url = fmt::format("{}{}{}{}", address, request.path,
                                      request.query.empty() ? "" : "?", request.query),
                   .fields = fields_of(request),
                   .body = {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()},
+                  .patience = kPatience,
+                  .to_connect = kToConnect,
                   .deadline = kPatience,
                   .take = [&](std::span<const std::uint8_t> bytes) {
                     body.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
                     return body.size() <= kMostBytes;
                   }});
   if (!answer) return internal_error(answer.error(), request, services);
-  Response response;
-  response.status = static_cast<unsigned>(answer->status);
-  response.type = answer->field("content-type");
-  response.body = answer->status / 100 == 2 ? std::move(body) : std::move(answer->body);
-  const std::pair<std::string_view, const char*> kept[] = {{"Location", "location"},
-                                                           {"Retry-After", "retry-after"}};
-  for (const auto& [name, key] : kept) {
-    if (std::string value = answer->field(key); !value.empty())
-      response.fields.emplace_back(name, std::move(value));
-  }
-  return response;
+  return passed_back(std::move(*answer), std::move(body), request);
 }
 
 }  // namespace vitrine

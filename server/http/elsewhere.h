@@ -11,12 +11,12 @@
 namespace vitrine {
 
 // Where the request is to be answered: at the daemon that drives the scanner, unless that is this
-// one, or another has passed the request on already.
+// one, or another has passed the request on already. Empty where that daemon is away.
 std::optional<std::string> elsewhere(const std::string& scanner, const Request& request,
                                      Services& services);
 
 // That daemon's answer to the request, which it checks itself: it gets the caller's token. 503
-// where there is none.
+// where there is none, or where too many strangers wait for one.
 Response ask_elsewhere(const std::string& address, const Request& request, Services& services);
 
 bool is_passed_on(const Request& request);

@@ -18,6 +18,8 @@ void answer_at_once(ByteStream& stream, std::string_view text) {
       ::send(stream.native_handle(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
+constexpr std::size_t kElsewhere = Services::kMostElsewhere;  // threads that wait for other daemons
+
 // One address may hold a quarter of them: nobody locks the others out.
 std::shared_ptr<Seats> shared_seats(std::size_t count) {
   return std::make_shared<Seats>(count, (count + 3) / 4);
@@ -26,7 +28,7 @@ std::shared_ptr<Seats> shared_seats(std::size_t count) {
 }  // namespace
 
 Workers::Workers(unsigned threads, std::size_t max_exports)
-    : pool_(threads), exports_(threads), export_seats_(shared_seats(max_exports)) {
+    : pool_(threads + kElsewhere), exports_(threads), export_seats_(shared_seats(max_exports)) {
   for (std::size_t i = 0; i < kLanes; ++i)
     lanes_.push_back(asio::make_strand(exports_.executor()));
 }

@@ -39,7 +39,8 @@ struct Request {
   const nlohmann::json& body;  // an object; empty where the request has none
   // Whose token it is. Where the route asks for a role, there is one, and its role suffices.
   const std::optional<Caller>& caller;
-  bool encrypted = false;  // the visitor came by https
+  bool encrypted = false;         // the visitor came by https
+  std::string_view visitor = {};  // their address, as Visitor::address
 };
 
 using Handler = Response (*)(const Request& request, Services& services);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "server/catalogue/catalogue.h"
 #include "server/config/live_settings.h"
 #include "server/http/export_cache.h"
+#include "server/http/seats.h"
 #include "server/http/web_pages.h"
 #include "server/jobs/collector.h"
 #include "server/jobs/scan_service.h"
@@ -39,6 +41,12 @@ struct Services {
   const Log& log;     // the access log
   const Log& errors;  // what the operator must know
   std::atomic<bool> ready{false};
+
+  // Strangers that wait for another daemon: no more than there are threads for them, of whom one
+  // address may have half.
+  static constexpr std::size_t kMostElsewhere = 8;
+  const std::shared_ptr<Seats> elsewhere =
+      std::make_shared<Seats>(kMostElsewhere, kMostElsewhere / 2);
 };
 
 }  // namespace vitrine

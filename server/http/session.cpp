@@ -331,8 +331,15 @@ class Session {
     const Route& route = *exchange.route;
     exchange.public_read = is_public_read(route);
     const auto target = split_target(text(message.target()));
-    const Request request{message,     target->path,  target->query,   exchange.parameters,
-                          exchange.id, exchange.body, exchange.caller, exchange.visitor.encrypted};
+    const Request request{message,
+                          target->path,
+                          target->query,
+                          exchange.parameters,
+                          exchange.id,
+                          exchange.body,
+                          exchange.caller,
+                          exchange.visitor.encrypted,
+                          exchange.visitor.address};
     if (answer_at_once(request, exchange)) co_return true;
     if (route.place != Place::kInline &&
         is_beyond_rate(network_of(exchange.visitor.address), exchange))

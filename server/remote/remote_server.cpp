@@ -169,7 +169,8 @@ std::string receive_head(CURL* curl, std::chrono::seconds patience) {
 
 void set_patience(CURL* curl, const RemoteRequest& request) {
   const auto patience = static_cast<long>(request.patience.count());
-  curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT, patience);
+  curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT,
+                   static_cast<long>(request.to_connect.value_or(request.patience).count()));
   curl_easy_setopt(curl, CURLOPT_LOW_SPEED_LIMIT, 1L);
   curl_easy_setopt(curl, CURLOPT_LOW_SPEED_TIME, patience);
   curl_easy_setopt(curl, CURLOPT_TIMEOUT, static_cast<long>(request.deadline.count()));

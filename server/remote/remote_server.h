@@ -30,9 +30,10 @@ struct RemoteRequest {
   std::span<const std::uint8_t> body = {};          // must live until the answer
   std::function<void(std::uint64_t)> on_sent = {};  // bytes of the body so far
   std::chrono::seconds patience{30};                // for a connection, and for each byte to follow
-  std::chrono::seconds deadline{0};                 // for all of it; 0: none
-  std::function<bool()> given_up = {};              // asked about once a second: true ends it
-  const RemoteSigner* signer = nullptr;             // null: the request is not signed
+  std::optional<std::chrono::seconds> to_connect = {};  // the former, where it is another
+  std::chrono::seconds deadline{0};                     // for all of it; 0: none
+  std::function<bool()> given_up = {};                  // asked about once a second: true ends it
+  const RemoteSigner* signer = nullptr;                 // null: the request is not signed
   // Gets the body of an answer 2xx, which RemoteAnswer does not hold then; false ends it.
   std::function<bool(std::span<const std::uint8_t>)> take = {};
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A daemon passes on what is asked of a scanner that another drives.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -42,14 +43,27 @@ class PassedOn : public testing::Test {
     return client.receive();
   }
 
+  // The id of one that both know of.
+  std::string new_scan() {
+    const auto begun = ask("POST", "/scans", operator_, R"({"scanner": "rig", "steps": 12})");
+    const auto id = json::parse(begun.body)["id"].get<std::string>();
+    const ScanEntry scan = driver_.jobs().find_scan(ScanId::parse(id).value()).value().value();
+    const JobRecord job = driver_.jobs().find_job(scan.job).value().value();
+    EXPECT_TRUE(front_.jobs().add(job, scan, {}));
+    return id;
+  }
+  static HttpOptions behind_proxies() { return {.proxies = Networks::parse("127.0.0.1").value()}; }
+
   test::FakeScanner world_;
-  test::LocalServer driver_{public_routes(), std::chrono::seconds(30), one(world_)};
+  test::LocalServer driver_{public_routes(), std::chrono::seconds(30), one(world_),
+                            behind_proxies()};
   const std::string operator_ = driver_.bearer(Role::kOperator);
   test::TemporaryFolder folder_;
   std::unique_ptr<JobCatalogue> jobs_ =
       open_sqlite_jobs(folder_.path() / "catalogue.sqlite").value();
   ScannerClaims claims_{*jobs_, Log::open("").value(), {"front", 1h}, ""};
-  test::LocalServer front_{public_routes(), std::chrono::seconds(30), {}, {}, &claims_};
+  test::LocalServer front_{
+      public_routes(), std::chrono::seconds(30), {}, behind_proxies(), &claims_};
 };
 
 TEST_F(PassedOn, commands_reach_the_scanner_and_their_answers_the_caller) {
@@ -101,6 +115,43 @@ TEST_F(PassedOn, a_daemon_that_does_not_answer_is_503_and_when_to_come_back) {
   const auto answer = ask("GET", "/scanners/rig", operator_);
   EXPECT_EQ(answer.status, 503);
   EXPECT_EQ(answer.field("retry-after"), "5");
+}
+
+TEST_F(PassedOn, for_a_daemon_whose_lease_is_over_nobody_waits) {
+  ASSERT_TRUE(jobs_->drop_leases("driver"));
+  claims_.beat();
+  const auto answer = ask("GET", "/scanners/rig", operator_);
+  EXPECT_EQ(answer.status, 503);
+  EXPECT_EQ(answer.field("retry-after"), "5");
+}
+
+TEST_F(PassedOn, what_a_caller_is_told_is_for_nobody_else) {
+  const std::string scan = "/scans/" + new_scan();
+  const auto told = ask("GET", scan, operator_);
+  EXPECT_EQ(told.status, 200) << told.body;
+  EXPECT_EQ(told.field("cache-control"), "private, no-store");
+  EXPECT_EQ(told.field("access-control-allow-origin"), "");
+  const auto refused = ask("GET", scan, "");
+  EXPECT_EQ(refused.status, 401);
+  EXPECT_EQ(refused.field("www-authenticate"), "Bearer");
+}
+
+TEST_F(PassedOn, strangers_leave_room_for_who_has_a_token) {
+  const std::string scan = "/scans/" + new_scan();
+  std::vector<Seats::Seat> taken;
+  for (std::size_t i = 0; i < Services::kMostElsewhere; ++i)
+    taken.push_back(front_.services().elsewhere->take(std::to_string(i)).value());
+  EXPECT_EQ(ask("GET", scan, "").status, 503);
+  EXPECT_EQ(ask("GET", scan, operator_).status, 200);
+  taken.clear();
+  EXPECT_EQ(ask("GET", scan, "").status, 401);
+}
+
+TEST_F(PassedOn, who_asks_is_told_on) {
+  ask("POST", "/scanners/rig/laser", operator_ + "X-Forwarded-For: 192.0.2.9\r\n",
+      R"({"on": true})");
+  driver_.drain().get();
+  EXPECT_THAT(driver_.events(), testing::HasSubstr("remote=192.0.2.9"));
 }
 
 TEST_F(PassedOn, what_was_passed_on_is_not_passed_on_again) {

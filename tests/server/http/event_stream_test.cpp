@@ -137,9 +137,10 @@ TEST_F(EventStream, ATokenThatIsRevokedEndsIt) {
     who.send("GET /secret HTTP/1.1\r\nHost: a\r\n" + bearer + "\r\n");
     EXPECT_EQ(who.receive().status, 200);
   };
-  ask(client), ask(other);
-  const auto tokens = server.catalogue().tokens().value();
-  ASSERT_TRUE(server.catalogue().revoke_token(tokens[0].id));
+  ask(client);
+  const ModelId token = server.catalogue().tokens().value().at(0).id;
+  ask(other);
+  ASSERT_TRUE(server.catalogue().revoke_token(token));
   EXPECT_TRUE(client.is_closed());
   server.drain();
   EXPECT_TRUE(other.is_closed());
