@@ -34,10 +34,13 @@ Expected<InstallationPlace> place_of(const std::string& text) {
   return *settings ? vitrine::place_of(**settings) : InstallationPlace{.folder = text};
 }
 
-Expected<std::uint64_t> quota_of(const std::string& text) {
+Expected<Room> room_of(const std::string& text) {
   const auto settings = settings_in(text);
   if (!settings) return Unexpected(settings.error());
-  return *settings ? (*settings)->quota_bytes : read_quota(text);
+  if (*settings) return Room{(*settings)->quota_bytes, uploads_of(**settings)};
+  const auto bytes = read_quota(text);
+  if (!bytes) return Unexpected(bytes.error());
+  return Room{*bytes, std::filesystem::path(text) / "uploads"};
 }
 
 Expected<void> check_existing(const InstallationPlace& place) {

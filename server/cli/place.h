@@ -11,9 +11,13 @@ namespace vitrine::cli {
 // which may name a bucket and a database; the environment goes before the file.
 Expected<InstallationPlace> place_of(const std::string& text);
 
-// The bytes that its models and uploads may take: what the file says, or the daemon has left in
-// the folder. 0: no limit.
-Expected<std::uint64_t> quota_of(const std::string& text);
+// What its models and uploads together may take: as the file says, or the daemon has left it in
+// the folder.
+struct Room {
+  std::uint64_t bytes = 0;  // 0: no limit
+  std::filesystem::path uploads;
+};
+Expected<Room> room_of(const std::string& text);
 
 // Whether it is there, or an empty folder: a mistyped name makes no installation. Fails with kIo.
 Expected<void> check_existing(const InstallationPlace& place);

@@ -119,10 +119,10 @@ Outcome publish_file(const Arguments& arguments) {
 
   const auto installation = open_installation(*place);
   if (!installation) return failed(installation.error());
-  const auto limit = quota_of(arguments.text("--data"));
-  if (!limit) return failed(limit.error());
-  const Uploads uploads(place->folder / "uploads", {});
-  Quota quota(*installation->catalogue, uploads, *limit);
+  const auto room = room_of(arguments.text("--data"));
+  if (!room) return failed(room.error());
+  const Uploads uploads(room->uploads, {});
+  Quota quota(*installation->catalogue, uploads, room->bytes);
   const std::string stem = std::filesystem::path(path).stem().string();
   const auto published = publish(*installation->store, *installation->catalogue, *pmesh,
                                  {.title = arguments.text("--title", stem)}, {.quota = &quota});

@@ -15,4 +15,8 @@ inline InstallationPlace place_of(const Settings& settings) {
           .secret_key = settings.store_secret_key};
 }
 
+inline std::filesystem::path uploads_of(const Settings& settings) {
+  return settings.uploads.empty() ? settings.data / "uploads" : settings.uploads;
+}
+
 }  // namespace vitrine

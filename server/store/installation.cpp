@@ -32,14 +32,6 @@ bool may_come_first(std::string_view name) {
   return std::ranges::count(kNames, name) > 0;
 }
 
-Expected<void> make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error) return {};
-  return fail(ErrorCode::kIo, fmt::format("cannot create {}: {}; {}", folder.string(),
-                                          error.message(), next_step(error.value())));
-}
-
 struct OpenCatalogue {
   std::shared_ptr<sql::Database> database, jobs;  // SQLite: connections of their own
   TakeLock lock;                                  // of all who use it
@@ -90,6 +82,15 @@ Expected<void> check_installation(const fs::path& folder) {
   return check_writable(made);
 }
 
+Expected<void> make_data_folder(const fs::path& folder) {
+  if (auto usable = check_installation(folder); !usable) return usable;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return {};
+  return fail(ErrorCode::kIo, fmt::format("cannot create {}: {}; {}", folder.string(),
+                                          error.message(), next_step(error.value())));
+}
+
 Expected<void> check_data_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / kCatalogueFile, error)) return {};
@@ -111,9 +112,7 @@ Expected<void> check_place(const InstallationPlace& place) {
 }
 
 Expected<Installation> open_installation(const InstallationPlace& place) {
-  if (auto usable = check_installation(place.folder); !usable)
-    return tl::unexpected(usable.error());
-  if (auto made = make_folder(place.folder); !made) return tl::unexpected(made.error());
+  if (auto made = make_data_folder(place.folder); !made) return tl::unexpected(made.error());
   auto catalogue = open_catalogue(place);
   if (!catalogue) return tl::unexpected(catalogue.error());
   auto store = open_store(place, catalogue->lock);

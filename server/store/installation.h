@@ -35,6 +35,9 @@ struct Installation {
 // Fails (kIo) with the cause.
 Expected<void> check_installation(const std::filesystem::path& folder);
 
+// The folder is there afterwards. Fails (kIo) with the cause.
+Expected<void> make_data_folder(const std::filesystem::path& folder);
+
 // Whether the folder is an installation, or may become one: it exists and nothing else is in it. So
 // a mistyped name makes no installation that nobody serves. Fails (kIo) with the next step.
 Expected<void> check_data_folder(const std::filesystem::path& folder);

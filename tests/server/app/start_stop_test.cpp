@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the real daemon starts, refuses to start, and ends.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +11,8 @@
 #include <sstream>
 
 #include "served_folder.h"
+#include "server/store/file_lock.h"
+#include "server/store/installation.h"
 #include "support/daemon.h"
 #include "support/http_client.h"
 
@@ -173,6 +176,16 @@ TEST(Start, ADataFolderIsOfOneDaemonAndFreeOnceItIsDead) {
     EXPECT_THAT(second.output, HasSubstr("another daemon uses the data folder"));
   }
   const Daemon next(folder.path());
+}
+
+TEST(Start, TheCatalogueOfAnotherDaemonIsNotTouched) {
+  const TemporaryFolder folder;
+  const FileDescriptor other(
+      ::open((folder.path() / kDaemonLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  ASSERT_TRUE(lock_file(other.get()));
+  EXPECT_EQ(run_vitrined({"--listen", "127.0.0.1:0", "--data", folder.path().string()}).exit_code,
+            1);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / kCatalogueFile));
 }
 
 TEST(Start, WhoDoesNotServeAnswersTheAdministratorAlone) {

@@ -6,6 +6,7 @@
 
 #include "server/store/installation.h"
 #include "server/store/published_model.h"
+#include "server/store/uploads.h"
 #include "support/daemon.h"
 #include "support/http_client.h"
 #include "vitrine_command.h"
@@ -62,6 +63,12 @@ TEST_F(VitrineCommand, publishing_beside_the_daemon_keeps_to_its_quota) {
     expect_fault(refused, 1);
     EXPECT_THAT(refused.errors, HasSubstr("0 of 100 bytes are taken"));
   }
+  const std::string uploads = empty_folder("uploads");
+  ASSERT_TRUE(Uploads(uploads, {.bytes = 100, .per_token = 1}).create(ModelId::generate(), 60, ""));
+  const std::string shared =
+      write("shared.conf", "data = " + data + "\nquota = 100\nuploads = " + uploads + "\n");
+  EXPECT_THAT(vitrine({"publish", in, "--data", shared}).errors,
+              HasSubstr("60 of 100 bytes are taken"));
   { const Daemon daemon(data); }
   vitrine_json({"publish", in, "--data", data});
 }
