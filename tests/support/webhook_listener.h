@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The museum's own server, which is told of the ends of jobs: hears one request at a time.
+// The museum's own server, which is told of the ends of jobs: hears one request at a time, and
+// waits 20 s for it.
 #pragma once
 
 #include <arpa/inet.h>
@@ -20,6 +21,8 @@ class WebhookListener {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
+    const timeval patience{.tv_sec = 20, .tv_usec = 0};
+    ::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
     EXPECT_EQ(::listen(socket_.get(), 8), 0);
     EXPECT_EQ(::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);

@@ -38,6 +38,15 @@ TEST_F(SpareMemoryTest, BlocksAreApartAndTheirPlaceIsUsedAgain) {
   }
 }
 
+TEST_F(SpareMemoryTest, PlacesThatAreApartAreNotOne) {
+  const auto blocks = all(256);
+  for (const std::size_t i : {3, 5})
+    EXPECT_TRUE(memory_->give_back(blocks[i]));
+  EXPECT_EQ(memory_->take(512), nullptr);
+  EXPECT_TRUE(memory_->give_back(blocks[4]));
+  EXPECT_EQ(memory_->take(512), blocks[3]);
+}
+
 TEST_F(SpareMemoryTest, WhatIsLargeAndWhatIsNotItsOwnIsNotForIt) {
   EXPECT_EQ(memory_->take(SpareMemory::kMost + 1), nullptr);
   int other = 0;
