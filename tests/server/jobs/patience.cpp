@@ -6,7 +6,7 @@
 namespace vitrine {
 namespace {
 
-class Patience : public testing::Test {
+class PatienceTest : public testing::Test {
  protected:
   // Asks for what fails so many times in that way.
   Expected<int> ask(ErrorCode code, int failures) {
@@ -24,11 +24,11 @@ class Patience : public testing::Test {
   int calls_ = 0;
 };
 
-TEST_F(Patience, what_is_away_for_a_while_is_asked_again) {
+TEST_F(PatienceTest, what_is_away_for_a_while_is_asked_again) {
   EXPECT_EQ(ask(ErrorCode::kIo, 9).value(), 10);
 }
 
-TEST_F(Patience, what_is_refused_is_not_asked_again) {
+TEST_F(PatienceTest, what_is_refused_is_not_asked_again) {
   EXPECT_FALSE(ask(ErrorCode::kState, 9));
   EXPECT_EQ(calls_, 1);
 }
