@@ -17,13 +17,6 @@ struct AdaptiveBit {
   std::uint16_t one = 32768;
   std::uint8_t seen = 0;
 
-  // A trained start: twelve bits of probability, then the index of a count in kSeen.
-  static constexpr std::array<std::uint8_t, 16> kSeen = {0,  1,  2,  3,  4,  6,  8,   11,
-                                                         16, 23, 32, 45, 64, 90, 120, 160};
-  static constexpr AdaptiveBit from_packed(std::uint16_t packed) {
-    return {static_cast<std::uint16_t>((packed & 0xFFF0u) | 8u), kSeen[packed & 15u]};
-  }
-
   void update(int bit) {
     const std::int32_t target = bit != 0 ? 65535 - 24 : 24;
     const std::int32_t delta = target - one;
@@ -32,10 +25,10 @@ struct AdaptiveBit {
   }
 
  private:
-  static constexpr std::array<std::int32_t, kLimit + 1> kStep = [] {
-    std::array<std::int32_t, kLimit + 1> step{};
+  static constexpr std::array<std::uint16_t, kLimit + 1> kStep = [] {
+    std::array<std::uint16_t, kLimit + 1> step{};
     for (int n = 0; n <= kLimit; ++n)
-      step[n] = 131072 / (2 * n + 3);
+      step[n] = static_cast<std::uint16_t>(131072 / (2 * n + 3));
     return step;
   }();
 };

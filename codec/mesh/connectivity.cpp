@@ -3,42 +3,39 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 #include <utility>
+
+#include "codec/core/fill_in.h"
 
 namespace vitrine {
 namespace {
 
-// Directed edges sorted by (from, to), to find the twin of each.
-struct DirectedEdge {
-  std::uint64_t key;
-  Corner corner;  // opposite to the edge
-};
-
-constexpr std::uint64_t edge_key(VertexId from, VertexId to) {
-  return std::uint64_t{from} << 32 | to;
+Unexpected bad(const char* what, std::initializer_list<std::uint64_t> where) {
+  return fail(ErrorCode::kBadInput, fill_in(what, where));
 }
 
-std::string at_face(Corner c) {
-  return " at face " + std::to_string(c / 3);
-}
-
-Unexpected bad(std::string what) {
-  return fail(ErrorCode::kBadInput, std::move(what));
+Unexpected has_more_fans(VertexId v, Corner c) {
+  return bad("vertex {} has more than one fan at face {}", {v, c / 3});
 }
 
 Expected<void> check_faces(std::uint32_t vertex_count, std::span<const Triangle> faces) {
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const auto [a, b, c] = faces[f];
     if (std::max({a, b, c}) >= vertex_count) {
-      return bad("vertex index out of range at face " + std::to_string(f));
+      return bad("vertex index out of range at face {}", {f});
     }
-    if (a == b || b == c || c == a) return bad("repeated vertex at face " + std::to_string(f));
+    if (a == b || b == c || c == a) return bad("repeated vertex at face {}", {f});
   }
   return {};
 }
 
-// Edges sorted by key, then corner; those that leave v are [start[v], start[v + 1]).
+struct DirectedEdge {
+  VertexId to;
+  Corner corner;  // opposite to the edge
+};
+
+// Edges by the vertex left, then by that reached, then by corner, to find the twin of each; those
+// that leave v are [start[v], start[v + 1]).
 struct EdgeTable {
   std::vector<DirectedEdge> edges;
   std::vector<std::uint32_t> start;
@@ -48,30 +45,25 @@ struct EdgeTable {
   }
 };
 
-// A counting sort by the vertex left, and then few edges at each vertex.
+// Two counting sorts, by the end and then by the start: as many edges reach a vertex as leave it.
 EdgeTable edge_table(std::uint32_t vertex_count, std::span<const Triangle> faces) {
-  EdgeTable table{.edges = std::vector<DirectedEdge>(faces.size() * 3),
+  const auto corners = static_cast<Corner>(faces.size() * 3);
+  const auto start_of = [&](Corner c) { return faces[c / 3][next(c) % 3]; };
+  const auto end_of = [&](Corner c) { return faces[c / 3][prev(c) % 3]; };
+  EdgeTable table{.edges = std::vector<DirectedEdge>(corners),
                   .start = std::vector<std::uint32_t>(std::size_t{vertex_count} + 1, 0)};
-  for (const Triangle& f : faces) {
-    for (VertexId v : f)
-      ++table.start[v];
-  }
+  for (Corner c = 0; c < corners; ++c)
+    ++table.start[start_of(c)];
   std::uint32_t sum = 0;
   for (std::uint32_t& s : table.start)
     sum += std::exchange(s, sum);
   std::vector<std::uint32_t> free(table.start);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const VertexId from = faces[f][(k + 1) % 3], to = faces[f][(k + 2) % 3];
-      table.edges[free[from]++] = {edge_key(from, to), static_cast<Corner>(3 * f + k)};
-    }
-  }
-  for (VertexId v = 0; v < vertex_count; ++v) {
-    std::sort(table.edges.begin() + table.start[v], table.edges.begin() + table.start[v + 1],
-              [](const DirectedEdge& a, const DirectedEdge& b) {
-                return a.key != b.key ? a.key < b.key : a.corner < b.corner;
-              });
-  }
+  std::vector<Corner> by_end(corners);
+  for (Corner c = 0; c < corners; ++c)
+    by_end[free[end_of(c)]++] = c;
+  free = table.start;
+  for (const Corner c : by_end)
+    table.edges[free[start_of(c)]++] = {end_of(c), c};
   return table;
 }
 
@@ -79,40 +71,43 @@ EdgeTable edge_table(std::uint32_t vertex_count, std::span<const Triangle> faces
 
 Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
                                            std::span<const Triangle> faces) {
-  if (auto ok = check_faces(vertex_count, faces); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_faces(vertex_count, faces); !ok) return tl::unexpected(std::move(ok.error()));
   Connectivity mesh;
   mesh.corner_at_.resize(vertex_count, kNoCorner);
   for (const auto& [a, b, c] : faces)
     mesh.add_face(a, b, c);
 
   const EdgeTable table = edge_table(vertex_count, faces);
-  const std::vector<DirectedEdge>& edges = table.edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (i + 1 < edges.size() && edges[i].key == edges[i + 1].key) {
-      return bad("non-manifold or inconsistently oriented edge" + at_face(edges[i + 1].corner));
+  for (VertexId from = 0; from < vertex_count; ++from) {
+    const auto edges = table.leaving(from);
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+      if (edges[i].to == edges[i - 1].to) {
+        return bad("non-manifold or inconsistently oriented edge at face {}",
+                   {edges[i].corner / 3});
+      }
     }
   }
   // border[v]: the corner opposite the border edge that leaves v (the real face's direction).
   std::vector<Corner> border(vertex_count, kNoCorner);
-  for (const DirectedEdge& e : edges) {
-    const std::uint64_t twin = e.key >> 32 | e.key << 32;
-    const auto candidates = table.leaving(static_cast<VertexId>(twin >> 32));
-    const auto it = std::lower_bound(
-        candidates.begin(), candidates.end(), twin,
-        [](const DirectedEdge& other, std::uint64_t key) { return other.key < key; });
-    if (it != candidates.end() && it->key == twin) {
-      mesh.step_[prev(e.corner)].swing = next(it->corner);
-      continue;
+  for (VertexId from = 0; from < vertex_count; ++from) {
+    for (const DirectedEdge& e : table.leaving(from)) {
+      const auto candidates = table.leaving(e.to);
+      const auto twin = std::lower_bound(
+          candidates.begin(), candidates.end(), from,
+          [](const DirectedEdge& candidate, VertexId to) { return candidate.to < to; });
+      if (twin != candidates.end() && twin->to == from) {
+        mesh.step_[prev(e.corner)].swing = next(twin->corner);
+        continue;
+      }
+      if (border[from] != kNoCorner) {
+        return has_more_fans(from, e.corner);
+      }
+      border[from] = e.corner;
     }
-    const VertexId from = static_cast<VertexId>(e.key >> 32);
-    if (border[from] != kNoCorner) {
-      return bad("vertex " + std::to_string(from) + " has more than one fan" + at_face(e.corner));
-    }
-    border[from] = e.corner;
   }
   // Close each loop, numbered by its smallest vertex: the loop's real edges run a -> b, so the
   // closing faces are (b, a, virtual).
-  std::vector<bool> closed(vertex_count, false);
+  std::vector<std::uint8_t> closed(vertex_count, false);
   for (VertexId start = 0; start < vertex_count; ++start) {
     if (border[start] == kNoCorner || closed[start]) continue;
     const VertexId loop = kVirtualBit + static_cast<VertexId>(mesh.loop_length_.size());
@@ -122,7 +117,7 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
       closed[a] = true;
       const Corner c = border[a];
       const VertexId b = mesh.vertex(prev(c));
-      if (border[b] == kNoCorner) return bad("boundary is not a closed loop" + at_face(c));
+      if (border[b] == kNoCorner) return bad("boundary is not a closed loop at face {}", {c / 3});
       const Corner base = static_cast<Corner>(mesh.step_.size());
       mesh.add_face(b, a, loop);
       mesh.glue(base + 2, c);
@@ -143,7 +138,7 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
   }
   for (VertexId v = 0; v < vertex_count; ++v) {
     const Corner first = mesh.corner_at_[v];
-    if (first == kNoCorner) return bad("vertex " + std::to_string(v) + " belongs to no face");
+    if (first == kNoCorner) return bad("vertex {} belongs to no face", {v});
     std::uint32_t fan = 0;
     Corner c = first;
     do {
@@ -151,7 +146,7 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
       c = mesh.swing(c);
     } while (c != first && fan <= corners[v]);
     if (fan != corners[v]) {
-      return bad("vertex " + std::to_string(v) + " has more than one fan" + at_face(first));
+      return has_more_fans(v, first);
     }
   }
   return mesh;

@@ -2,10 +2,11 @@
 // Level 0 as integers: what the Draco buffer of a `.pmesh` holds and a Refiner starts from.
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "codec/core/fill_in.h"
 #include "codec/core/vec.h"
 
 namespace vitrine {
@@ -17,8 +18,8 @@ struct BaseMesh {
   std::vector<Vec3i> colours;
 };
 
-inline Unexpected damaged_base(const std::string& what) {
-  return fail(ErrorCode::kBadInput, "damaged base mesh: " + what + "; fetch the file again");
+inline Unexpected damaged_base(std::string_view what) {
+  return fail(ErrorCode::kBadInput, join({"damaged base mesh: ", what, "; fetch the file again"}));
 }
 
 }  // namespace vitrine

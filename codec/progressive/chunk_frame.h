@@ -6,6 +6,7 @@
 #include <string>
 
 #include "codec/core/expected.h"
+#include "codec/core/fill_in.h"
 #include "codec/progressive/manifest.h"
 
 namespace vitrine {
@@ -19,10 +20,10 @@ struct ChunkFrame {
   std::int32_t parity = 0;  // level_parity()
 };
 
-inline Unexpected damaged_chunk(const ChunkFrame& frame, const std::string& what) {
-  return fail(ErrorCode::kBadInput, "damaged chunk (level " + std::to_string(frame.level) +
-                                        ", region " + std::to_string(frame.region) + "): " + what +
-                                        "; fetch the file again");
+inline Unexpected damaged_chunk(const ChunkFrame& frame, std::string_view what) {
+  return fail(ErrorCode::kBadInput,
+              join({fill_in("damaged chunk (level {}, region {}): ", {frame.level, frame.region}),
+                    what, "; fetch the file again"}));
 }
 
 }  // namespace vitrine

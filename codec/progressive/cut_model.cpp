@@ -152,7 +152,8 @@ TwoFeatures features_of(const RingArrays& ring, const Prefix& prefix, std::uint3
 }  // namespace
 
 CutModel::CutModel() {
-  std::copy_n(trained::kCutWeights, kFeatures, weights_.begin());
+  static const auto kStart = trained::numbers_of<kFeatures>(trained::kCutWeights);
+  weights_ = kStart;
   trained::load(trained::kCutBits, bits_);
 }
 

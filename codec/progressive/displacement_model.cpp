@@ -33,11 +33,15 @@ void DisplacementModel::Regression::start(const double* prior) {
 }
 
 DisplacementModel::DisplacementModel() {
+  static const auto kTangential =
+      trained::numbers_of<kKinds * kFeatures>(trained::kTangentialWeights);
+  static const auto kNormal = trained::numbers_of<kKinds * kFeatures>(trained::kNormalWeights);
+  static const auto kEvidence = trained::numbers_of<kClues * kLevels * 4>(trained::kEvidence);
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
-    part_[kind].tangential.start(trained::kTangentialWeights + kind * kFeatures);
-    part_[kind].normal.start(trained::kNormalWeights + kind * kFeatures);
+    part_[kind].tangential.start(&kTangential[kind * kFeatures]);
+    part_[kind].normal.start(&kNormal[kind * kFeatures]);
   }
-  const double* start = trained::kEvidence;
+  const double* start = kEvidence.data();
   for (auto& clue : evidence_) {
     for (Evidence& e : clue) {
       e = {{start[0], start[1], start[2]}, start[3], kPriorWeight};

@@ -60,7 +60,7 @@ class LayerPass {
     // Each vertex splits at most once: memory follows the mesh, not what the header says.
     if (frame_.splits > mesh_.members[frame_.region].size()) return damaged("too many splits");
     refine_lattice();
-    if (auto ok = split_all(); !ok) return tl::unexpected(ok.error());
+    if (auto ok = split_all(); !ok) return tl::unexpected(std::move(ok.error()));
     errors_.reserve(chunk_.size());
     while (errors_.size() < chunk_.size()) {
       if (!place()) return damaged("a vertex leaves the lattice");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "codec/core/byte_cursor.h"
+#include "codec/core/fill_in.h"
 #include "codec/progressive/cell.h"
 #include "codec/progressive/signature.h"
 
@@ -25,8 +26,9 @@ constexpr std::size_t kHashBytes = 32;
 constexpr std::size_t kLevelBytes = 2 + 3 * 4 + 1;   // fewest bytes of a level record
 constexpr std::size_t kChunkBytes = 2 + kHashBytes;  // fewest bytes of a chunk record
 
-Unexpected bad(const std::string& what) {
-  return fail(ErrorCode::kBadInput, "damaged .pmesh header: " + what + "; fetch the file again");
+Unexpected bad(const char* what, std::initializer_list<std::uint64_t> numbers = {}) {
+  return fail(ErrorCode::kBadInput,
+              join({"damaged .pmesh header: ", fill_in(what, numbers), "; fetch the file again"}));
 }
 
 float round_up(double v) {  // a bound stays a bound when it is stored in single precision
@@ -60,7 +62,7 @@ void write_levels(ByteWriter& out, const Manifest& m) {
 Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
   const std::uint64_t count = in.varint();
   if (!in.ok() || count == 0 || count > limits.levels || count > in.left() / kLevelBytes) {
-    return bad("impossible number of levels (" + std::to_string(count) + ")");
+    return bad("impossible number of levels ({})", {count});
   }
   m.levels.resize(count);
   for (LevelInfo& level : m.levels) {
@@ -83,8 +85,8 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
   }
   const LevelInfo& base = m.levels.front();
   if (base.vertices < 3 || base.faces == 0) {
-    return bad("the base mesh has " + std::to_string(base.vertices) + " vertices and " +
-               std::to_string(base.faces) + " faces, fewer than one triangle");
+    return bad("the base mesh has {} vertices and {} faces, fewer than one triangle",
+               {base.vertices, base.faces});
   }
   if (base.shift > kMaxShift) return bad("the lattice of a level is impossible");
   for (std::size_t l = 1; l < m.levels.size(); ++l) {
@@ -95,7 +97,7 @@ Expected<void> read_levels(ByteReader& in, const Limits& limits, Manifest& m) {
     const std::uint64_t born = fine.vertices - coarse.vertices;
     const std::uint64_t least = m.births ? (born + 2) / 3 : born;
     if (fine.faces < coarse.faces + least || fine.faces > coarse.faces + 2 * born) {
-      return bad("the faces of level " + std::to_string(l) + " do not fit its vertices");
+      return bad("the faces of level {} do not fit its vertices", {l});
     }
   }
   return {};
@@ -217,7 +219,7 @@ Expected<void> read_level_chunks(ByteReader& in, std::uint32_t level, Manifest& 
     if (!in.ok() || !is_sane_error(chunk.max_error) || chunk.length > (1ull << 40) ||
         splits > born - sum || newborn > born - sum - splits ||
         splits + newborn > most_born(chunk.length)) {
-      return bad("impossible chunk of level " + std::to_string(level));
+      return bad("impossible chunk of level {}", {level});
     }
     sum += splits + newborn;
     chunk.splits = static_cast<std::uint32_t>(splits);
@@ -227,7 +229,7 @@ Expected<void> read_level_chunks(ByteReader& in, std::uint32_t level, Manifest& 
     m.chunks.push_back(chunk);
   }
   if (sum == born) return {};
-  return bad("the chunks of level " + std::to_string(level) + " do not make up its vertices");
+  return bad("the chunks of level {} do not make up its vertices", {level});
 }
 
 Expected<void> read_chunks(ByteReader& in, Manifest& m) {
@@ -266,7 +268,8 @@ Expected<void> read_frame(ByteReader& in, const Limits& limits, Manifest& m) {
   if (!std::all_of(name.begin(), name.end(), [](auto c) { return c >= 0x20 && c < 0x7F; })) {
     return bad("unit name is not printable ASCII");
   }
-  m.unit.assign(name.begin(), name.end());
+  for (const std::uint8_t c : name)
+    m.unit += static_cast<char>(c);
   const std::uint64_t loops = in.varint();
   if (loops > limits.vertices / 3) return bad("impossible number of boundary loops");
   m.loops = static_cast<std::uint32_t>(loops);
@@ -326,20 +329,19 @@ Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix) {
                 "with vitrine build");
   }
   if (major != kFormatMajor) {
-    return fail(ErrorCode::kUnsupported, "the file has format version " + std::to_string(major) +
-                                             ", this program reads version " +
-                                             std::to_string(kFormatMajor) + "; update it");
+    return fail(ErrorCode::kUnsupported,
+                fill_in("the file has format version {}, this program reads version {}; update it",
+                        {major, kFormatMajor}));
   }
   if (length < kHeaderPrefix + kHashBytes) return bad("its length is impossible");
   return length;
 }
 
 Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limits& limits) {
-  const auto length = header_bytes(bytes.first(std::min(bytes.size(), kHeaderPrefix)));
-  if (!length) return tl::unexpected(length.error());
+  auto length = header_bytes(bytes.first(std::min(bytes.size(), kHeaderPrefix)));
+  if (!length) return tl::unexpected(std::move(length.error()));
   if (*length > limits.header_bytes || *length > bytes.size()) {
-    return bad("it is cut off (" + std::to_string(bytes.size()) + " of " + std::to_string(*length) +
-               " bytes)");
+    return bad("it is cut off ({} of {} bytes)", {bytes.size(), *length});
   }
   if (!is_sealed(bytes.first(*length))) {
     return bad("its SHA-256 is not the one it ends with (a byte has changed)");
@@ -348,15 +350,15 @@ Expected<Manifest> parse_header(std::span<const std::uint8_t> bytes, const Limit
   Manifest m;
   const std::uint64_t features = in.varint();
   if ((features & ~kKnownFeatures) != 0) {
-    return fail(ErrorCode::kUnsupported, "the file needs feature bits " +
-                                             std::to_string(features & ~kKnownFeatures) +
-                                             " that this program does not know; update it");
+    return fail(ErrorCode::kUnsupported,
+                fill_in("the file needs feature bits {} that this program does not know; update it",
+                        {features & ~kKnownFeatures}));
   }
   m.placement = (features & kFeaturePyramid) != 0 ? Placement::kPyramid : Placement::kMidpoint;
   m.coloured = (features & kFeatureColours) != 0;
   m.births = (features & kFeatureBirths) != 0;
   m.base_offset = *length;
-  if (auto ok = read_body(in, limits, m); !ok) return tl::unexpected(ok.error());
+  if (auto ok = read_body(in, limits, m); !ok) return tl::unexpected(std::move(ok.error()));
   if (in.left() != 0) return bad("it holds bytes that belong to nothing");
   return m;
 }

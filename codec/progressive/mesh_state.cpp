@@ -15,14 +15,14 @@ Expected<MeshState> MeshState::from_base(const BaseMesh& base, std::uint32_t shi
   mesh.shift = mesh.foreign_shift = shift;
   mesh.members.resize(leaves);
   mesh.born.assign(leaves, 0);
-  if (auto ok = mesh.add(base, 0, 0); !ok) return tl::unexpected(ok.error());
+  if (auto ok = mesh.add(base, 0, 0); !ok) return tl::unexpected(std::move(ok.error()));
   return mesh;
 }
 
 Expected<void> MeshState::add(const BaseMesh& part, std::uint16_t k, std::uint8_t level) {
   const auto n = static_cast<std::uint32_t>(part.positions.size());
   auto closed = Connectivity::close(n, part.faces);
-  if (!closed) return tl::unexpected(closed.error());
+  if (!closed) return tl::unexpected(std::move(closed.error()));
   const auto is_inside = [&](const Vec3i& cell) {
     return in_coordinate_bound(cell) && in_coordinate_bound(middle_of(cell, shift));
   };
@@ -53,6 +53,9 @@ void MeshState::remove(const Newborn& newest) {
     disinherit();
 }
 
+#ifdef __wasm__
+void MeshState::fetch_rings(std::span<const VertexId>, std::size_t) const {}
+#else
 void MeshState::fetch_rings(std::span<const VertexId> order, std::size_t k) const {
   constexpr std::size_t kRings = 8, kSteps = 6;  // few rings are longer
   if (k % kRings != 0) return;
@@ -69,6 +72,7 @@ void MeshState::fetch_rings(std::span<const VertexId> order, std::size_t k) cons
     }
   }
 }
+#endif
 
 void MeshState::count_valence(VertexId v) {
   const Corner first = connectivity.corner_at(v);

@@ -50,7 +50,7 @@ class Planner {
 
   const Manifest* manifest_;
   Want want_;
-  std::vector<bool> have_;
+  std::vector<std::uint8_t> have_;
   // What follows from have_, kept up to date: next() may come for each of 300,000 chunks.
   std::size_t first_missing_ = 0;
   std::uint64_t bytes_;

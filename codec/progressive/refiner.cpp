@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "codec/core/fill_in.h"
 #include "codec/progressive/colour.h"
 #include "codec/progressive/display_filter.h"
 #include "codec/progressive/layer_decoder.h"
@@ -11,9 +12,9 @@
 namespace vitrine {
 
 struct Refiner::State {
-  Manifest manifest;
+  std::shared_ptr<const Manifest> manifest;
   MeshState mesh;
-  std::vector<bool> applied;
+  std::vector<std::uint8_t> applied;
   std::vector<std::uint8_t> leaf_level;  // per leaf of the region tree: the level it has reached
   LayerChange newest;                    // by the chunk applied last
   std::uint32_t faces = 0;               // real ones
@@ -30,14 +31,14 @@ struct Refiner::State {
 };
 
 ChunkFrame Refiner::State::frame(const ChunkInfo& chunk) const {
-  const auto last = static_cast<std::uint32_t>(manifest.levels.size() - 1);
+  const auto last = static_cast<std::uint32_t>(manifest->levels.size() - 1);
   return {.level = chunk.level,
           .region = static_cast<std::uint16_t>(chunk.region),
           .splits = chunk.splits,
           .newborn = chunk.newborn,
-          .shift = manifest.levels[chunk.level].shift,
-          .shift_before = manifest.levels[chunk.level - 1].shift,
-          .placement = manifest.placement,
+          .shift = manifest->levels[chunk.level].shift,
+          .shift_before = manifest->levels[chunk.level - 1].shift,
+          .placement = manifest->placement,
           .parity = level_parity(chunk.level, last)};
 }
 
@@ -65,23 +66,23 @@ Refiner::Refiner(Refiner&&) noexcept = default;
 Refiner& Refiner::operator=(Refiner&&) noexcept = default;
 Refiner::~Refiner() = default;
 
-Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) {
-  const LevelInfo& level = manifest.levels[0];
-  const std::size_t colours = manifest.coloured ? base.positions.size() : 0;
+Expected<Refiner> Refiner::start(std::shared_ptr<const Manifest> manifest, const BaseMesh& base) {
+  const LevelInfo& level = manifest->levels[0];
+  const std::size_t colours = manifest->coloured ? base.positions.size() : 0;
   if (base.positions.size() != level.vertices || base.faces.size() != level.faces ||
       base.colours.size() != colours) {
     return damaged_base("its counts are not those of the header");
   }
-  auto mesh = MeshState::from_base(base, level.shift, manifest.tree.leaves());
+  auto mesh = MeshState::from_base(base, level.shift, manifest->tree.leaves());
   if (!mesh) return damaged_base(mesh.error().message);
   // What is born whole may bring more.
   const std::uint32_t loops = mesh->connectivity.loop_count();
-  if (loops > manifest.loops || (loops < manifest.loops && !manifest.births)) {
+  if (loops > manifest->loops || (loops < manifest->loops && !manifest->births)) {
     return damaged_base("its boundary loops are not those of the header");
   }
   auto state = std::make_unique<State>();
-  state->applied.assign(manifest.chunks.size(), false);
-  state->leaf_level.assign(manifest.tree.leaves(), 0);
+  state->applied.assign(manifest->chunks.size(), false);
+  state->leaf_level.assign(manifest->tree.leaves(), 0);
   state->faces = level.faces;
   state->manifest = std::move(manifest);
   state->mesh = std::move(*mesh);
@@ -89,22 +90,22 @@ Expected<Refiner> Refiner::start(Manifest manifest, const BaseMesh& base) {
 }
 
 const Manifest& Refiner::manifest() const {
-  return state_->manifest;
+  return *state_->manifest;
 }
 bool Refiner::applied(std::size_t chunk) const {
   return state_->applied[chunk];
 }
 
 bool Refiner::ready(std::size_t chunk) const {
-  const ChunkInfo& info = state_->manifest.chunks[chunk];
+  const ChunkInfo& info = state_->manifest->chunks[chunk];
   if (!state_->usable || state_->applied[chunk]) return false;
   const auto has_level = [&](std::uint32_t leaf) {
     return state_->leaf_level[leaf] + 1u >= info.level;
   };
-  const RegionNode& region = state_->manifest.region(info);
+  const RegionNode& region = state_->manifest->region(info);
   for (std::uint32_t leaf = region.first; leaf < region.first + region.leaves; ++leaf) {
     if (!has_level(leaf)) return false;
-    const std::vector<std::uint32_t>& next = state_->manifest.adjacency[leaf];
+    const std::vector<std::uint32_t>& next = state_->manifest->adjacency[leaf];
     if (!std::all_of(next.begin(), next.end(), has_level)) return false;
   }
   return true;
@@ -116,17 +117,17 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
     return fail(ErrorCode::kState,
                 "this chunk cannot be applied in the present state; apply those before it first");
   }
-  const ChunkInfo& info = s.manifest.chunks[chunk];
+  const ChunkInfo& info = s.manifest->chunks[chunk];
   if (bytes.size() != info.length) {
-    return fail(ErrorCode::kBadInput, "a chunk has " + std::to_string(bytes.size()) +
-                                          " bytes and the header says " +
-                                          std::to_string(info.length) + "; fetch it again");
+    return fail(ErrorCode::kBadInput,
+                fill_in("a chunk has {} bytes and the header says {}; fetch it again",
+                        {bytes.size(), info.length}));
   }
   s.usable = false;
   s.newest = {};
-  auto change = decode_layer(s.mesh, s.frame(info), s.manifest.tree, info.node, bytes);
-  if (!change) return tl::unexpected(change.error());
-  if (s.mesh.connectivity.loop_count() > s.manifest.loops) {
+  auto change = decode_layer(s.mesh, s.frame(info), s.manifest->tree, info.node, bytes);
+  if (!change) return tl::unexpected(std::move(change.error()));
+  if (s.mesh.connectivity.loop_count() > s.manifest->loops) {
     return fail(ErrorCode::kBadInput,
                 "a chunk brings more boundary loops than the header says; fetch the file again");
   }
@@ -135,7 +136,7 @@ Expected<void> Refiner::apply(std::size_t chunk, std::span<const std::uint8_t> b
     s.faces += s.real_faces_of(i);
   for (const Newborn& component : s.newest.components)
     s.faces += component.real_faces;
-  const RegionNode& region = s.manifest.region(info);
+  const RegionNode& region = s.manifest->region(info);
   std::fill_n(s.leaf_level.begin() + region.first, region.leaves,
               static_cast<std::uint8_t>(info.level));
   s.applied[chunk] = true;
@@ -177,11 +178,11 @@ const Segments<Vec3i>& Refiner::colours() const {
 }
 
 Vec3 Refiner::display_position(VertexId v) const {
-  return vitrine::display_position(state_->mesh, v, state_->manifest.levels[level_of(v)]);
+  return vitrine::display_position(state_->mesh, v, state_->manifest->levels[level_of(v)]);
 }
 
 LatticeMesh Refiner::lattice_mesh() const {
-  LatticeMesh out{.lattice = state_->manifest.lattice};
+  LatticeMesh out{.lattice = state_->manifest->lattice};
   out.positions = state_->mesh.positions.flat();
   out.faces = state_->mesh.real_faces();
   out.colours = state_->mesh.display_colours();
@@ -191,7 +192,7 @@ LatticeMesh Refiner::lattice_mesh() const {
 TriangleMesh Refiner::display_mesh() const {
   TriangleMesh out;
   out.positions.reserve(vertex_count());
-  const Lattice& lattice = state_->manifest.lattice;
+  const Lattice& lattice = state_->manifest->lattice;
   for (VertexId v = 0; v < vertex_count(); ++v)
     out.positions.push_back(lattice.origin + display_position(v) * lattice.step);
   out.faces = state_->mesh.real_faces();

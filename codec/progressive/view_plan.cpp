@@ -11,7 +11,8 @@ constexpr double kLeastGain = 0.01;  // of the error
 
 }  // namespace
 
-ViewPlan::ViewPlan(const Manifest& manifest, const std::vector<bool>& have, const View& view)
+ViewPlan::ViewPlan(const Manifest& manifest, const std::vector<std::uint8_t>& have,
+                   const View& view)
     : manifest_(manifest),
       have_(have),
       view_(view),
@@ -67,7 +68,7 @@ void ViewPlan::require(std::size_t index, std::vector<std::size_t>& missing) {
 // In file order, which is level order, so it can be applied.
 std::optional<std::size_t> ViewPlan::first_missing(double bytes) const {
   const auto at =
-      static_cast<std::size_t>(std::find(have_.begin(), have_.end(), false) - have_.begin());
+      static_cast<std::size_t>(std::find(have_.begin(), have_.end(), 0) - have_.begin());
   if (static_cast<double>(manifest_.chunks[at].length) > bytes) return std::nullopt;
   return at;
 }

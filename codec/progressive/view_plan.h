@@ -14,7 +14,7 @@ namespace vitrine {
 class ViewPlan {
  public:
   // All three outlive this. Of the chunks held, those count whose region has all coarser levels.
-  ViewPlan(const Manifest& manifest, const std::vector<bool>& have, const View& view);
+  ViewPlan(const Manifest& manifest, const std::vector<std::uint8_t>& have, const View& view);
 
   // The chunk to fetch next, of at most `bytes`; nothing where no error in sight is above the
   // view's, or what would help is longer. Looks at most at kMostSteps neighbours or chunks, far
@@ -33,7 +33,7 @@ class ViewPlan {
   void require(std::size_t chunk, std::vector<std::size_t>& missing);
 
   const Manifest& manifest_;
-  const std::vector<bool>& have_;
+  const std::vector<std::uint8_t>& have_;
   const View& view_;
   std::vector<std::uint32_t> leaf_level_;  // per leaf of the region tree
   std::vector<std::uint32_t> required_;    // per chunk: the newest call of missing_for() to meet it

@@ -4,8 +4,8 @@
 // which are valid until the next call on the same model. Sizes that may pass 2^32 are doubles.
 // Every function is safe on hostile bytes; 0 (or -1) means failure and `error_text` says why.
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "codec/wasm/model.h"
@@ -21,9 +21,9 @@ std::string& last_error() {
   return text;
 }
 
-template <class T>
-bool succeeded(const vitrine::Expected<T>& result) {
-  if (!result) last_error() = result.error().message;
+template <class Result>
+bool succeeded(Result&& result) {
+  if (!result) last_error() = std::move(result.error().message);
   return result.has_value();
 }
 
@@ -34,10 +34,10 @@ std::span<const std::uint8_t> bytes_at(const std::uint8_t* data, std::uint32_t s
 }  // namespace
 
 VITRINE_EXPORT(allocate) void* allocate(std::uint32_t size) {
-  return std::malloc(size);
+  return operator new(size, std::nothrow);
 }
 VITRINE_EXPORT(release) void release(void* pointer) {
-  std::free(pointer);
+  operator delete(pointer);
 }
 VITRINE_EXPORT(error_text) const char* error_text() {
   return last_error().c_str();
@@ -45,13 +45,13 @@ VITRINE_EXPORT(error_text) const char* error_text() {
 
 // The length of the header that `data` (kHeaderPrefix bytes or more) begins, or -1.
 VITRINE_EXPORT(header_length) double header_length(const std::uint8_t* data, std::uint32_t size) {
-  const auto length = vitrine::header_bytes(bytes_at(data, size));
+  auto length = vitrine::header_bytes(bytes_at(data, size));
   return succeeded(length) ? static_cast<double>(*length) : -1;
 }
 
 VITRINE_EXPORT(model_open) Model* model_open(const std::uint8_t* data, std::uint32_t size) {
   auto model = Model::open(bytes_at(data, size));
-  return succeeded(model) ? new Model(std::move(*model)) : nullptr;
+  return succeeded(model) ? model->release() : nullptr;
 }
 VITRINE_EXPORT(model_close) void model_close(Model* model) {
   delete model;
@@ -85,16 +85,16 @@ VITRINE_EXPORT(start)
 int start(Model* model, const vitrine::Vec3i* positions, std::uint32_t vertices,
           const vitrine::Triangle* faces, std::uint32_t face_count, const vitrine::Vec3i* colours) {
   vitrine::BaseMesh base;
-  base.positions.assign(positions, positions + vertices);
-  base.faces.assign(faces, faces + face_count);
-  if (colours != nullptr) base.colours.assign(colours, colours + vertices);
+  base.positions = {positions, positions + vertices};
+  base.faces = {faces, faces + face_count};
+  if (colours != nullptr) base.colours = {colours, colours + vertices};
   return succeeded(model->start(std::move(base)));
 }
 
 // kind: 0 triangles, 1 bytes, 2 error in model units, 3 level. Returns 1 where the surface went
 // back to the base mesh first, 0 where refinement goes on from the present state, -1 on failure.
 VITRINE_EXPORT(want) int want(Model* model, std::uint32_t kind, double value) {
-  const auto restarted = model->want(kind, value);
+  auto restarted = model->want(kind, value);
   return succeeded(restarted) ? (*restarted ? 1 : 0) : -1;
 }
 
@@ -109,10 +109,11 @@ VITRINE_EXPORT(want_view) int want_view(Model* model, const double* numbers) {
   view.pixel_error = numbers[19];
   view.bytes = numbers[20];
   if (!is_sane(view)) {
-    last_error() = "the camera is impossible: its numbers must be finite, its sizes above 0";
+    last_error() =
+        std::string("the camera is impossible: its numbers must be finite, its sizes above 0");
     return -1;
   }
-  const auto restarted = model->want(view, numbers[21]);
+  auto restarted = model->want(view, numbers[21]);
   return succeeded(restarted) ? (*restarted ? 1 : 0) : -1;
 }
 

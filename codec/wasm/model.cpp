@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "codec/core/fill_in.h"
 #include "codec/progressive/colour.h"
 
 namespace vitrine {
@@ -42,10 +43,10 @@ std::array<float, 3> to_floats(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-Expected<void> check(const std::string& what, std::span<const std::uint8_t> bytes,
+Expected<void> check(std::string_view what, std::span<const std::uint8_t> bytes,
                      const Sha256& expected) {
   if (sha256(bytes) == expected) return {};
-  return fail(ErrorCode::kBadInput, what + " does not match its SHA-256; fetch it again");
+  return fail(ErrorCode::kBadInput, join({what, " does not match its SHA-256; fetch it again"}));
 }
 
 std::int16_t to_snorm(double value) {
@@ -54,12 +55,12 @@ std::int16_t to_snorm(double value) {
 
 }  // namespace
 
-Expected<Model> Model::open(std::span<const std::uint8_t> header) {
+Model::Model(std::shared_ptr<const Manifest> manifest) : manifest_(std::move(manifest)) {}
+
+Expected<std::unique_ptr<Model>> Model::open(std::span<const std::uint8_t> header) {
   auto manifest = parse_header(header, kBrowserLimits);
-  if (!manifest) return Unexpected(manifest.error());
-  Model model;
-  model.manifest_ = std::make_unique<Manifest>(std::move(*manifest));
-  return model;
+  if (!manifest) return Unexpected(std::move(manifest.error()));
+  return std::make_unique<Model>(std::make_shared<const Manifest>(std::move(*manifest)));
 }
 
 Expected<void> Model::check_base(std::span<const std::uint8_t> bytes) const {
@@ -71,9 +72,8 @@ Expected<void> Model::check_chunk(std::size_t chunk, std::span<const std::uint8_
     return fail(ErrorCode::kState,
                 "there is no such chunk; the manifest lists those that there are");
   const ChunkInfo& info = manifest_->chunks[chunk];
-  return check("the chunk of level " + std::to_string(info.level) + ", region " +
-                   std::to_string(info.region),
-               bytes, info.sha256);
+  return check(fill_in("the chunk of level {}, region {}", {info.level, info.region}), bytes,
+               info.sha256);
 }
 
 Expected<void> Model::start(BaseMesh base) {
@@ -85,8 +85,8 @@ Expected<void> Model::start(BaseMesh base) {
 }
 
 Expected<void> Model::restart() {
-  auto refiner = Refiner::start(*manifest_, base_);
-  if (!refiner) return Unexpected(refiner.error());
+  auto refiner = Refiner::start(manifest_, base_);
+  if (!refiner) return Unexpected(std::move(refiner.error()));
   refiner_ = std::move(*refiner);
   applied_.assign(manifest_->chunks.size(), false);
   planner_.emplace(*manifest_);
@@ -118,7 +118,7 @@ Expected<bool> Model::want(const View& view, double most_triangles) {
 
 Expected<bool> Model::pursue(const Want& goal, bool back) {
   if (back) {
-    if (auto done = restart(); !done) return Unexpected(done.error());
+    if (auto done = restart(); !done) return Unexpected(std::move(done.error()));
   }
   planner_.emplace(*manifest_);
   planner_->want(goal);
@@ -135,7 +135,7 @@ Expected<bool> Model::pursue(const Want& goal, bool back) {
 bool Model::exceeds(const Want& goal) const {
   Planner plan(*manifest_);
   plan.want(goal);
-  std::vector<bool> wanted(applied_.size());
+  std::vector<std::uint8_t> wanted(applied_.size());
   while (const auto chunk = plan.next()) {
     wanted[*chunk] = true;
     plan.have(*chunk);
@@ -246,25 +246,21 @@ const std::vector<double>& Model::summary() {
   const Manifest& m = *manifest_;
   const auto number = [](auto value) { return static_cast<double>(value); };
   const Vec3 centre = m.lattice.origin + centre_ * m.lattice.step;
-  summary_ = {number(m.levels.size()),
-              number(m.chunks.size()),
-              number(m.base_offset),
-              number(m.base_length),
-              number(m.file_bytes),
-              number(m.coloured),
-              number(m.lattice.bits),
-              m.lattice.step,
-              centre.x,
-              centre.y,
-              centre.z};
+  summary_.clear();
+  const auto add = [&](std::initializer_list<double> numbers) {
+    for (const double value : numbers)
+      summary_.push_back(value);
+  };
+  add({number(m.levels.size()), number(m.chunks.size()), number(m.base_offset),
+       number(m.base_length), number(m.file_bytes), number(m.coloured), number(m.lattice.bits),
+       m.lattice.step, centre.x, centre.y, centre.z});
   for (std::uint32_t i = 0; i < m.levels.size(); ++i) {
     const LevelInfo& level = m.levels[i];
-    summary_.insert(summary_.end(), {number(level.vertices), number(level.faces), level.max_error,
-                                     level.rms_error, number(m.cumulative_bytes(i))});
+    add({number(level.vertices), number(level.faces), level.max_error, level.rms_error,
+         number(m.cumulative_bytes(i))});
   }
   for (const ChunkInfo& chunk : m.chunks) {
-    summary_.insert(summary_.end(), {number(chunk.level), number(chunk.region),
-                                     number(chunk.offset), number(chunk.length)});
+    add({number(chunk.level), number(chunk.region), number(chunk.offset), number(chunk.length)});
   }
   return summary_;
 }

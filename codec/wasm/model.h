@@ -20,7 +20,10 @@ namespace vitrine {
 
 class Model {
  public:
-  static Expected<Model> open(std::span<const std::uint8_t> header);
+  static Expected<std::unique_ptr<Model>> open(std::span<const std::uint8_t> header);
+  explicit Model(std::shared_ptr<const Manifest> manifest);
+  Model(const Model&) = delete;  // the planner points into it
+  Model& operator=(const Model&) = delete;
 
   const Manifest& manifest() const { return *manifest_; }
 
@@ -68,14 +71,14 @@ class Model {
   Vec3 normal(VertexId v) const;
   void add_vertex(VertexId v);
 
-  std::unique_ptr<Manifest> manifest_;  // the planner points to it
+  std::shared_ptr<const Manifest> manifest_;
   BaseMesh base_;
   Vec3 centre_;  // lattice units
   std::optional<Refiner> refiner_;
   std::optional<Planner> planner_;
   std::optional<std::uint32_t> triangles_;  // of the want, where it is one for triangles
   double most_triangles_ = 0;               // of the want, where it is a view
-  std::vector<bool> applied_;
+  std::vector<std::uint8_t> applied_;
   bool trimmed_ = false;  // or failed: nothing can be applied until restart()
 
   std::vector<double> summary_;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "training/fit.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "codec/core/range_coder.h"
+#include "codec/progressive/trained_tables.h"
 
 namespace vitrine::training {
 namespace {
@@ -25,23 +24,22 @@ double total_cost(const std::vector<Counts>& chunks, double one, double weight) 
 
 }  // namespace
 
-std::uint16_t fit_start(const std::vector<Counts>& chunks) {
+Start fit_start(const std::vector<Counts>& chunks) {
   double best = 1e300;
-  std::uint16_t packed = 32768;
-  if (chunks.empty()) return packed;
-  for (std::uint16_t count = 1; count < 14; ++count) {
-    const double weight = AdaptiveBit::kSeen[count] + 0.5;
-    for (int step = 1; step < 128; ++step) {
-      const double logit = (step - 64) / 8.0;
-      const double one = 1 / (1 + std::exp(-logit));
-      const double price = total_cost(chunks, one, weight);
+  constexpr int kHalf = trained::kHalf;
+  Start start{kHalf, 0};
+  if (chunks.empty()) return start;
+  for (int seen = 1; seen < static_cast<int>(trained::kSeen.size()); ++seen) {
+    const double weight = trained::kSeen[static_cast<std::size_t>(seen)] + 0.5;
+    for (int step = 1; step < 2 * kHalf; ++step) {
+      const double logit = (step - kHalf) / 8.0;
+      const double price = total_cost(chunks, 1 / (1 + std::exp(-logit)), weight);
       if (price >= best) continue;
       best = price;
-      const auto probability = static_cast<std::uint16_t>(std::clamp(one * 4096, 1.0, 4095.0));
-      packed = static_cast<std::uint16_t>(probability << 4 | count);
+      start = {step, seen};
     }
   }
-  return packed;
+  return start;
 }
 
 }  // namespace vitrine::training

@@ -11,9 +11,14 @@ struct Counts {
   std::uint32_t zeros = 0, ones = 0;  // of one context in one chunk
 };
 
-// The packed start (AdaptiveBit::from_packed) under which the chunks cost least: an adaptive bit
+// An adaptive bit's start (trained_tables.h).
+struct Start {
+  int step, seen;
+};
+
+// The start under which the chunks cost least: an adaptive bit
 // that has seen n decisions is close to a beta prior of n + 1/2 decisions. A context that was never
 // met starts undecided.
-std::uint16_t fit_start(const std::vector<Counts>& chunks);
+Start fit_start(const std::vector<Counts>& chunks);
 
 }  // namespace vitrine::training

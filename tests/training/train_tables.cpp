@@ -129,19 +129,30 @@ bool study_mesh(const std::string& path, int bits, Study& study) {
 }
 
 void print_bits(const char* name, const BitStudy& study) {
-  std::printf("const std::uint16_t %s[] = {", name);
+  std::printf("const std::uint8_t %s[] = {", name);
   for (std::size_t k = 0; k < study.contexts.size(); ++k) {
-    std::printf("%s%u,", k % 14 == 0 ? "\n    " : " ", fit_start(study.contexts[k]));
+    const Start start = fit_start(study.contexts[k]);
+    std::printf("%s%d, %d,", k % 12 == 0 ? "\n    " : " ", start.step, start.seen);
   }
   std::printf("\n};\n");
 }
 
+// As trained::load() takes it.
+std::string text_of(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", number);
+  const std::string sign = text[0] == '-' ? "-" : "";
+  const std::string size = text + sign.size();
+  return sign + (size.starts_with("0.") ? size.substr(1) : size);
+}
+
 void print_means(const char* name, const MeanStudy& study) {
-  std::printf("const double %s[] = {", name);
+  std::printf("const char %s[] =", name);
   for (std::size_t k = 0; k < study.sum.size(); ++k) {
-    std::printf("%s%.6g,", k % 9 == 0 ? "\n    " : " ", study.mean(k));
+    std::printf("%s%s ", k % 9 == 0 ? k == 0 ? "\n    \"" : "\"\n    \"" : "",
+                text_of(study.mean(k)).c_str());
   }
-  std::printf("\n};\n");
+  std::printf("\";\n");
 }
 
 void print_tables(const Study& study) {

@@ -41,8 +41,9 @@ void print_state(Model& model) {
 }
 
 Expected<void> replay(std::span<const std::uint8_t> file) {
-  auto model = Model::open(file);
-  if (!model) return Unexpected(model.error());
+  auto opened = Model::open(file);
+  if (!opened) return Unexpected(opened.error());
+  Model* const model = opened->get();
   const Manifest& manifest = model->manifest();
   const auto base_bytes = file.subspan(manifest.base_offset, manifest.base_length);
   if (auto fits = model->check_base(base_bytes); !fits) return fits;

@@ -72,8 +72,9 @@ bool fetch(Model& model, std::span<const std::uint8_t> bytes) {
 }
 
 void visit(std::span<const std::uint8_t> bytes) {
-  auto model = Model::open(bytes);
-  if (!model) return;
+  auto opened = Model::open(bytes);
+  if (!opened) return;
+  Model* const model = opened->get();
   const Manifest& manifest = model->manifest();
   require(model->summary().size() == 11 + 5 * manifest.levels.size() + 4 * manifest.chunks.size());
   require(!model->check_chunk(manifest.chunks.size(), {}));

@@ -25,7 +25,7 @@ export class Choice {
   #info: ModelInfo | undefined;
   #triangles = 0; // shown
   #again: (() => void) | undefined; // writes what is shown
-  #texts!: Texts;
+  #texts: Texts | undefined; // which come on their own
 
   constructor(private readonly root: ParentNode) {
     this.#button("lowest").addEventListener("click", () => this.onChoose({ level: 0 }));
@@ -33,12 +33,10 @@ export class Choice {
     this.#button("highest").addEventListener("click", () => this.onChoose({ level: this.#finest }));
   }
 
-  get texts(): Texts {
-    return this.#texts;
-  }
   set texts(texts: Texts) {
     this.#texts = texts;
-    this.#again?.();
+    if (this.#again) this.#again();
+    else this.#tell();
   }
 
   get triangles(): number {
@@ -70,8 +68,9 @@ export class Choice {
   show({ triangles, bytes }: { triangles: number; bytes: number }, bounded: boolean): void {
     if (!this.#info) return;
     this.#again = () => this.show({ triangles, bytes }, bounded);
-    const { texts } = this;
     this.#triangles = triangles;
+    const texts = this.#texts;
+    if (!texts) return;
     const counted = texts.triangles(triangles, this.#info.levels[this.#finest]?.faces ?? triangles);
     this.#write(".triangles", counted);
     this.#write(".bytes", texts.bytes(bytes, this.#info.fileBytes));
@@ -82,14 +81,14 @@ export class Choice {
   }
 
   #tell(): void {
-    if (!this.#info) return;
-    const { texts } = this, next = this.#next;
+    const texts = this.#texts, next = this.#next;
+    if (!this.#info || !texts) return;
     const lowest = this.#bytesOf(0), highest = this.#bytesOf(this.#finest);
-    this.#offer("lowest", texts.size(lowest), this.#wait(lowest)).ariaPressed = String(next === 1);
-    this.#offer("highest", texts.size(highest), this.#wait(highest)).ariaPressed = String(next === undefined);
+    this.#offer("lowest", texts.size(lowest), this.#wait(texts, lowest)).ariaPressed = String(next === 1);
+    this.#offer("highest", texts.size(highest), this.#wait(texts, highest)).ariaPressed = String(next === undefined);
     const refine = next === undefined
       ? this.#offer("refine", texts.complete)
-      : this.#offer("refine", texts.more(this.#bytesOf(next) - this.#bytesOf(next - 1)), this.#wait(this.#bytesOf(next)));
+      : this.#offer("refine", texts.more(this.#bytesOf(next) - this.#bytesOf(next - 1)), this.#wait(texts, this.#bytesOf(next)));
     refine.ariaDisabled = String(next === undefined); // not `disabled`: it would lose the focus
   }
 
@@ -102,10 +101,10 @@ export class Choice {
   }
 
   /** Until `bytes` are there, in words; nothing before the line has been measured. */
-  #wait(bytes: number): string {
+  #wait(texts: Texts, bytes: number): string {
     const seconds = this.#line.secondsTo(bytes);
     if (seconds === undefined) return "";
-    return seconds < 0.5 ? this.texts.atOnce : this.texts.wait(seconds);
+    return seconds < 0.5 ? texts.atOnce : texts.wait(seconds);
   }
 
   #bytesOf(level: number): number {

@@ -23,7 +23,7 @@ export class Panel {
   readonly choice: Choice;
   #held = false;
   #alt = "";
-  #texts!: Texts;
+  #texts: Texts | undefined;
 
   /** The place of the picture. */
   readonly view: HTMLElement;

@@ -42,7 +42,8 @@ export class ProgressiveMeshElement extends HTMLElement {
   #loads = 0;
   #looking: ReturnType<typeof setTimeout> | undefined;
   #chosen = false; // by the visitor: the camera does not ask for anything else
-  #texts!: Texts;
+  #spoken: Promise<Texts> | undefined; // in the language that it stands in
+  #texts: Texts | undefined;
   #token = "";
   #tools: Toolbox | undefined;
 
@@ -154,8 +155,8 @@ export class ProgressiveMeshElement extends HTMLElement {
     const load = this.#loads;
     try {
       this.#model = new RemoteModel(src, this.#transport, assetsBeside(import.meta.url), this.#token);
-      // All at once: the model and its decoder, the stage and three.js, which the stage would ask for later.
-      const [{ Stage }] = await Promise.all([import("./stage.ts"), import("three")]);
+      // All at once: the model and its decoder, the texts, the stage and three.js, which the stage would ask for later.
+      const [{ Stage }] = await Promise.all([import("./stage.ts"), import("three"), this.#spoken]);
       if (load !== this.#loads) return;
       const stage = this.#open(new Stage(this.#panel.newCanvas(), this.#model));
       await stage.mesh.ready;
@@ -195,8 +196,14 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   /** In the language of where it stands, which may change. */
   #speak(): void {
-    const texts = textsFor(this);
-    if (texts === this.#texts) return;
+    const spoken = textsFor(this);
+    if (spoken === this.#spoken) return;
+    this.#spoken = spoken;
+    // Where they are not to be had, loading fails and tells.
+    spoken.then((texts) => spoken === this.#spoken && this.#say(texts)).catch(() => undefined);
+  }
+
+  #say(texts: Texts): void {
     this.#panel.texts = this.#texts = texts;
     this.#tools?.remove();
     this.#tools = undefined;
@@ -206,7 +213,7 @@ export class ProgressiveMeshElement extends HTMLElement {
   /** The visitor's tools come after the first picture. */
   async #equip(stage: Stage): Promise<void> {
     const { Toolbox } = await import("./tools/toolbox.ts");
-    if (stage !== this.#stage) return;
+    if (stage !== this.#stage || !this.#texts) return;
     this.#tools ??= new Toolbox(this, this.#panel, this.#texts);
     this.#tools.attach(stage, { frame: () => stage.frame(this.#camera), sharpen: () => void this.#sharpen() });
   }
@@ -283,7 +290,7 @@ export class ProgressiveMeshElement extends HTMLElement {
 
   #fail(error: Error): void {
     if (!this.#stage) this.#model?.close();
-    this.#panel.message = this.#stage ? error.message : `${this.#texts.noWebGl} ${error.message}`;
+    this.#panel.message = this.#stage ? error.message : [this.#texts?.noWebGl, error.message].join(" ");
     this.#emit("error", { message: error.message });
   }
 

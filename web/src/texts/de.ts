@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a visitor of the viewer reads and hears, in German.
 import type { Texts } from "./en.ts";
-import { formats } from "./formats.ts";
+import type { Formats } from "./formats.ts";
 
-const { count, size, length, bound } = formats("de");
 const units = "Einheiten";
 
 const sides = {
@@ -12,7 +11,7 @@ const sides = {
 };
 const heights = { above: " oben", level: "", below: " unten" };
 
-export const de: Texts = {
+export const de = ({ count, size, length, bound }: Formats): Texts => ({
   loading: "Wird geladen",
   viewOf: (title) => title || "Dreidimensionales Modell",
   keys: "Pfeiltasten drehen, Plus und Minus zoomen, Pos1 stellt die Ansicht zurück.",
@@ -86,4 +85,4 @@ export const de: Texts = {
   firstShape: (triangles) => `Die erste Form ist zu sehen, ${count(triangles)} Dreiecke.`,
   halfway: "Die Hälfte der Einzelheiten ist zu sehen.",
   reached: (triangles) => `Die gewünschte Detailstufe ist zu sehen, ${count(triangles)} Dreiecke.`,
-};
+});

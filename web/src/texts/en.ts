@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a visitor of the viewer reads and hears, in English. Other languages have the same shape.
-import { formats } from "./formats.ts";
+import type { Formats } from "./formats.ts";
 
-const { count, size, length, bound } = formats("en");
 const units = "units"; // of a model that does not say which
 
 const sides = {
@@ -11,7 +10,7 @@ const sides = {
 };
 const heights = { above: ", from above", level: "", below: ", from below" };
 
-export const en = {
+export const en = ({ count, size, length, bound }: Formats) => ({
   loading: "Loading",
   viewOf: (title: string) => title || "Three-dimensional model",
   keys: "Arrow keys turn, plus and minus zoom, Home resets the view.",
@@ -85,6 +84,6 @@ export const en = {
   firstShape: (triangles: number) => `The first shape is shown, ${count(triangles)} triangles.`,
   halfway: "Half of the detail is shown.",
   reached: (triangles: number) => `The detail asked for is shown, ${count(triangles)} triangles.`,
-};
+});
 
-export type Texts = typeof en;
+export type Texts = ReturnType<typeof en>;

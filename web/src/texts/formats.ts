@@ -24,6 +24,8 @@ export function formats(language: string) {
   };
 }
 
+export type Formats = ReturnType<typeof formats>;
+
 /** In millimetres where the unit is known. */
 export function inMillimetres(value: number, unit: string): [number, string] {
   const millimetres = kMillimetres[unit];

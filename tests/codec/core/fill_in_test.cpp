@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/core/fill_in.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+namespace vitrine {
+namespace {
+
+TEST(FillIn, numbers_take_the_places_in_their_order) {
+  EXPECT_EQ(fill_in("{} of {} bytes", {0, 1230}), "0 of 1230 bytes");
+  EXPECT_EQ(fill_in("{}", {UINT64_MAX}), "18446744073709551615");
+}
+
+TEST(FillIn, a_place_without_a_number_stays) {
+  EXPECT_EQ(fill_in("nothing", {}), "nothing");
+  EXPECT_EQ(fill_in("{} and {}", {7}), "7 and {}");
+}
+
+}  // namespace
+}  // namespace vitrine
