@@ -195,8 +195,10 @@ class Daemon {
     workers_.stop();
     workers_.join();
     claims_->stop();
-    if (const auto dropped = installation_.jobs->drop_leases(lock_.id); !dropped)
-      events_.event(Severity::kError, dropped.error().message);
+    for (const auto& dropped :
+         {installation_.jobs->drop_leases(lock_.id), installation_.jobs->drop_scanners(lock_.id)}) {
+      if (!dropped) events_.event(Severity::kError, dropped.error().message);
+    }
     events_.event(Severity::kInfo, "stopped");
   }
 

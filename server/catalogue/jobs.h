@@ -140,7 +140,7 @@ class JobCatalogue {
   // Ends a job that nobody works on, at `now`; who has it learns of the wish when they renew. The
   // job as it is then. kState where there is none, or it has ended.
   virtual Expected<JobRecord> cancel(const JobId& id, std::int64_t now) = 0;
-  // Whatever the holder had is to be taken: they are dead.
+  // Whatever job the holder had is to be taken: they are dead.
   virtual Expected<void> drop_leases(const std::string& holder) = 0;
 
   // Has the scanner be the holder's, whose new epoch is the result; nothing where it is another's
@@ -151,6 +151,8 @@ class JobCatalogue {
   // kState where a later epoch has begun.
   virtual Expected<void> renew_scanner(const std::string& scanner, std::uint64_t epoch,
                                        std::chrono::milliseconds lease) = 0;
+  // Others may take what scanners the holder had.
+  virtual Expected<void> drop_scanners(const std::string& holder) = 0;
   virtual Expected<std::vector<ScannerDriver>> scanner_drivers() = 0;
 
   virtual Expected<std::optional<JobRecord>> find_job(const JobId& id) = 0;

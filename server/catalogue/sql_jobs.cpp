@@ -252,9 +252,6 @@ class SqlJobs final : public JobCatalogue {
       const Query rows(connection.prepare(
           "UPDATE job SET lease = 0 WHERE holder = ? AND lease != 0 RETURNING 1"));
       rows->bind(holder).any();
-      const Query scanners(
-          connection.prepare("UPDATE scanner SET lease = 0 WHERE holder = ? RETURNING 1"));
-      scanners->bind(holder).any();
       return {};
     });
   }
@@ -286,6 +283,15 @@ class SqlJobs final : public JobCatalogue {
       if (row->bind(scanner).bind(number(epoch)).bind(number(lease.count())).any()) return {};
       return fail(ErrorCode::kState,
                   fmt::format("another daemon drives scanner {} now; stop one of them", scanner));
+    });
+  }
+
+  Expected<void> drop_scanners(const std::string& holder) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query rows(
+          connection.prepare("UPDATE scanner SET lease = 0 WHERE holder = ? RETURNING 1"));
+      rows->bind(holder).any();
+      return {};
     });
   }
 

@@ -14,7 +14,6 @@ namespace {
 
 constexpr const char* kPassedOn = "Vitrine-Passed-On";
 constexpr std::size_t kMostBytes = 64 << 20;   // of a picture
-constexpr std::chrono::seconds kPatience{60};  // a turn of the table takes long
 constexpr std::chrono::seconds kToConnect{3};  // it is in the same building
 
 std::vector<std::string> fields_of(const Request& request) {
@@ -65,7 +64,8 @@ std::optional<std::string> elsewhere(const std::string& scanner, const Request& 
   return services.scans.address_of(scanner);
 }
 
-Response ask_elsewhere(const std::string& address, const Request& request, Services& services) {
+Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
+                       std::chrono::seconds patience) {
   if (address.empty()) return away(request.id);
   tl::expected<Seats::Seat, Seats::Refusal> seat;
   if (!request.caller) seat = services.elsewhere->take(network_of(request.visitor));
@@ -79,9 +79,9 @@ Response ask_elsewhere(const std::string& address, const Request& request, Servi
                                      request.query.empty() ? "" : "?", request.query),
                   .fields = fields_of(request),
                   .body = {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()},
-                  .patience = kPatience,
+                  .patience = patience,
                   .to_connect = kToConnect,
-                  .deadline = kPatience,
+                  .deadline = patience,
                   .take = [&](std::span<const std::uint8_t> bytes) {
                     body.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
                     return body.size() <= kMostBytes;

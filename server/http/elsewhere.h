@@ -2,6 +2,7 @@
 // What another daemon answers: the one that drives a scanner.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -15,9 +16,13 @@ namespace vitrine {
 std::optional<std::string> elsewhere(const std::string& scanner, const Request& request,
                                      Services& services);
 
+constexpr std::chrono::seconds kTurn{60};   // in which a table has turned, too
+constexpr std::chrono::seconds kGlance{5};  // for what is one of several parts of an answer
+
 // That daemon's answer to the request, which it checks itself: it gets the caller's token. 503
-// where there is none, or where too many strangers wait for one.
-Response ask_elsewhere(const std::string& address, const Request& request, Services& services);
+// where there is none in time, or where too many strangers wait for one.
+Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
+                       std::chrono::seconds patience = kTurn);
 
 bool is_passed_on(const Request& request);
 

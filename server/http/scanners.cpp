@@ -47,7 +47,7 @@ Response list_scanners(const Request& request, Services& services) {
   }
   if (is_passed_on(request)) return json_answer({{"scanners", std::move(list)}});
   for (const std::string& address : services.scans.addresses()) {
-    const auto others = ask_elsewhere(address, request, services);
+    const auto others = ask_elsewhere(address, request, services, kGlance);
     const auto* text = std::get_if<std::string>(&others.body);
     const auto json = nlohmann::ordered_json::parse(text != nullptr ? *text : "", nullptr,
                                                     /*allow_exceptions=*/false);

@@ -30,16 +30,18 @@ Response with_scan(const Request& request, Services& services, Answer&& answer) 
   return problem(404, "there is no such scan", request.id);
 }
 
-// As the daemon tells that drives its scanner, where it goes on elsewhere: only that one knows how
-// long it will take, and what it waits for.
+// As the daemon tells that drives its scanner, where it goes on elsewhere and that one answers:
+// only it knows how long the scan will take, and what it waits for.
 nlohmann::ordered_json told(const ScanInfo& scan, const Request& request, Services& services) {
   const auto known = scan_json(scan);
   if (has_ended(scan.job.record.state)) return known;
   const auto address = elsewhere(scan.entry.scanner, request, services);
   if (!address) return known;
   const std::string path = "/api/v1/scans/" + scan.entry.id.to_string();
-  const Request one{request.header, path, {}, {}, request.id, request.body, request.caller};
-  const auto answer = ask_elsewhere(*address, one, services);
+  Request one = request;
+  one.path = path;
+  one.query = {};
+  const auto answer = ask_elsewhere(*address, one, services, kGlance);
   const auto* const text = std::get_if<std::string>(&answer.body);
   const auto json = nlohmann::ordered_json::parse(text != nullptr ? *text : "", nullptr,
                                                   /*allow_exceptions=*/false);

@@ -230,10 +230,17 @@ TEST_F(Claims, a_scanner_is_driven_by_one_in_epochs_that_grow) {
   EXPECT_EQ(jobs_->renew_scanner("right", 1, 1h).error().code, ErrorCode::kState);
 }
 
+// A daemon that starts takes its scanners before it drops what jobs it had when it died.
+TEST_F(Claims, who_drops_its_jobs_keeps_its_scanners) {
+  ASSERT_TRUE(jobs_->take_scanner("left", {"first", 1h}, "").value());
+  ASSERT_TRUE(jobs_->drop_leases("first"));
+  EXPECT_EQ(jobs_->take_scanner("left", {"second", 1h}, "").value(), std::nullopt);
+}
+
 TEST_F(Claims, where_a_scanner_is_driven_is_known_and_whether_it_still_is) {
   ASSERT_TRUE(jobs_->take_scanner("left", {"first", 1h}, "http://a:1").value());
   ASSERT_TRUE(jobs_->take_scanner("right", {"second", 1h}, "").value());
-  ASSERT_TRUE(jobs_->drop_leases("second"));
+  ASSERT_TRUE(jobs_->drop_scanners("second"));
   const auto drivers = backend_->connect()->scanner_drivers().value();
   ASSERT_EQ(drivers.size(), 2u);
   EXPECT_EQ(drivers[0].scanner, "left");

@@ -102,6 +102,9 @@ TEST_F(PassedOn, a_list_of_scans_tells_what_their_driver_tells) {
   const auto list = json::parse(ask("GET", "/scans", operator_).body)["scans"];
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0]["steps"], 12);
+  ASSERT_TRUE(jobs_->take_scanner("rig", {"driver", 1h}, "http://127.0.0.1:1"));
+  claims_.beat();
+  EXPECT_EQ(json::parse(ask("GET", "/scans", operator_).body)["scans"][0]["title"], "Behind");
 }
 
 TEST_F(PassedOn, who_may_not_is_told_so_before) {
@@ -118,7 +121,7 @@ TEST_F(PassedOn, a_daemon_that_does_not_answer_is_503_and_when_to_come_back) {
 }
 
 TEST_F(PassedOn, for_a_daemon_whose_lease_is_over_nobody_waits) {
-  ASSERT_TRUE(jobs_->drop_leases("driver"));
+  ASSERT_TRUE(jobs_->drop_scanners("driver"));
   claims_.beat();
   const auto answer = ask("GET", "/scanners/rig", operator_);
   EXPECT_EQ(answer.status, 503);

@@ -47,7 +47,7 @@ TEST_F(Claimants, who_was_stopped_beyond_the_lease_commands_nothing_and_hears_wh
   const auto first = daemon("first", 1h), second = daemon("second", 1h);
   first->start({"left"});
   second->start({"left"});
-  ASSERT_TRUE(catalogue_->drop_leases("first"));  // as time does
+  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as time does
   second->beat();
   EXPECT_TRUE(second->check("left"));
   first->beat();
@@ -60,7 +60,7 @@ TEST_F(Claimants, nobody_waits_for_a_daemon_whose_lease_has_run_out) {
   first->start({"left"});
   second->beat();
   EXPECT_EQ(second->address_of("left"), "http://a:1");
-  ASSERT_TRUE(catalogue_->drop_leases("first"));  // as time does
+  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as time does
   second->beat();
   EXPECT_EQ(second->address_of("left"), "");
   EXPECT_TRUE(second->addresses().empty());
