@@ -72,7 +72,7 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   await desk.isFit("draft");
 
   await desk.press("Publish");
-  await page.locator("progressive-mesh").waitFor();
+  await page.getByRole("button", { name: "Withdraw from the gallery" }).waitFor(); // the page is drawn anew
   assert.deepEqual(await onDisplay(), ["Bust of Demosthenes"]);
   await page.getByLabel("Title").fill("Demosthenes");
   await page.getByLabel("Licence").fill("CC-BY-4.0");
@@ -91,7 +91,7 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   await page.getByText("Replace the file…").click();
   await desk.drop("small.obj", kTetrahedron);
   await desk.press("Replace");
-  await page.getByText("4 triangles").waitFor({ timeout: 60_000 });
+  await page.locator("dd").filter({ hasText: "4 triangles" }).waitFor({ timeout: 60_000 });
   assert.equal((await (await asked(`/models/${id}`)).json()).faces, 4);
 
   await page.reload();

@@ -112,11 +112,14 @@ TEST_F(ModelOrders, AnUploadThatAJobOfAnotherDaemonNeedsStays) {
   const std::string id = upload("no mesh");
   const JobRecord job = PublishJobs::job_for({.upload = ModelId::parse(id).value()});
   ASSERT_TRUE(server_.jobs().add(job, {}, {}));
+  auto held = server_.jobs().claim(job.id, {"another daemon", std::chrono::minutes(1)}).value();
+  ASSERT_TRUE(held);
   const auto remove = [&] {
     return ask("DELETE", "/uploads/" + id, operator_, nullptr, "Tus-Resumable: 1.0.0\r\n").status;
   };
   EXPECT_EQ(remove(), 409);
-  ASSERT_TRUE(server_.jobs().cancel(job.id, 1));
+  held->state = JobState::kCancelled;
+  ASSERT_TRUE(server_.jobs().update(*held));
   EXPECT_EQ(remove(), 204);
 }
 
