@@ -274,8 +274,8 @@ class Daemon {
         signals_.cancel();
         return drain();
       }
+      wait_for_reload();  // first, as what follows may throw
       signal == SIGHUP ? reload() : reopen_log(live_.get()->access_log);
-      wait_for_reload();
     });
   }
 
@@ -327,8 +327,8 @@ class Daemon {
     watchdog_.expires_after(*interval);
     watchdog_.async_wait([this](const boost::system::error_code& error) {
       if (error) return;
-      asio::post(workers_.executor(Place::kWorker, ""), [] { tell_alive(); });
       keep_watchdog();
+      asio::post(workers_.executor(Place::kWorker, ""), [] { tell_alive(); });
     });
   }
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the real daemon reads its configuration again, and what the service manager hears of it.
+// How the real daemon reads its configuration again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -21,7 +17,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using ::testing::StartsWith;
 
 class Reload : public ::testing::Test {
  protected:
@@ -120,57 +115,6 @@ TEST_F(Reload, ALogIsReopenedThoughTheConfigurationHasAFault) {
   reload();
   daemon->wait_for_line("access log opened anew");
   EXPECT_TRUE(std::filesystem::exists(served.path() / "access.log"));
-}
-
-// The socket that systemd would listen at.
-class ServiceManager {
- public:
-  explicit ServiceManager(const std::filesystem::path& path)
-      : socket_(::socket(AF_UNIX, SOCK_DGRAM, 0)) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    path.string().copy(address.sun_path, sizeof address.sun_path - 1);
-    const timeval patience{.tv_sec = 20, .tv_usec = 0};
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    if (::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-      throw std::runtime_error("cannot bind " + path.string());
-    ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
-    ::setenv("WATCHDOG_USEC", "400000", 1);
-  }
-  ~ServiceManager() {
-    ::close(socket_);
-    ::unsetenv("NOTIFY_SOCKET");
-    ::unsetenv("WATCHDOG_USEC");
-  }
-
-  // The next message; those of the watchdog only where they are waited for.
-  std::string hear(bool watchdog = false) const {
-    for (;;) {
-      char text[512];
-      const ssize_t length = ::recv(socket_, text, sizeof text, 0);
-      if (length <= 0) return "nothing";
-      std::string message(text, static_cast<std::size_t>(length));
-      if (watchdog == (message == "WATCHDOG=1")) return message;
-    }
-  }
-
- private:
-  int socket_;
-};
-
-TEST(ServiceManagerTest, HearsWhenItIsReadyReloadsLivesAndStops) {
-  const ServedFolder served;
-  const ServiceManager manager(served.path() / "notify");
-  Daemon daemon(served.path());
-  EXPECT_EQ(manager.hear(), "READY=1");
-  EXPECT_EQ(manager.hear(true), "WATCHDOG=1");
-  daemon.signal(SIGHUP);
-  EXPECT_THAT(manager.hear(), StartsWith("RELOADING=1\nMONOTONIC_USEC="));
-  EXPECT_EQ(manager.hear(), "READY=1");
-  EXPECT_EQ(manager.hear(true), "WATCHDOG=1");
-  daemon.signal(SIGTERM);
-  EXPECT_EQ(manager.hear(), "STOPPING=1");
-  EXPECT_EQ(daemon.wait().exit_code, 0);
 }
 
 }  // namespace
