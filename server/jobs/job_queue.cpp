@@ -243,8 +243,8 @@ Expected<void> JobQueue::post_command(const std::string& scanner, std::function<
   const std::scoped_lock lock(mutex_);
   if (stopping_) return stopping();
   const Run busy = run_of(scanner);
-  const bool is_aside = busy && busy->job().state == JobState::kPaused && !busy->is_at_work();
-  if (auto is_free = check_free(scanner); !is_free && !(beside_paused && is_aside)) return is_free;
+  const bool is_beside = beside_paused && busy && is_aside(*busy);
+  if (auto is_free = check_free(scanner); !is_free && !is_beside) return is_free;
   lane_of(scanner).post(std::move(command));
   return {};
 }
@@ -494,14 +494,21 @@ void JobQueue::renew_leases() {
   }
 }
 
-// Those of a scanner that this daemon has come to drive, too.
+bool JobQueue::is_aside(const JobRun& run) {
+  return run.job().state == JobState::kPaused && !run.is_at_work();
+}
+
+// Those of a scanner that this daemon has come to drive, too. A job is looked at again under the
+// lock: it may have gone on since, or ended.
 Expected<void> JobQueue::take_up_paused() {
   const auto paused = catalogue_.paused_jobs();
   if (!paused) return Unexpected(paused.error());
   const std::scoped_lock lock(mutex_);
   for (const JobRecord& job : *paused) {
     const bool is_new = !runs_.contains(job.id) && !unstored(job.id);
-    if (!stopping_ && is_new && taken_.has(job)) take_up(job, 0);
+    if (stopping_ || !is_new || !taken_.has(job)) continue;
+    const auto now = catalogue_.find_job(job.id);
+    if (now && *now && (*now)->state == JobState::kPaused) take_up(**now, 0);
   }
   return {};
 }
@@ -518,9 +525,6 @@ void JobQueue::look_for_jobs(std::uint32_t limit) {
 }
 
 void JobQueue::look_at_others() {
-  const auto is_aside = [](const JobRun& run) {
-    return run.job().state == JobState::kPaused && !run.is_at_work();
-  };
   std::vector<Run> others;
   {
     const std::scoped_lock lock(mutex_);
@@ -532,22 +536,29 @@ void JobQueue::look_at_others() {
       if (is_aside(*run)) others.push_back(run);
     }
   }
-  for (const Run& other : others) {
-    const auto job = catalogue_.find_job(other->job().id);
-    if (!job || !*job) continue;
-    const std::scoped_lock lock(mutex_);
-    const bool is_ended = has_ended((*job)->state);
-    if (!is_ended && runs_.contains((*job)->id)) {
-      if (!is_aside(*other) || taken_.has(**job)) continue;
+  for (const Run& other : others)
+    look_at(other);
+}
+
+void JobQueue::look_at(const Run& other) {
+  const auto job = catalogue_.find_job(other->job().id);
+  if (!job || !*job) return;
+  const std::scoped_lock lock(mutex_);
+  const JobId id = (*job)->id;
+  JobStatus now{**job, std::nullopt, {}};
+  if (has_ended((*job)->state)) {
+    others_.erase(id);
+    runs_.erase(id);
+  } else if (const auto own = runs_.find(id); own != runs_.end()) {
+    if (own->second != other) {
+      now = own->second->status();  // was watched as another's, and has been taken up here since
+    } else {
+      if (!is_aside(*other) || taken_.has(**job)) return;
       lose(other);  // another drives its scanner by now
     }
-    if (is_ended) {
-      others_.erase((*job)->id);
-      runs_.erase((*job)->id);
-    }
-    const std::scoped_lock inner(other->mutex_);
-    other->status_ = {**job, std::nullopt, {}};
   }
+  const std::scoped_lock inner(other->mutex_);
+  other->status_ = std::move(now);
 }
 
 void JobQueue::tell_ends() {

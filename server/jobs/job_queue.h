@@ -188,10 +188,12 @@ class JobQueue {
   void work(const Run& run);
   static JobState state_after(JobRun& run, const Expected<JobEnd>& result);
   void end(const Run& run, const Expected<JobEnd>& result);
+  static bool is_aside(const JobRun& run);  // paused, and its task has returned
   void renew_leases();
   Expected<void> take_up_paused();
   void look_for_jobs(std::uint32_t limit);
   void look_at_others();
+  void look_at(const Run& other);
   void tell_ends();
   // What the catalogue refuses, as it is away, is stored with the next beat. False where somebody
   // else has the job.

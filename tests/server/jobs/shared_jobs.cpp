@@ -146,6 +146,15 @@ TEST_F(SharedJobs, who_was_away_beyond_the_lease_stops_and_leaves_the_job_to_ano
   EXPECT_EQ(second_.told(), std::vector{JobState::kDone});
 }
 
+TEST_F(SharedJobs, who_watched_a_job_of_anothers_sees_it_go_on_where_it_is_taken_over) {
+  const JobRecord job = begun();
+  const auto watched = second_.queue().watch(job.id).value();
+  take_over();
+  second_.queue().beat();
+  EXPECT_EQ(watched->job().state, JobState::kRunning);
+  EXPECT_EQ(watched->job().attempts, 2u);
+}
+
 TEST_F(SharedJobs, an_end_that_comes_too_late_is_none) {
   const JobRecord job = begun();
   take_over();
@@ -237,6 +246,25 @@ TEST_F(SharedJobs, what_is_put_aside_goes_over_with_its_scanner) {
   ASSERT_TRUE(second->resume(job.id));
   second->lane("left").run([] {});
   EXPECT_EQ(stored(job), JobState::kDone);
+}
+
+TEST_F(SharedJobs, what_is_cancelled_while_it_is_taken_up_is_not_put_aside_again) {
+  const JobRecord job = scan_at("left");
+  {
+    JobQueue scans = scanning({.builds = false});
+    std::promise<void> go;
+    scans.lane("left").post([&] { go.get_future().wait(); });
+    ASSERT_TRUE(scans.add(job, {}, {}));
+    ASSERT_TRUE(scans.pause(job.id));
+    go.set_value();
+  }
+  JobQueue next = scanning({.drives = [&](const std::string&) {
+    front_.cancel(job.id);
+    return true;
+  }});
+  ASSERT_TRUE(next.start());
+  EXPECT_EQ(stored(job), JobState::kCancelled);
+  EXPECT_EQ(next.job_of("left"), std::nullopt);
 }
 
 TEST_F(SharedJobs, the_jobs_of_a_scanner_are_left_to_the_daemon_that_drives_it) {
