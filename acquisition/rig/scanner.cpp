@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 
 #include "acquisition/rig/noise.h"
 #include "acquisition/rig/table_file.h"
@@ -50,6 +52,10 @@ Expected<std::unique_ptr<Scanner>> Scanner::start(const ScannerOptions& options)
   const auto degrees = options.table.empty() ? 0 : read_table(options.table);
   if (!degrees) return Unexpected(degrees.error());
   std::unique_ptr<Scanner> scanner(new Scanner(options, *degrees));
+  if (!scanner->commands_) {
+    return fail(ErrorCode::kIo, fmt::format("cannot write {}: {}; choose another file",
+                                            options.commands.string(), std::strerror(errno)));
+  }
   auto camera = GigeCamera::plug_in(
       {options.camera_address, camera_serial(options.realism.seed)},
       [self = scanner.get()](const Exposure& exposure, const SensorRegion& region) {

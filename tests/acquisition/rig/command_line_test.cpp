@@ -133,6 +133,15 @@ TEST(RigCommandLine, TheConfigSaysWhereThingsAreAndNothingOfTheOptics) {
   EXPECT_EQ(json.size(), 10U);
 }
 
+TEST(RigCommandLine, AFileThatCannotBeWrittenIsNamed) {
+  for (const std::string option : {"--write-config", "--write-commands"}) {
+    const ProgramResult result = rig_with("true", {option, "/nowhere/file"});
+    EXPECT_EQ(result.exit_code, 1) << option;
+    EXPECT_THAT(result.errors, HasSubstr("cannot write /nowhere/file: No such file"));
+    EXPECT_EQ(lines(result.errors), 1) << result.errors;
+  }
+}
+
 TEST(RigCommandLine, AFileThatHoldsNoAngleOfATableIsNamed) {
   const TemporaryFolder folder;
   const auto table = folder.path() / "table";
