@@ -26,9 +26,11 @@
 #include "server/http/job_json.h"
 #include "server/http/routes.h"
 #include "server/http/services.h"
+#include "server/jobs/clock.h"
 #include "server/jobs/open_scanners.h"
 #include "server/jobs/place_of.h"
 #include "server/jobs/publish_jobs.h"
+#include "server/remote/remote_server.h"
 #include "server/store/installation.h"
 #include "server/transport/live_tls.h"
 
@@ -39,6 +41,7 @@ constexpr std::size_t kAdminConnections = 64;
 constexpr std::chrono::minutes kCollectEvery{10};
 constexpr std::chrono::milliseconds kStaleness{100};  // of what is known of models
 constexpr std::chrono::seconds kScannerLease{30};
+constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);  // who may be told later
 constexpr std::size_t kMaxExports = 64;  // each holds a decoded mesh while it runs
 
 Unexpected of_admin(const Error& error) {
@@ -150,6 +153,11 @@ class Daemon {
         watchdog_(control_) {}
 
   Expected<void> open() {
+    if (lock_.is_copy) {
+      events_.event(Severity::kWarning,
+                    "the data folder is a copy: this daemon is another than the one of the "
+                    "original, and waits until what that one held is free");
+    }
     if (live_.get()->roles.serve) {
       if (const auto kept = write_quota(live_.get()->data, live_.get()->quota_bytes); !kept)
         events_.event(Severity::kWarning, kept.error().message);
@@ -217,11 +225,22 @@ class Daemon {
 
   void tell_of(const JobStatus& job) {
     constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-    webhooks_.tell(job.record.webhook, job_json(job).dump(-1, ' ', false, kReplace),
-                   [this, id = job.record.id] {
-                     if (const auto kept = installation_.jobs->set_told(id); !kept)
-                       events_.event(Severity::kError, kept.error().message);
-                   });
+    const JobRecord& ended = job.record;
+    const auto told = [this, id = ended.id] {
+      if (const auto kept = installation_.jobs->set_told(id); !kept)
+        events_.event(Severity::kError, kept.error().message);
+    };
+    // Another daemon may have newer settings, for a while.
+    const bool is_old = now_in_milliseconds() - ended.ended > kUnwanted.count();
+    if (!webhooks_.allows(ended.webhook) && is_old) {
+      events_.event(Severity::kWarning,
+                    fmt::format("webhook {} is not told: webhook-hosts has it no more",
+                                origin_of(ended.webhook)));
+      return told();
+    }
+    webhooks_.tell(
+        ended.webhook, job_json(job).dump(-1, ' ', false, kReplace),
+        [this, id = ended.id] { return scans_.jobs().may_tell(id); }, told);
   }
 
   HttpOptions public_options() {

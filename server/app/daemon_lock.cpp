@@ -3,26 +3,49 @@
 
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
+#include <string_view>
+#include <utility>
 
+#include "codec/core/sha256.h"
+#include "codec/files/read_file.h"
 #include "server/catalogue/model_id.h"
 #include "server/store/installation.h"
 
 namespace vitrine {
 namespace {
 
-// What the file holds, or a new one that it holds from now on.
-Expected<std::string> id_in(const FileDescriptor& file) {
-  char text[64] = {};
+// The same for as long as the file stays where it is: a copy is another file, or on another
+// machine.
+std::string whereabouts(const FileDescriptor& file) {
+  struct stat status {};
+  ::fstat(file.get(), &status);
+  const auto machine = read_file("/etc/machine-id", 64);  // a container has none
+  std::string place = fmt::format("{} ", status.st_ino);
+  if (machine) place.append(machine->begin(), machine->end());
+  return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(place.data()), place.size()}));
+}
+
+// "ID PLACE" as the file has it; nothing where it is new.
+std::optional<std::pair<std::string, std::string>> kept_in(const FileDescriptor& file) {
+  char text[128] = {};
   const ssize_t length = ::pread(file.get(), text, sizeof text - 1, 0);
-  if (length > 0 && ModelId::parse({text, static_cast<std::size_t>(length)})) return text;
-  const std::string fresh = ModelId::generate().to_string();
-  const ssize_t written = ::pwrite(file.get(), fresh.data(), fresh.size(), 0);
-  if (written == static_cast<ssize_t>(fresh.size()) &&
-      ::ftruncate(file.get(), static_cast<off_t>(fresh.size())) == 0 && ::fsync(file.get()) == 0) {
-    return fresh;
+  const std::string_view all(text, static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
+  const auto id = all.substr(0, all.find(' '));
+  if (!ModelId::parse(id)) return std::nullopt;
+  return std::pair(std::string(id), std::string(all.substr(std::min(id.size() + 1, all.size()))));
+}
+
+Expected<void> keep(const FileDescriptor& file, const std::string& text) {
+  const ssize_t written = ::pwrite(file.get(), text.data(), text.size(), 0);
+  if (written == static_cast<ssize_t>(text.size()) &&
+      ::ftruncate(file.get(), static_cast<off_t>(text.size())) == 0 && ::fsync(file.get()) == 0) {
+    return {};
   }
   return fail(ErrorCode::kIo, std::strerror(errno));
 }
@@ -44,9 +67,15 @@ Expected<DataFolderLock> lock_data_folder(const std::filesystem::path& folder) {
                             "give this one a folder of its own",
                             folder.string()));
   }
-  auto id = id_in(file);
-  if (!id) return refused(id.error().message);
-  return DataFolderLock{std::move(file), std::move(*id)};
+  const auto kept = kept_in(file);
+  const std::string place = whereabouts(file);
+  if (kept && kept->second == place) return DataFolderLock{std::move(file), kept->first};
+  // One that an earlier version has made has no place yet.
+  const bool is_copy = kept && !kept->second.empty();
+  const std::string id = kept && !is_copy ? kept->first : ModelId::generate().to_string();
+  if (auto written = keep(file, id + ' ' + place); !written)
+    return refused(written.error().message);
+  return DataFolderLock{std::move(file), id, is_copy};
 }
 
 }  // namespace vitrine

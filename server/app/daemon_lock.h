@@ -12,7 +12,8 @@ namespace vitrine {
 
 struct DataFolderLock {
   FileDescriptor file;
-  std::string id;  // of the daemon of this folder: the same at its next start
+  std::string id;        // of the daemon of this folder: the same at its next start
+  bool is_copy = false;  // of another daemon's folder, whose id this one does not take
 };
 
 // Holds `folder`, which exists, for this process until the result is gone, however the process

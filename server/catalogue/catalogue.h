@@ -13,6 +13,7 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/sha256.h"
+#include "server/catalogue/jobs.h"
 #include "server/catalogue/model_id.h"
 
 namespace vitrine {
@@ -98,12 +99,6 @@ inline constexpr std::uint32_t kMaxPage = 200;
 struct ModelPage {
   std::vector<ModelRecord> models;  // newest first
   std::optional<ModelId> next;      // nothing on the last page
-};
-
-// The right of a job to change a model: until somebody else takes the job.
-struct JobClaim {
-  ModelId job;
-  std::uint64_t fence = 0;  // JobRecord::fence
 };
 
 // Safe to use from several threads at once, and by several processes on the same data. Errors are

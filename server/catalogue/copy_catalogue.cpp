@@ -27,7 +27,7 @@ constexpr Table kTables[] = {
      "webhook, attempts, told, fence"},
     {"scan", "id",
      "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
-     "created, empty_rows, saturated_rows, doubled_rows"},
+     "created, empty_rows, saturated_rows, doubled_rows, turn"},
     {"idempotency", "key", "key, request, job"},
     {"token", "id", "id, role, hash, label, created, revoked"}};
 

@@ -80,8 +80,17 @@ struct ScanEntry {
   std::optional<ModelId> model;
   std::int64_t created = 0;
   std::optional<ScannedRows> rows;  // nothing: not known yet
+  // Names what was measured, here and in the folder that holds it: what another daemon has left of
+  // the scan has another name, and is not to be gone on with. Empty: an earlier version began it.
+  std::string turn = {};
 
   bool operator==(const ScanEntry&) const = default;
+};
+
+// The right of a job to change a model or a scan: until somebody else takes the job.
+struct JobClaim {
+  JobId job;
+  std::uint64_t fence = 0;  // JobRecord::fence
 };
 
 // A request that is to have its effect once, however often it is sent.
@@ -124,16 +133,17 @@ class JobCatalogue {
                              const std::optional<OnceKey>& once) = 0;
 
   // Write over the record of that id. kState where there is none, or somebody has taken or ended
-  // the job since. Where it does not run afterwards, its lease ends.
+  // the job since, which for a scan is `by`. Where a job does not run afterwards, its lease ends.
   virtual Expected<void> update(const JobRecord& job) = 0;
-  virtual Expected<void> update(const ScanEntry& scan) = 0;
+  virtual Expected<void> update(const ScanEntry& scan, const JobClaim& by) = 0;
 
   // Takes the job, which runs from now on, with another fence. Nothing where it does not wait, and
   // no lease has run out: somebody else has it. That it is to be cancelled is still so.
   virtual Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) = 0;
-  // Of those kinds that are to be taken, the oldest; at most `limit`.
+  // Of those kinds that are to be taken, the oldest; at most `limit`. Those whose holder has let
+  // the lease run out are only of them where they are `overdue`, too.
   virtual Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
-                                                        std::uint32_t limit) = 0;
+                                                        std::uint32_t limit, bool overdue) = 0;
   // Has the lease begin anew and tells stage and progress. True: somebody wants the job ended.
   // kState where somebody else has taken or ended it: then it is to be left alone.
   virtual Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) = 0;
@@ -167,6 +177,8 @@ class JobCatalogue {
   virtual Expected<std::vector<JobRecord>> untold_jobs() = 0;
   // Of those, a few that nobody else is to tell meanwhile.
   virtual Expected<std::vector<JobRecord>> claim_untold(const Lease& lease) = 0;
+  // Has the lease on telling begin anew. kState where another is to tell it, or has.
+  virtual Expected<void> renew_untold(const JobId& id, const Lease& lease) = 0;
   // The webhook was told, or nobody tries any more. kState where there is no such job.
   virtual Expected<void> set_told(const JobId& id) = 0;
 

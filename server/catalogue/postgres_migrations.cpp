@@ -69,6 +69,9 @@ CREATE TABLE scanner (
   epoch BIGINT NOT NULL
 );
 )sql",
+    R"sql(
+ALTER TABLE scan ADD COLUMN turn TEXT NOT NULL DEFAULT '';
+)sql",
 };
 constexpr std::int64_t kSince = 1;
 constexpr const char* kOneAtATime = "SELECT pg_advisory_lock(7957706764961114213)";

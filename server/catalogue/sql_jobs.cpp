@@ -21,8 +21,7 @@ constexpr std::string_view kJobColumns =
     "webhook, attempts, fence";
 constexpr std::string_view kScanColumns =
     "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
-    "created, "
-    "empty_rows, saturated_rows, doubled_rows";
+    "created, empty_rows, saturated_rows, doubled_rows, turn";
 
 void bind_id(Statement& row, const std::optional<ModelId>& id) {
   if (id) {
@@ -56,10 +55,12 @@ Statement& bind_record(Statement& row, const ScanEntry& scan) {
   row.bind(number(scan.points)).bind(number(scan.calibration));
   bind_id(row, scan.model);
   row.bind(scan.created);
-  if (!scan.rows) return row.bind_null().bind_null().bind_null();
-  return row.bind_real(scan.rows->empty)
-      .bind_real(scan.rows->saturated)
-      .bind_real(scan.rows->doubled);
+  if (scan.rows) {
+    row.bind_real(scan.rows->empty).bind_real(scan.rows->saturated).bind_real(scan.rows->doubled);
+  } else {
+    row.bind_null().bind_null().bind_null();
+  }
+  return row.bind(scan.turn);
 }
 
 void read(const Statement& row, JobRecord& job) {
@@ -94,6 +95,7 @@ void read(const Statement& row, ScanEntry& scan) {
   scan.model = read_id(row, 10);
   scan.created = row.integer(11);
   if (!row.is_null(12)) scan.rows = {row.real(12), row.real(13), row.real(14)};
+  scan.turn = row.text(15);
 }
 
 // "a = ?1, b = ?2, …" of "a, b, …".
@@ -175,12 +177,23 @@ class SqlJobs final : public JobCatalogue {
   }
 
   Expected<void> update(const JobRecord& job) override {
-    return write("job",
-                 assignments(kJobColumns) + ", lease = CASE WHEN ?3 = 1 THEN lease ELSE 0 END",
-                 "AND fence = ?15", job);
+    return sql::guarded<void>(*database_, [&](Connection& connection) {
+      return write(connection, "job",
+                   assignments(kJobColumns) + ", lease = CASE WHEN ?3 = 1 THEN lease ELSE 0 END",
+                   "AND fence = ?15", job);
+    });
   }
-  Expected<void> update(const ScanEntry& scan) override {
-    return write("scan", assignments(kScanColumns), "", scan);
+  // Nobody takes the job before the transaction ends.
+  Expected<void> update(const ScanEntry& scan, const JobClaim& by) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      Transaction transaction(connection);
+      const Query held(connection.prepare(
+          "UPDATE job SET fence = fence WHERE id = ?1 AND fence = ?2 RETURNING 1"));
+      if (!held->bind(by.job.bytes()).bind(number(by.fence)).any()) return lost(by.job);
+      auto written = write(connection, "scan", assignments(kScanColumns), "", scan);
+      if (written) transaction.commit();
+      return written;
+    });
   }
 
   Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) override {
@@ -202,8 +215,8 @@ class SqlJobs final : public JobCatalogue {
     });
   }
 
-  Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
-                                                std::uint32_t limit) override {
+  Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds, std::uint32_t limit,
+                                                bool overdue) override {
     using Jobs = std::vector<JobRecord>;
     if (kinds.empty()) return Jobs();
     return sql::guarded<Jobs>(*database_, [&](Connection& connection) -> Expected<Jobs> {
@@ -212,7 +225,7 @@ class SqlJobs final : public JobCatalogue {
         places += ",?";
       const Query rows(connection.prepare(
           fmt::format("SELECT {} FROM job WHERE kind IN ({}) AND {} ORDER BY id LIMIT ?",
-                      kJobColumns, places, is_free(connection))));
+                      kJobColumns, places, overdue ? is_free(connection) : kLeft)));
       for (const JobKind kind : kinds)
         rows->bind(number(kind));
       return all<JobRecord>(rows->bind(number(limit)));
@@ -227,9 +240,7 @@ class SqlJobs final : public JobCatalogue {
                       connection.now())));
       row->bind(job.id.bytes()).bind(number(job.fence)).bind(number(lease.count()));
       if (row->bind(job.stage).bind_real(job.progress).step()) return row->integer(0) != 0;
-      return fail(ErrorCode::kState, fmt::format("somebody else has taken or ended job {}; it is "
-                                                 "left to them",
-                                                 job.id.to_string()));
+      return lost(job.id);
     });
   }
 
@@ -355,6 +366,17 @@ class SqlJobs final : public JobCatalogue {
     });
   }
 
+  Expected<void> renew_untold(const JobId& id, const Lease& lease) override {
+    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+      const Query row(connection.prepare(
+          fmt::format("UPDATE job SET lease = {} + ?3 WHERE id = ?1 AND holder = ?2 AND told != 1 "
+                      "RETURNING 1",
+                      connection.now())));
+      row->bind(id.bytes()).bind(lease.holder).bind(number(lease.time.count()));
+      return row->any() ? Expected<void>{} : lost(id);
+    });
+  }
+
   Expected<void> set_told(const JobId& id) override {
     return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
       const Query row(connection.prepare("UPDATE job SET told = 1 WHERE id = ? RETURNING 1"));
@@ -404,7 +426,9 @@ class SqlJobs final : public JobCatalogue {
   }
 
  private:
-  // Whether a job waits, or nobody works any more on one that runs.
+  // Whether a job waits, or its daemon has begun anew.
+  static constexpr const char* kLeft = "(state = 0 OR (state = 1 AND lease = 0))";
+  // The same, or nobody works any more on one that runs.
   static std::string is_free(const Connection& connection) {
     return fmt::format("(state = 0 OR (state = 1 AND lease < {}))", connection.now());
   }
@@ -419,16 +443,21 @@ class SqlJobs final : public JobCatalogue {
     });
   }
 
+  static Unexpected lost(const JobId& job) {
+    return fail(ErrorCode::kState,
+                fmt::format("somebody else has taken or ended job {}; it is left to them",
+                            job.to_string()));
+  }
+
   template <class Record>
-  Expected<void> write(std::string_view table, const std::string& changes,
-                       std::string_view condition, const Record& record) {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare(
-          fmt::format("UPDATE {} SET {} WHERE id = ?1 {} RETURNING 1", table, changes, condition)));
-      if (bind_record(*row, record).any()) return {};
-      return fail(ErrorCode::kState, fmt::format("there is no {} {} in that state; list them",
-                                                 table, record.id.to_string()));
-    });
+  static Expected<void> write(Connection& connection, std::string_view table,
+                              const std::string& changes, std::string_view condition,
+                              const Record& record) {
+    const Query row(connection.prepare(
+        fmt::format("UPDATE {} SET {} WHERE id = ?1 {} RETURNING 1", table, changes, condition)));
+    if (bind_record(*row, record).any()) return {};
+    return fail(ErrorCode::kState, fmt::format("there is no {} {} in that state; list them", table,
+                                               record.id.to_string()));
   }
 
   template <class Record>

@@ -94,6 +94,9 @@ CREATE TABLE scanner (
   epoch INTEGER NOT NULL
 ) WITHOUT ROWID;
 )sql",
+    R"sql(
+ALTER TABLE scan ADD COLUMN turn TEXT NOT NULL DEFAULT '';
+)sql",
 };
 constexpr std::int64_t kSince = 8;  // programs before that look at nothing but the version
 

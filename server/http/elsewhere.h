@@ -3,8 +3,11 @@
 #pragma once
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "server/http/router.h"
 #include "server/http/services.h"
@@ -16,13 +19,21 @@ namespace vitrine {
 std::optional<std::string> elsewhere(const std::string& scanner, const Request& request,
                                      Services& services);
 
-constexpr std::chrono::seconds kTurn{60};   // in which a table has turned, too
-constexpr std::chrono::seconds kGlance{5};  // for what is one of several parts of an answer
+constexpr std::chrono::seconds kTurn{60};  // in which a table has turned, too
 
 // That daemon's answer to the request, which it checks itself: it gets the caller's token. 503
 // where there is none in time, or where too many strangers wait for one.
 Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
                        std::chrono::seconds patience = kTurn);
+
+struct Question {
+  std::string address, path, query;
+};
+
+// What is one of several parts of an answer, from all of them at once, in the caller's name; null
+// where none comes in five seconds.
+std::vector<nlohmann::ordered_json> ask_all(std::span<const Question> questions,
+                                            const Request& request, Services& services);
 
 bool is_passed_on(const Request& request);
 

@@ -46,13 +46,12 @@ Response list_scanners(const Request& request, Services& services) {
     if (!elsewhere(scanner.name, request, services)) list.push_back(scanner_json(scanner));
   }
   if (is_passed_on(request)) return json_answer({{"scanners", std::move(list)}});
-  for (const std::string& address : services.scans.addresses()) {
-    const auto others = ask_elsewhere(address, request, services, kGlance);
-    const auto* text = std::get_if<std::string>(&others.body);
-    const auto json = nlohmann::ordered_json::parse(text != nullptr ? *text : "", nullptr,
-                                                    /*allow_exceptions=*/false);
-    if (others.status != 200 || !json.is_object() || !json.contains("scanners")) continue;
-    for (const auto& scanner : json["scanners"])
+  std::vector<Question> questions;
+  for (const std::string& address : services.scans.addresses())
+    questions.push_back({address, std::string(request.path), std::string(request.query)});
+  for (const auto& others : ask_all(questions, request, services)) {
+    if (others.is_null() || !others.contains("scanners")) continue;
+    for (const auto& scanner : others["scanners"])
       list.push_back(scanner);
   }
   return json_answer({{"scanners", std::move(list)}});

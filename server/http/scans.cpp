@@ -30,22 +30,26 @@ Response with_scan(const Request& request, Services& services, Answer&& answer) 
   return problem(404, "there is no such scan", request.id);
 }
 
-// As the daemon tells that drives its scanner, where it goes on elsewhere and that one answers:
-// only it knows how long the scan will take, and what it waits for.
-nlohmann::ordered_json told(const ScanInfo& scan, const Request& request, Services& services) {
-  const auto known = scan_json(scan);
-  if (has_ended(scan.job.record.state)) return known;
-  const auto address = elsewhere(scan.entry.scanner, request, services);
-  if (!address) return known;
-  const std::string path = "/api/v1/scans/" + scan.entry.id.to_string();
-  Request one = request;
-  one.path = path;
-  one.query = {};
-  const auto answer = ask_elsewhere(*address, one, services, kGlance);
-  const auto* const text = std::get_if<std::string>(&answer.body);
-  const auto json = nlohmann::ordered_json::parse(text != nullptr ? *text : "", nullptr,
-                                                  /*allow_exceptions=*/false);
-  return answer.status == 200 && json.is_object() ? json : known;
+// Each as the daemon tells that drives its scanner, where it goes on elsewhere and that one
+// answers: only it knows how long the scan will take, and what it waits for.
+nlohmann::ordered_json told(std::span<const ScanInfo> scans, const Request& request,
+                            Services& services) {
+  auto list = nlohmann::ordered_json::array();
+  std::vector<Question> questions;
+  std::vector<std::size_t> asked;  // which of the list
+  for (const ScanInfo& scan : scans) {
+    list.push_back(scan_json(scan));
+    if (has_ended(scan.job.record.state)) continue;
+    const auto address = elsewhere(scan.entry.scanner, request, services);
+    if (!address) continue;
+    asked.push_back(list.size() - 1);
+    questions.push_back({*address, "/api/v1/scans/" + scan.entry.id.to_string(), ""});
+  }
+  auto answers = ask_all(questions, request, services);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!answers[i].is_null()) list[asked[i]] = std::move(answers[i]);
+  }
+  return list;
 }
 
 Response started(const ScanStarted& scan) {
@@ -107,10 +111,7 @@ Response list_scans(const Request& request, Services& services) {
   if (!page) return page.error();
   const auto scans = services.scans.list(*page);
   if (!scans) return internal_error(scans.error(), request, services);
-  auto list = nlohmann::ordered_json::array();
-  for (const ScanInfo& scan : *scans)
-    list.push_back(told(scan, request, services));
-  nlohmann::ordered_json json = {{"scans", std::move(list)}, {"next", nullptr}};
+  nlohmann::ordered_json json = {{"scans", told(*scans, request, services)}, {"next", nullptr}};
   if (scans->size() == page->limit) json["next"] = scans->back().entry.id.to_string();
   return json_answer(json);
 }

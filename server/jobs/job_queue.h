@@ -55,6 +55,8 @@ class JobRun {
   void report(std::string_view stage, double progress, std::optional<double> eta = {},
               std::string_view note = {});
   void made(const ModelId& model);
+  // What was done so far is to be done again.
+  void begin_anew();
 
   // Tells what somebody is to do, and waits as a paused job until it is resumed; false where a wish
   // comes instead. A daemon that ends leaves the job paused: its task starts anew.
@@ -117,8 +119,12 @@ class JobQueue {
   ~JobQueue() { stop(); }
 
   // Has `told` called with every job that has ended and has a webhook, by one of all daemons, once
-  // unless that one dies meanwhile: for who comes before start().
+  // unless that one dies meanwhile: for who comes before start(). Of what is not told within ten
+  // minutes, somebody's is called again.
   void when_ended(std::function<void(const JobStatus&)> told) { ended_ = std::move(told); }
+  // To be asked when it comes to telling, which may be that while later: false where another has
+  // told it meanwhile.
+  bool may_tell(const JobId& id);
 
   // Takes up what an earlier daemon left: what was paused stays paused, all else goes on, but for
   // what three daemons have died at: that has failed. From then on there is a beat() twice a
@@ -211,6 +217,8 @@ class JobQueue {
   std::map<JobId, Run> runs_;                      // the unfinished ones
   std::map<JobId, std::weak_ptr<JobRun>> others_;  // that somebody watches here
   std::vector<Run> again_;  // that could not be taken: the catalogue was away
+  // When leases that have run out are believed: while the catalogue is away nobody can renew one.
+  std::chrono::steady_clock::time_point believes_from_{};
   std::map<std::string, std::unique_ptr<Lane>> lanes_;
   bool stopping_ = false;
 

@@ -14,6 +14,7 @@
 #include "server/jobs/build_child.h"
 #include "server/jobs/clock.h"
 #include "server/jobs/patience.h"
+#include "server/jobs/turn.h"
 
 namespace vitrine {
 namespace {
@@ -67,6 +68,10 @@ Expected<void> check_calibrated(ScannerBackend& scanner) {
                                              scanner.name()));
 }
 
+JobClaim claim_of(const JobRecord& job) {
+  return {job.id, job.fence};
+}
+
 // One that an earlier version has left has no parameters.
 CalibrationOrder calibration_order(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
@@ -110,7 +115,7 @@ class ScanService::Listener final : public ScanListener {
   bool is_interrupted() const override { return run_.wish() != JobWish::kNone; }
   bool is_cancelled() const override { return run_.wish() == JobWish::kCancel; }
 
-  void keep() { service_.keep(entry_); }
+  void keep() { service_.keep(entry_, run_.job()); }
 
  private:
   ScanService& service_;
@@ -160,6 +165,7 @@ void ScanService::recall(JobRecord job) {
   ScannerStation* station = scanner(job.scanner);
   auto entry = means_.jobs.find_scan(*job.scan);
   if (station == nullptr || !entry || !*entry) return;
+  if (!holds_turn(folder_of(*job.scan), (*entry)->turn)) return;
   const auto view = station->backend().view(folder_of(*job.scan));
   if (!view || *view == nullptr) return;
   const ScanTold told = (*view)->told();
@@ -167,7 +173,7 @@ void ScanService::recall(JobRecord job) {
   (*entry)->points = (*view)->points();
   if (told.calibration > 0) (*entry)->calibration = told.calibration;
   if (told.rows) (*entry)->rows = told.rows;
-  keep(**entry);
+  keep(**entry, job);
   job.progress = std::max(job.progress, kMeshed * told.progress);
   if (auto kept = means_.jobs.update(job); !kept)
     means_.events.event(Severity::kError, kept.error().message);
@@ -259,6 +265,7 @@ Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOr
   if (auto unused = check_unused(scan); !unused) return Unexpected(unused.error());
   if (scan.step == 0)
     return fail(ErrorCode::kState, "the scan has no steps to make a model of; resume it first");
+  if (auto here = check_turn(scan); !here) return Unexpected(here.error());
   const auto ordered = order_of(scan);
   if (!ordered) return Unexpected(ordered.error());
   ScanOrder whole = order;
@@ -351,19 +358,41 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   }
   ScannerStation* station = scanner(scan.scanner);
   if (station == nullptr || scan.step == 0) return nullptr;
-  const std::filesystem::path folder = folder_of(scan.id);
-  std::error_code unknown;
-  if (!std::filesystem::exists(folder, unknown)) {
-    return fail(ErrorCode::kState, fmt::format("the folder scans/{} of the data is gone; restore "
-                                               "it from a backup, or scan again",
-                                               scan.id.to_string()));
-  }
-  auto view = station->backend().view(folder);
+  if (auto here = check_turn(scan); !here) return Unexpected(here.error());
+  auto view = station->backend().view(folder_of(scan.id));
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
   if (views_.size() >= kViews) views_.erase(views_.begin());
   views_[scan.id] = *view;
   return view;
+}
+
+Expected<void> ScanService::check_turn(const ScanEntry& scan) const {
+  if (holds_turn(folder_of(scan.id), scan.turn)) return {};
+  return fail(ErrorCode::kState,
+              fmt::format("the folder scans/{} of the data is gone, or another daemon has measured "
+                          "the scan into its own; have that one drive the scanner, restore the "
+                          "folder from a backup, or scan again",
+                          scan.id.to_string()));
+}
+
+// Has what is measured from now on be the scan's. What is not here another daemon has measured,
+// and has turned the table since.
+Expected<void> ScanService::settle_turn(JobRun& run, ScanEntry& scan) {
+  const std::filesystem::path folder = folder_of(scan.id);
+  if (holds_turn(folder, scan.turn)) return {};
+  if (scan.step > 0) {
+    means_.events.event(Severity::kWarning,
+                        fmt::format("scan {} begins anew: another daemon has measured its {} steps",
+                                    scan.id.to_string(), scan.step));
+  }
+  scan.turn = ModelId::generate().to_string();
+  scan.step = 0;
+  scan.points = 0;
+  scan.rows.reset();
+  run.begin_anew();
+  const auto kept = patiently(run, [&] { return means_.jobs.update(scan, claim_of(run.job())); });
+  return kept ? begin_turn(folder, scan.turn) : kept;
 }
 
 std::filesystem::path ScanService::folder_of(const ScanId& id) const {
@@ -375,8 +404,8 @@ std::uint64_t ScanService::stops_of(const std::string& name) {
   return station == nullptr ? 0 : station->backend().stops();
 }
 
-void ScanService::keep(const ScanEntry& entry) {
-  const auto kept = means_.jobs.update(entry);
+void ScanService::keep(const ScanEntry& entry, const JobRecord& by) {
+  const auto kept = means_.jobs.update(entry, claim_of(by));
   if (!kept) means_.events.event(Severity::kError, kept.error().message);
 }
 
@@ -397,12 +426,13 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
 }
 
 Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
-  const auto entry =
+  auto entry =
       patiently(run, [&] { return means_.jobs.find_scan(run.job().scan.value_or(ScanId())); });
   if (!entry) return Unexpected(entry.error());
   if (!*entry) return fail(ErrorCode::kState, "the scan is not in the catalogue; scan again");
   const auto order = stored_order((*entry)->parameters);
   if (!order) return Unexpected(order.error());
+  if (auto settled = settle_turn(run, **entry); !settled) return Unexpected(settled.error());
   Expected<std::optional<TriangleMesh>> mesh;
   {
     Listener listener(*this, run, **entry);
@@ -464,11 +494,9 @@ Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
   if (!pmesh) return Unexpected(pmesh.error());
   const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
   const auto model = patiently(run, [&] {
-    return publish(means_.store, means_.catalogue, *pmesh, order.metadata,
-                   {.state = state,
-                    .id = run.job().id,
-                    .quota = means_.quota,
-                    .by = JobClaim{run.job().id, run.job().fence}});
+    return publish(
+        means_.store, means_.catalogue, *pmesh, order.metadata,
+        {.state = state, .id = run.job().id, .quota = means_.quota, .by = claim_of(run.job())});
   });
   if (!model) return Unexpected(model.error());
   run.made(model->id);
@@ -492,7 +520,7 @@ Expected<void> ScanService::show(const JobRun& run, const ScanOrder& order, cons
     if (*before && (*before)->state == ModelState::kPublished) return {};
   }
   shown = model;
-  return means_.jobs.update(**entry);
+  return means_.jobs.update(**entry, claim_of(run.job()));
 }
 
 }  // namespace vitrine

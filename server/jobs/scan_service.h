@@ -96,6 +96,8 @@ class ScanService {
 
   Expected<JobEnd> work(JobRun& run);
   Expected<JobEnd> work_on_scan(JobRun& run, ScannerStation& station);
+  Expected<void> settle_turn(JobRun& run, ScanEntry& scan);
+  Expected<void> check_turn(const ScanEntry& scan) const;
   Expected<JobEnd> reprocess(JobRun& run, ScannerStation& station);
   Expected<JobEnd> calibrate(JobRun& run, ScannerStation& station);
   Expected<JobEnd> make_model(JobRun& run, const ScanOrder& order, const TriangleMesh& mesh);
@@ -103,7 +105,7 @@ class ScanService {
   std::filesystem::path folder_of(const ScanId& id) const;
   std::uint64_t stops_of(const std::string& name);  // of that scanner so far
   Expected<ScanInfo> with_job(ScanEntry entry);
-  void keep(const ScanEntry& entry);
+  void keep(const ScanEntry& entry, const JobRecord& by);
   Expected<void> recall();
   void recall(JobRecord job);
   Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);

@@ -48,9 +48,21 @@ void ScannerClaims::beat() {
       const std::scoped_lock lock(mutex_);
       if (const auto found = held_.find(name); found != held_.end()) held = found->second;
     }
-    held ? renew(name, *held) : take(name);
+    if (held) {
+      renew(name, *held);
+    } else if (may_take(name)) {
+      take(name);
+    }
   }
   look_at_others();
+}
+
+// Who drives it and could not reach the catalogue either has the time of a lease to come back.
+bool ScannerClaims::may_take(const std::string& scanner) const {
+  const std::scoped_lock lock(mutex_);
+  const auto driver = std::ranges::find(drivers_, scanner, &ScannerDriver::scanner);
+  const bool is_anothers = driver != drivers_.end() && driver->holder != lease_.holder;
+  return !is_anothers || now() >= believes_from_;
 }
 
 // The lease is counted from before the catalogue was asked.
@@ -74,9 +86,12 @@ void ScannerClaims::renew(const std::string& scanner, const Held& held) {
 
 void ScannerClaims::look_at_others() {
   auto drivers = catalogue_.scanner_drivers();
-  if (!drivers) return;
   const std::scoped_lock lock(mutex_);
-  drivers_ = std::move(*drivers);
+  if (drivers) {
+    drivers_ = std::move(*drivers);
+  } else {
+    believes_from_ = now() + lease_.time;
+  }
 }
 
 Expected<void> ScannerClaims::check(const std::string& scanner) const {

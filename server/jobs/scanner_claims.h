@@ -46,6 +46,7 @@ class ScannerClaims {
     Clock until{};  // by this machine's clock, a little before the catalogue thinks so
   };
   static Clock now();
+  bool may_take(const std::string& scanner) const;
   void take(const std::string& scanner);
   void renew(const std::string& scanner, const Held& held);
   void look_at_others();
@@ -60,6 +61,9 @@ class ScannerClaims {
   std::vector<std::string> names_;
   std::map<std::string, Held> held_;
   std::vector<ScannerDriver> drivers_;  // as last seen
+  // When others' leases that have run out are believed: while the catalogue is away nobody can
+  // renew one.
+  Clock believes_from_{};
 
   std::optional<Heart> heart_;
 };

@@ -22,13 +22,15 @@ bool Webhooks::allows(std::string_view url) const {
   return std::ranges::find(hosts_, host) != hosts_.end();
 }
 
-void Webhooks::tell(const std::string& url, const std::string& json, std::function<void()> done) {
+void Webhooks::tell(const std::string& url, const std::string& json, std::function<bool()> may,
+                    std::function<void()> done) {
   if (!allows(url)) return;
   const std::scoped_lock lock(mutex_);
-  if (stopping_) return;
+  if (stopping_ || !waiting_.emplace(url, json).second) return;
   auto& lane = lanes_[origin_of(url)];
   if (!lane) lane = std::make_unique<Lane>();
-  lane->post([this, message = Message{url, json, std::move(done)}] { deliver(message); });
+  lane->post(
+      [this, message = Message{url, json, std::move(may), std::move(done)}] { deliver(message); });
 }
 
 void Webhooks::stop() {
@@ -51,6 +53,12 @@ bool Webhooks::pause(int tries) {
 }
 
 void Webhooks::deliver(const Message& message) {
+  if (!stopping_ && message.may()) post(message);
+  const std::scoped_lock lock(mutex_);
+  waiting_.erase({message.url, message.json});
+}
+
+void Webhooks::post(const Message& message) {
   const std::string origin = origin_of(message.url);
   RemoteServer server;
   std::string fault;

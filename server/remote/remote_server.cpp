@@ -196,6 +196,7 @@ struct RemoteServer::Handle {
     curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
     curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, fault);
     curl_easy_setopt(curl, CURLOPT_CERTINFO, 1L);
+    if (request.direct) curl_easy_setopt(curl, CURLOPT_PROXY, "");
     if (const char* const trusted = std::getenv("SSL_CERT_FILE"))
       curl_easy_setopt(curl, CURLOPT_CAINFO, trusted);
   }

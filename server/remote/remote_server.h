@@ -34,6 +34,7 @@ struct RemoteRequest {
   std::chrono::seconds deadline{0};                     // for all of it; 0: none
   std::function<bool()> given_up = {};                  // asked about once a second: true ends it
   const RemoteSigner* signer = nullptr;                 // null: the request is not signed
+  bool direct = false;  // by no proxy, whatever the environment says
   // Gets the body of an answer 2xx, which RemoteAnswer does not hold then; false ends it.
   std::function<bool(std::span<const std::uint8_t>)> take = {};
 };

@@ -11,7 +11,8 @@ import { startRigs } from "./rigs.mjs";
 import { env } from "../e2e/daemon.mjs";
 import { Nginx, freePort } from "../e2e/nginx.mjs";
 import { Gateway, Postgres } from "./backends.mjs";
-import { Replica } from "./replica.mjs";
+import { Replica, kRestart } from "./replica.mjs";
+import { note } from "./timeline.mjs";
 import { Visitor } from "./visitor.mjs";
 
 const kRoles = ["serve", "serve", "serve", "build", "build", "serve,scan", "serve,scan"];
@@ -92,6 +93,12 @@ trusted-proxies = 127.0.0.1
   /** Who works on a job just now. */
   builder() {
     return this.#heldBy("build", "SELECT holder FROM job WHERE state = 1 AND kind = 3");
+  }
+
+  /** As systemd would have it. */
+  async nginxCrashes() {
+    note("SIGKILL to nginx");
+    await this.nginx.crash(kRestart);
   }
 
   /** Who drives the scanner. */

@@ -56,7 +56,8 @@ before(async () => {
   expected = await Promise.all(meshes.map(build));
   curator = new Curator(cluster.visitor, meshes);
   passerby = new Passerby(cluster.visitor, random);
-  technician = new Technician(cluster.having("serve"), cluster.visitor.token);
+  technician = new Technician(cluster.having("serve"), cluster.visitor);
+  await technician.calibrate();
   const working = [curator.work(), passerby.stroll(), technician.work()];
   const id = await firstModel();
   const { body: manifest } = await cluster.visitor.json("GET", `/models/${id}/manifest`);
@@ -94,10 +95,11 @@ function assertSeen(from) {
 }
 
 async function serversDie() {
-  for (const replica of cluster.having("serve").sort(() => random() - 0.5)) {
+  const crashes = [() => cluster.nginxCrashes(), ...cluster.having("serve").map((replica) => () => replica.crash())];
+  for (const crash of crashes.sort(() => random() - 0.5)) {
     await pause(1_000 * random());
     const from = performance.now();
-    await replica.crash();
+    await crash();
     await pause(kLongestGap + 1_000);
     assertSeen(from);
   }
@@ -119,26 +121,33 @@ async function buildersDieAndSleep() {
   await jobsEnd();
 }
 
+/** In the middle of a scan: who dies goes on with it at its step, and who sleeps leaves it to another, who begins it anew. */
 async function driversDieAndSleep() {
   await technician.turned(1);
-  await (await cluster.driver()).crash();
-  await technician.turned(1);
+  const scan = await technician.scan();
+  await technician.measured(scan, 5);
   const sleeper = await cluster.driver();
+  await sleeper.crash();
+  await technician.measured(scan, 10);
   sleeper.signal("SIGSTOP");
-  while ((await cluster.driver()) === sleeper) await pause(500);
-  await technician.turned(2);
+  const anew = ({ log }) => log.includes(`scan ${scan.id} begins anew`);
+  while (!cluster.having("scan").some(anew)) await pause(500);
   sleeper.signal("SIGCONT");
+  await technician.scanned(scan);
+  const other = await cluster.driver();
+  assert.ok(other !== sleeper && anew(other) && !anew(sleeper), "who has begun the scan anew");
   await technician.turned(5);
 }
 
-/** The cluster without one of its engines for a while, in which somebody dies, too. */
+/** The cluster without one of its engines, which has died, for a while in which somebody else dies, too. */
 async function without(engine) {
   note("an engine is away");
   const from = performance.now();
-  await engine.ask("stop");
+  await engine.ask("kill");
   const dies = random() * kAway, victim = oneOf(cluster.replicas);
   await pause(dies);
   const dying = victim.crash();
+  if (engine !== cluster.postgres) await cluster.postgres.ask("kill-backend");
   await pause(kAway - dies);
   await engine.ask("start");
   note("the engine is back");
@@ -149,10 +158,10 @@ async function without(engine) {
 }
 
 for (let round = 0; round < rounds; ++round) {
-  step("those that serve, build and scan die or sleep beyond their leases: others go on", () =>
+  step("nginx and those that serve, build and scan die or sleep beyond their leases: others go on", () =>
     Promise.all([serversDie(), buildersDieAndSleep(), driversDieAndSleep()]));
-  step("PostgreSQL is away", () => without(cluster.postgres));
-  step("the store is away", () => without(cluster.gateway));
+  step("PostgreSQL is dead for a while", () => without(cluster.postgres));
+  step("the store is dead for a while, in which PostgreSQL loses a process", () => without(cluster.gateway));
 }
 
 step("what everybody does ends", async () => {
@@ -169,11 +178,11 @@ step("viewers had what is true, and nobody a half model", () => {
 });
 
 step("every job has ended in one model, once", async () => {
-  assert.deepEqual(invariants.unfinished(curator.orders), []);
+  assert.deepEqual(invariants.unfinished([...curator.orders, ...technician.scans]), []);
   assert.deepEqual(invariants.doneTwice((await cluster.postgres.query("SELECT job FROM done")).flat()), []);
   assert.deepEqual(invariants.differentResults(await cluster.postgres.query("SELECT model, file FROM published")), []);
   const { body: { models } } = await cluster.visitor.json("GET", "/models?limit=200");
-  assert.deepEqual(invariants.unordered(models.map(({ id }) => id), curator.orders, curator.deleted), []);
+  assert.deepEqual(invariants.unordered(models.map(({ id }) => id), [...curator.orders, ...technician.scans], curator.deleted), []);
 });
 
 step("every model is what a build by itself makes, bit for bit; nothing that lives was collected", async () => {
@@ -182,10 +191,13 @@ step("every model is what a build by itself makes, bit for bit; nothing that liv
   const [cold] = cluster.having("serve");
   await cold.crash(); // what it has fetched is gone with it
   const models = [];
-  for (const { model, mesh } of curator.orders.filter(({ model }) => !curator.deleted.has(model))) {
+  const served = async (model, expected) => {
     const answer = await fetch(`${cold.url}/api/v1/models/${model}/file.pmesh`);
-    models.push({ id: model, sha256: answer.ok ? sha256(Buffer.from(await answer.arrayBuffer())) : undefined, expected: expected[mesh] });
-  }
+    models.push({ id: model, sha256: answer.ok ? sha256(Buffer.from(await answer.arrayBuffer())) : undefined, expected });
+  };
+  for (const { model, mesh } of curator.orders.filter(({ model }) => !curator.deleted.has(model))) await served(model, expected[mesh]);
+  const scanned = (await cluster.postgres.query("SELECT encode(m.file, 'hex') FROM scan s JOIN model m ON m.id = s.model ORDER BY s.created")).flat();
+  for (const [i, { model }] of technician.scans.entries()) await served(model, scanned[i]);
   assert.deepEqual(invariants.otherFiles(models), []);
 });
 

@@ -6,6 +6,8 @@ import { setTimeout as pause } from "node:timers/promises";
 import { Daemon } from "../e2e/daemon.mjs";
 import { note } from "./timeline.mjs";
 
+export const kRestart = 100; // ms until what has died is started anew
+
 export class Replica extends Daemon {
   /** In `folder`; `options` are words of its command line, `variables` more of its environment. */
   constructor(name, bin, folder, port, options, variables) {
@@ -19,7 +21,7 @@ export class Replica extends Daemon {
     this.spawn(`127.0.0.1:${this.port}`, join(this.folder, "port"));
     this.exit.then(async (code) => {
       note(`${this.name} has ended with ${code}`);
-      await pause(100);
+      await pause(kRestart);
       if (!this.ending) this.begin();
     });
   }
@@ -52,7 +54,7 @@ export class Replica extends Daemon {
 
   /** Whose leases in the catalogue are its own. */
   async holder() {
-    return (await readFile(join(this.data, "daemon.lock"), "utf8")).trim();
+    return (await readFile(join(this.data, "daemon.lock"), "utf8")).split(" ")[0];
   }
 
   async end() {

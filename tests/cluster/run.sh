@@ -3,8 +3,10 @@
 # run.sh BINARIES: the cluster's test, on a loopback of its own and beside a simulated scanner.
 set -euo pipefail
 VITRINE_BIN=$(realpath "$1")
+cd "$(dirname "$0")"
 VITRINE_RIG=$(mktemp -d)
-export VITRINE_BIN VITRINE_RIG
+VITRINE_OBJECT=$(realpath ../models/demosthenes.obj)
+export VITRINE_BIN VITRINE_RIG VITRINE_OBJECT
 trap 'rm -rf "$VITRINE_RIG"' EXIT
-"$VITRINE_BIN/vitrine-rig" --empty --private-network --write-config "$VITRINE_RIG/first.json" \
-  --write-commands "$VITRINE_RIG/first.commands" -- node --test "$(dirname "$0")/cluster.test.mjs"
+"$VITRINE_BIN/vitrine-rig" --mesh "$VITRINE_OBJECT" --private-network --write-config "$VITRINE_RIG/first.json" \
+  --write-commands "$VITRINE_RIG/first.commands" -- node --test cluster.test.mjs

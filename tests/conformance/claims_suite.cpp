@@ -42,7 +42,7 @@ class Claims : public testing::Test {
     return claimed.value_or(JobRecord());
   }
   bool is_waiting(std::uint8_t value) {
-    const auto waiting = jobs_->waiting_jobs(kBuilds, 100).value();
+    const auto waiting = jobs_->waiting_jobs(kBuilds, 100, true).value();
     return std::ranges::find(waiting, id_of(value), &JobRecord::id) != waiting.end();
   }
 };
@@ -123,6 +123,32 @@ TEST_F(Claims, a_lease_that_is_renewed_goes_on_and_tells_how_far_the_job_is) {
   EXPECT_EQ(backend_->connect()->find_job(id_of(1)).value(), mine);
 }
 
+TEST_F(Claims, what_is_overdue_can_be_left_out) {
+  for (const std::uint8_t value : std::array<std::uint8_t, 3>{1, 2, 3})
+    add(build_job(value));
+  claim(2, {"dead", 1h});
+  ASSERT_TRUE(jobs_->drop_leases("dead"));
+  claim(3, kOver);
+  const auto left = jobs_->waiting_jobs(kBuilds, 100, false).value();
+  ASSERT_EQ(left.size(), 2u);
+  EXPECT_EQ(left[0].id, id_of(1));
+  EXPECT_EQ(left[1].id, id_of(2));
+}
+
+TEST_F(Claims, a_scan_is_told_of_by_who_has_its_job_alone) {
+  JobRecord job = build_job(1);
+  job.kind = JobKind::kScan;
+  ScanEntry scan{.id = id_of(7), .job = job.id, .scanner = "rig", .steps = 10, .turn = "first"};
+  ASSERT_TRUE(jobs_->add(job, scan, {}));
+  const JobRecord late = claim(1, kOver), next = claim(1, kLong);
+  scan.turn = "second";
+  ASSERT_TRUE(jobs_->update(scan, {next.id, next.fence}));
+  ScanEntry stale = scan;
+  stale.turn = "first";
+  EXPECT_EQ(jobs_->update(stale, {late.id, late.fence}).error().code, ErrorCode::kState);
+  EXPECT_EQ(jobs_->find_scan(scan.id).value(), scan);
+}
+
 TEST_F(Claims, a_job_that_is_put_back_waits_at_once) {
   add(build_job(1));
   JobRecord mine = claim(1, kLong);
@@ -191,7 +217,7 @@ TEST_F(Claims, the_oldest_that_wait_come_first_and_of_the_wanted_kinds_alone) {
   add(scan);
   const auto ids = [&](std::span<const JobKind> kinds, std::uint32_t limit) {
     std::vector<JobId> found;
-    const auto waiting = jobs_->waiting_jobs(kinds, limit).value();
+    const auto waiting = jobs_->waiting_jobs(kinds, limit, true).value();
     for (const JobRecord& one : waiting)
       found.push_back(one.id);
     return found;
@@ -215,7 +241,11 @@ TEST_F(Claims, an_end_is_told_by_one_and_by_another_once_that_one_is_dead) {
   ASSERT_TRUE(jobs_->drop_leases("teller"));
   EXPECT_EQ(jobs_->claim_untold(kOver).value(), std::vector{ended});
   EXPECT_EQ(jobs_->claim_untold(kOver).value(), std::vector{ended});
+  EXPECT_EQ(jobs_->renew_untold(id_of(1), {"teller", 1h}).error().code, ErrorCode::kState);
+  EXPECT_TRUE(jobs_->renew_untold(id_of(1), {kOver.holder, 1h}));
+  EXPECT_TRUE(jobs_->claim_untold(kOver).value().empty());
   ASSERT_TRUE(jobs_->set_told(id_of(1)));
+  EXPECT_FALSE(jobs_->renew_untold(id_of(1), {kOver.holder, 1h}));
   EXPECT_TRUE(jobs_->claim_untold(kOver).value().empty());
 }
 

@@ -75,8 +75,9 @@ TEST_F(JobsSuite, an_update_writes_over_the_whole_record) {
   grown.step = 700;
   grown.model = std::nullopt;
   grown.rows = std::nullopt;
+  grown.turn = "another";
   ASSERT_TRUE(jobs_->update(changed));
-  ASSERT_TRUE(jobs_->update(grown));
+  ASSERT_TRUE(jobs_->update(grown, {id_of(1), 0}));
   EXPECT_EQ(jobs_->find_job(id_of(1)).value(), changed);
   EXPECT_EQ(jobs_->find_scan(id_of(100)).value(), grown);
 }
@@ -92,7 +93,7 @@ TEST_F(JobsSuite, words_that_are_no_utf8_are_kept_as_far_as_they_can_be) {
 
 TEST_F(JobsSuite, what_is_not_there_cannot_be_updated) {
   EXPECT_EQ(jobs_->update(job(1)).error().code, ErrorCode::kState);
-  EXPECT_EQ(jobs_->update(scan(100, 1)).error().code, ErrorCode::kState);
+  EXPECT_EQ(jobs_->update(scan(100, 1), {id_of(1), 0}).error().code, ErrorCode::kState);
 }
 
 TEST_F(JobsSuite, a_second_job_takes_the_scan_over) {

@@ -20,12 +20,19 @@ export class Nginx {
     nginx.port = await freePort();
     nginx.url = `https://127.0.0.1:${nginx.port}`;
     await nginx.#configure(origins, changes);
-    const words = ["-p", nginx.folder, "-c", "nginx.conf", "-e", "error.log"];
-    await promisify(execFile)(kProgram, [...words, "-t"]);
-    nginx.child = spawn(kProgram, words, { stdio: "ignore" });
-    nginx.exit = once(nginx.child, "close");
-    await listens(nginx.port);
+    await promisify(execFile)(kProgram, [...nginx.#words(), "-t"]);
+    await nginx.#begin();
     return nginx;
+  }
+
+  #words() {
+    return ["-p", this.folder, "-c", "nginx.conf", "-e", "error.log"];
+  }
+
+  async #begin() {
+    this.child = spawn(kProgram, this.#words(), { stdio: "ignore" });
+    this.exit = once(this.child, "close");
+    await listens(this.port);
   }
 
   async #configure(origins, changes) {
@@ -55,6 +62,16 @@ include site.conf; }\n`);
     const before = new Set(await this.#children());
     this.child.kill("SIGHUP");
     while ((await this.#children()).some((pid) => before.has(pid)));
+  }
+
+  /** All of its processes die at once; returns when it has started again, after `pause` ms. The cache stays. */
+  async crash(pause) {
+    const children = await this.#children();
+    this.child.kill("SIGKILL");
+    for (const pid of children) process.kill(Number(pid), "SIGKILL");
+    await this.exit;
+    await new Promise((resolve) => setTimeout(resolve, pause));
+    await this.#begin();
   }
 
   async #children() {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # ceph_gateway.sh FOLDER: a Ceph object gateway with all that it needs (a monitor, and one storage
 # daemon in memory) on free ports of 127.0.0.1. Prints the gateway's port once it answers, then does
-# what its standard input says of the gateway (stop, start), each answered with a line, and ends with it.
+# what its standard input says of the gateway (stop or kill, start), each answered with a line, and ends with it.
 set -euo pipefail
 cd "$1"
 umask 077
@@ -99,7 +99,7 @@ start_gateway
 echo "$gateway_port"
 while read -r command; do
   case $command in
-    stop) stop_gateway ;;
+    stop | kill) stop_gateway ;;
     start) start_gateway ;;
   esac
   echo "done"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # postgres.sh FOLDER: a PostgreSQL server on a free port of 127.0.0.1, never as root. Prints the port
-# once it answers, then does what its standard input says (create NAME, stop, start), each answered
-# with a line, and ends with it.
+# once it answers, then does what its standard input says (create NAME, stop, start, kill: all of it
+# dies, kill-backend: one that has a client does), each answered with a line, and ends with it.
 set -euo pipefail
 cd "$1"
 binaries=/usr/lib/postgresql/15/bin
@@ -32,6 +32,18 @@ start() {
   control -o "-p $port -h 127.0.0.1 -k '' -c fsync=off -c full_page_writes=off -c shared_buffers=32MB" start
 }
 
+kill_all() {
+  local postmaster processes
+  postmaster=$(head -n 1 data/postmaster.pid)
+  mapfile -t processes < <(echo "$postmaster"; pgrep -P "$postmaster")
+  kill -9 "${processes[@]}"
+  while kill -0 "${processes[@]}" 2>/dev/null; do sleep 0.05; done
+}
+kill_backend() {
+  kill -9 "$("$binaries/psql" -h 127.0.0.1 -p "$port" -U museum -XAtq postgres -c \
+    "SELECT pid FROM pg_stat_activity WHERE backend_type = 'client backend' AND datname = 'museum' LIMIT 1")"
+}
+
 echo "$PGPASSWORD" >secret
 [[ ${as_owner[*]} ]] && chown postgres secret
 "${as_owner[@]}" "$binaries/initdb" -D "$PWD/data" -U museum -A scram-sha-256 --pwfile=secret -N \
@@ -44,6 +56,8 @@ while read -r command name; do
     create) "$binaries/createdb" -h 127.0.0.1 -p "$port" -U museum "$name" ;;
     stop) stop ;;
     start) start ;;
+    kill) kill_all ;;
+    kill-backend) kill_backend ;;
   esac
   echo "done"
 done

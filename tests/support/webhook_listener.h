@@ -30,11 +30,16 @@ class WebhookListener {
   }
   const std::string& host() const { return host_; }
 
-  // The next request, whose body is a JSON object; nobody answers it before the descriptor is gone.
+  // The next request, whose body is a JSON object where it is no GET; nobody answers it before the
+  // descriptor is gone.
   FileDescriptor accept(std::string& request) {
     FileDescriptor peer(::accept(socket_.get(), nullptr, nullptr));
     char buffer[1024];
-    while (!request.ends_with("}")) {
+    const auto ends = [&] {
+      return request.ends_with("}") ||
+             (request.starts_with("GET ") && request.ends_with("\r\n\r\n"));
+    };
+    while (!ends()) {
       const ssize_t n = ::read(peer.get(), buffer, sizeof buffer);
       if (n <= 0) break;
       request.append(buffer, static_cast<std::size_t>(n));
@@ -42,13 +47,17 @@ class WebhookListener {
     return peer;
   }
 
+  static void answer(const FileDescriptor& peer, const std::string& status,
+                     const std::string& body = "") {
+    const std::string text = "HTTP/1.1 " + status +
+                             "\r\nContent-Length: " + std::to_string(body.size()) +
+                             "\r\nConnection: close\r\n\r\n" + body;
+    EXPECT_EQ(::write(peer.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  }
+
   std::string hear(const std::string& status) {
     std::string request;
-    const FileDescriptor peer = accept(request);
-    const std::string answer =
-        "HTTP/1.1 " + status + "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
-    EXPECT_EQ(::write(peer.get(), answer.data(), answer.size()),
-              static_cast<ssize_t>(answer.size()));
+    answer(accept(request), status);
     return request;
   }
 

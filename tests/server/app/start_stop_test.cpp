@@ -178,6 +178,30 @@ TEST(Start, ADataFolderIsOfOneDaemonAndFreeOnceItIsDead) {
   const Daemon next(folder.path());
 }
 
+TEST(Start, ACopyOfADataFolderIsAnotherDaemons) {
+  const ServedFolder folder;
+  const TemporaryFolder place;
+  const std::filesystem::path copy = place.path() / "copy";
+  const auto id_in = [](const std::filesystem::path& data) {
+    std::string id;
+    std::ifstream(data / kDaemonLock) >> id;
+    return id;
+  };
+  { const Daemon daemon(folder.path()); }
+  const std::string id = id_in(folder.path());
+  { const Daemon again(folder.path()); }
+  EXPECT_EQ(id_in(folder.path()), id);
+  std::filesystem::copy(folder.path(), copy, std::filesystem::copy_options::recursive);
+  {
+    Daemon other(copy);
+    other.wait_for_line("the data folder is a copy");
+  }
+  const std::string others = id_in(copy);
+  EXPECT_NE(others, id);
+  { const Daemon again(copy); }
+  EXPECT_EQ(id_in(copy), others);
+}
+
 TEST(Start, TheCatalogueOfAnotherDaemonIsNotTouched) {
   const TemporaryFolder folder;
   const FileDescriptor other(

@@ -16,7 +16,8 @@ const std::string kBeforeClaims =
     "DROP INDEX job_untold; DROP INDEX job_of_state; DROP TABLE revision; DROP TABLE scanner;"
     "DROP TRIGGER model_added; DROP TRIGGER model_changed; DROP TRIGGER model_removed;"
     "DROP TRIGGER token_added; DROP TRIGGER token_changed;"
-    "ALTER TABLE job DROP COLUMN fence; ALTER TABLE job DROP COLUMN holder;"
+    "ALTER TABLE scan DROP COLUMN turn; ALTER TABLE job DROP COLUMN fence; ALTER TABLE job DROP "
+    "COLUMN holder;"
     "ALTER TABLE job DROP COLUMN lease; ALTER TABLE job DROP COLUMN cancelled;";
 
 class Migrations : public testing::Test {

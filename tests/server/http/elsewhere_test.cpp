@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "local_server.h"
@@ -10,6 +12,7 @@
 #include "server/http/routes.h"
 #include "support/fake_backend.h"
 #include "support/http_client.h"
+#include "support/webhook_listener.h"
 
 namespace vitrine {
 namespace {
@@ -77,6 +80,28 @@ TEST_F(PassedOn, commands_reach_the_scanner_and_their_answers_the_caller) {
   EXPECT_EQ(picture.body.substr(1, 3), "PNG");
   EXPECT_EQ(ask("POST", "/scanners/rig/stop", operator_).status, 200);
   EXPECT_EQ(world_.stops, 1u);
+}
+
+TEST_F(PassedOn, no_proxy_of_the_environment_is_asked) {
+  ::setenv("http_proxy", "http://127.0.0.1:1", 1);
+  const auto answer = ask("GET", "/scanners/rig", operator_);
+  ::unsetenv("http_proxy");
+  EXPECT_EQ(answer.status, 200) << answer.body;
+}
+
+// Each answers once the other has been asked, too.
+TEST_F(PassedOn, lists_ask_all_daemons_at_once) {
+  test::WebhookListener left, right;
+  for (const auto& [name, daemon] : {std::pair("left", &left), std::pair("right", &right)})
+    ASSERT_TRUE(jobs_->take_scanner(name, {name, 1h}, "http://" + daemon->host()));
+  ASSERT_TRUE(jobs_->drop_scanners("driver"));
+  claims_.beat();
+  auto list = std::async(std::launch::async, [&] { return ask("GET", "/scanners", operator_); });
+  std::string requests[2];
+  const FileDescriptor first = left.accept(requests[0]), second = right.accept(requests[1]);
+  test::WebhookListener::answer(first, "200 OK", R"({"scanners": [{"name": "left"}]})");
+  test::WebhookListener::answer(second, "200 OK", R"({"scanners": [{"name": "right"}]})");
+  EXPECT_EQ(json::parse(list.get().body)["scanners"].size(), 2u);
 }
 
 TEST_F(PassedOn, the_lists_of_all_are_one) {

@@ -348,7 +348,7 @@ TEST_F(Scans, progress_and_calibration_are_not_lost_when_the_daemon_was_killed) 
   JobRecord job = *installation_.jobs->find_job(started.job).value();
   entry.step = 1, entry.calibration = 0,
   job.progress = 0;  // the last that a daemon which is killed has stored
-  ASSERT_TRUE(installation_.jobs->update(entry));
+  ASSERT_TRUE(installation_.jobs->update(entry, {job.id, job.fence}));
   ASSERT_TRUE(installation_.jobs->update(job));
   std::promise<void> seen;
   world_.while_opening = [until = seen.get_future().share()] { until.wait(); };  // before the job
@@ -360,6 +360,38 @@ TEST_F(Scans, progress_and_calibration_are_not_lost_when_the_daemon_was_killed) 
   EXPECT_EQ(scan.entry.calibration, 1);
   EXPECT_NEAR(scan.job.record.progress, 0.85 * 0.9 * 7 / 12, 1e-9);
   settle();
+}
+
+TEST_F(Scans, what_another_daemon_has_measured_since_is_measured_anew) {
+  HeldAtStep held(world_, 7);
+  const auto started = begin(order_);
+  held.await();
+  stop_while(held);
+  service_.reset();
+  ScanEntry entry = *installation_.jobs->find_scan(started.scan).value();
+  const JobRecord job = installation_.jobs->claim(started.job, {"other", {}}).value().value();
+  entry.turn = "another's";
+  entry.step = 3;
+  ASSERT_TRUE(installation_.jobs->update(entry, {job.id, job.fence}));
+  ASSERT_TRUE(installation_.jobs->drop_leases("other"));
+  EXPECT_EQ(world_.steps, 7);
+  start();
+  settle();
+  EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
+  EXPECT_EQ(world_.steps, 7 + 12);
+  entry = info(started.scan).entry;
+  EXPECT_EQ(service_->view(entry).value()->points(), 12 * test::kFakePoints);
+}
+
+TEST_F(Scans, a_turn_of_another_daemon_is_not_shown_for_this_ones) {
+  const auto started = begin(order_);
+  settle();
+  ScanEntry entry = info(started.scan).entry;
+  service_.reset();
+  entry.turn = "another's";
+  start();
+  EXPECT_EQ(service_->view(entry).error().code, ErrorCode::kState);
+  EXPECT_EQ(service_->reprocess(entry, order_, {}).error().code, ErrorCode::kState);
 }
 
 TEST_F(Scans, progress_does_not_go_back_when_a_scan_that_failed_is_gone_on_with) {

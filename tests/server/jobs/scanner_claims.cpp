@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "server/catalogue/sqlite_database.h"
 #include "server/catalogue/sqlite_jobs.h"
 #include "server/jobs/fenced_devices.h"
 #include "support/temporary_folder.h"
@@ -65,6 +66,22 @@ TEST_F(Claimants, nobody_waits_for_a_daemon_whose_lease_has_run_out) {
   EXPECT_EQ(second->address_of("left"), "");
   EXPECT_TRUE(second->addresses().empty());
   EXPECT_FALSE(second->has_jobs_of("left")) << "it may come back";
+}
+
+TEST_F(Claimants, nobody_believes_a_lease_to_have_run_out_that_nobody_could_renew) {
+  const auto first = daemon("first", 1h), second = daemon("second", 1h),
+             third = daemon("third", 1h);
+  for (const auto* const one : {&first, &second, &third})
+    (*one)->start({"left"});
+  const auto database = sqlite::open_database(folder_.path() / "catalogue.sqlite").value();
+  database->lease()->run("ALTER TABLE scanner RENAME TO away");
+  second->beat();
+  database->lease()->run("ALTER TABLE away RENAME TO scanner");
+  ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as time does
+  second->beat();
+  EXPECT_FALSE(second->check("left"));
+  third->beat();  // who knows of no such time
+  EXPECT_TRUE(third->check("left"));
 }
 
 TEST_F(Claimants, a_lease_that_has_run_out_is_known_without_the_catalogue) {

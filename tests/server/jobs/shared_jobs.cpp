@@ -5,6 +5,7 @@
 
 #include <future>
 
+#include "server/catalogue/sqlite_database.h"
 #include "server/catalogue/sqlite_jobs.h"
 #include "server/jobs/job_queue.h"
 #include "support/temporary_folder.h"
@@ -164,6 +165,19 @@ TEST_F(SharedJobs, an_end_that_comes_too_late_is_none) {
   EXPECT_EQ(stored(job), JobState::kRunning);
   EXPECT_EQ(first_.queue().find(job.id).value()->record.state, JobState::kRunning);
   EXPECT_TRUE(first_.told().empty());
+}
+
+TEST_F(SharedJobs, nobody_believes_a_lease_to_have_run_out_that_nobody_could_renew) {
+  const JobRecord job = upload();
+  add(job);
+  ASSERT_TRUE(catalogue_->claim(job.id, {"holder", std::chrono::seconds(-1)}).value());
+  const auto database = sqlite::open_database(folder_.path() / "catalogue.sqlite").value();
+  database->lease()->run("ALTER TABLE job RENAME TO away");
+  second_.queue().beat();
+  database->lease()->run("ALTER TABLE away RENAME TO job");
+  second_.queue().beat();
+  EXPECT_EQ(second_.queue().run(job.id), nullptr);
+  first_.begin();  // who knows of no such time
 }
 
 TEST_F(SharedJobs, whoever_cancels_a_job_reaches_who_does_it) {

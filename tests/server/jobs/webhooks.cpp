@@ -16,6 +16,8 @@ namespace {
 using test::WebhookListener;
 using testing::HasSubstr;
 
+const auto kMay = [] { return true; };
+
 std::string url_of(const WebhookListener& listener, const std::string& path = "/told") {
   return "http://" + listener.host() + path;
 }
@@ -38,15 +40,37 @@ TEST(Webhooks, AreTriedAgainUntilTheyAreTaken) {
   WebhookListener listener;
   std::promise<void> done;
   Webhooks hooks({listener.host()}, log);
-  hooks.tell(url_of(listener), R"({"state":"done"})", [&] { done.set_value(); });
+  hooks.tell(url_of(listener), R"({"state":"done"})", kMay, [&] { done.set_value(); });
   const std::string first = listener.hear("503 Busy");
   EXPECT_THAT(first, HasSubstr("POST /told HTTP/1.1\r\n"));
   EXPECT_THAT(first, HasSubstr("Content-Type: application/json\r\n"));
   EXPECT_TRUE(first.ends_with("\r\n\r\n{\"state\":\"done\"}"));
   EXPECT_EQ(listener.hear("204 Taken"), first);
   done.get_future().wait();
-  hooks.tell(url_of(listener, "/next"), "{}", [] {});
+  hooks.tell(url_of(listener, "/next"), "{}", kMay, [] {});
   EXPECT_THAT(listener.hear("200 OK"), HasSubstr("POST /next"));
+}
+
+TEST(Webhooks, WhatWaitsIsPostedOnceAndNotWhereAnotherHasToldItMeanwhile) {
+  const Log log = Log::open("").value();
+  WebhookListener listener;
+  Webhooks hooks({listener.host()}, log);
+  std::promise<void> go;
+  hooks.tell(
+      url_of(listener, "/first"), "{}",
+      [until = go.get_future().share()] {
+        until.wait();
+        return true;
+      },
+      [] {});
+  for (int claimed = 0; claimed < 2; ++claimed)
+    hooks.tell(url_of(listener, "/waits"), "{}", kMay, [] {});
+  hooks.tell(
+      url_of(listener, "/told"), "{}", [] { return false; }, [] {});
+  hooks.tell(url_of(listener, "/last"), "{}", kMay, [] {});
+  go.set_value();
+  for (const char* path : {"/first", "/waits", "/last"})
+    EXPECT_THAT(listener.hear("200 OK"), HasSubstr(std::string("POST ") + path + " "));
 }
 
 TEST(Webhooks, AServerThatDoesNotAnswerHoldsUpNoOther) {
@@ -54,10 +78,10 @@ TEST(Webhooks, AServerThatDoesNotAnswerHoldsUpNoOther) {
   WebhookListener dead, other;
   std::atomic<bool> given_up = false;
   Webhooks hooks({dead.host(), other.host()}, log);
-  hooks.tell(url_of(dead), "{}", [&] { given_up = true; });
+  hooks.tell(url_of(dead), "{}", kMay, [&] { given_up = true; });
   std::string request;
   const FileDescriptor peer = dead.accept(request);
-  hooks.tell(url_of(other), "{}", [] {});
+  hooks.tell(url_of(other), "{}", kMay, [] {});
   EXPECT_THAT(other.hear("200 OK"), HasSubstr("POST /told"));
   EXPECT_FALSE(given_up);
   hooks.stop();
@@ -78,7 +102,7 @@ TEST(Webhooks, DoNotHoldUpTheEnd) {
   std::atomic<int> done = 0;
   Webhooks hooks({listener.host()}, log);
   for (int i = 0; i < 10; ++i)
-    hooks.tell(url_of(listener), "{}", [&] { ++done; });
+    hooks.tell(url_of(listener), std::to_string(i), kMay, [&] { ++done; });
   listener.hear("500 No");
   hooks.stop();  // and does not try the others
   EXPECT_EQ(done, 0);
