@@ -22,7 +22,7 @@ const kSides = [220, 200, 180], kBriefSides = [70, 60]; // of the meshes
 const kViewers = 3;
 const kAway = 20_000; // ms that PostgreSQL, then the store, are stopped
 const kLongestGap = 5_000; // ms that a viewer may see nothing when a replica that serves dies, or an engine is away
-const kPatience = 150_000; // ms for anything at all
+const kPatience = 200_000; // ms for anything at all
 const rounds = Number(process.env.VITRINE_ROUNDS ?? 1);
 const seed = Number(process.env.VITRINE_SEED ?? Date.now() % 1_000_000);
 const random = chance(seed);

@@ -4,7 +4,7 @@ import { setTimeout as pause } from "node:timers/promises";
 import { note } from "./timeline.mjs";
 
 const kPatience = 3_000; // ms for an answer
-const kSteps = 90; // of a scan
+const kSteps = 48; // of a scan
 const kPoses = 12; // of a calibration
 
 export class Technician {

@@ -194,7 +194,8 @@ TEST(Start, ACopyOfADataFolderIsAnotherDaemons) {
   std::filesystem::copy(folder.path(), copy, std::filesystem::copy_options::recursive);
   {
     Daemon other(copy);
-    other.wait_for_line("the data folder is a copy");
+    other.signal(SIGTERM);
+    EXPECT_THAT(other.wait().output, HasSubstr("the data folder is a copy"));
   }
   const std::string others = id_in(copy);
   EXPECT_NE(others, id);
