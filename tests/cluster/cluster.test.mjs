@@ -53,11 +53,10 @@ before(async () => {
   console.log(`seed ${seed}`);
   await cluster.start();
   const meshes = [...kSides, ...kBriefSides].map((side, i) => ({ obj: relief(i, side), isBrief: i >= kSides.length }));
-  expected = await Promise.all(meshes.map(build));
+  technician = new Technician(cluster.having("serve"), cluster.visitor);
+  [expected] = await Promise.all([Promise.all(meshes.map(build)), technician.calibrate()]);
   curator = new Curator(cluster.visitor, meshes);
   passerby = new Passerby(cluster.visitor, random);
-  technician = new Technician(cluster.having("serve"), cluster.visitor);
-  await technician.calibrate();
   const working = [curator.work(), passerby.stroll(), technician.work()];
   const id = await firstModel();
   const { body: manifest } = await cluster.visitor.json("GET", `/models/${id}/manifest`);
