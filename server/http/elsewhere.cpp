@@ -90,8 +90,9 @@ std::optional<std::string> elsewhere(const std::string& scanner, const Request& 
 Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
                        std::chrono::seconds patience) {
   if (address.empty()) return away(request.id);
-  tl::expected<Seats::Seat, Seats::Refusal> seat;
-  if (!request.caller) seat = services.elsewhere->take(network_of(request.visitor));
+  const auto seat = request.caller
+                        ? services.callers_elsewhere->take("")
+                        : services.strangers_elsewhere->take(network_of(request.visitor));
   if (!seat) return away(request.id);
   const std::string json = request.body.empty() ? "" : request.body.dump();
   std::string body;

@@ -22,7 +22,7 @@ std::optional<std::string> elsewhere(const std::string& scanner, const Request& 
 constexpr std::chrono::seconds kTurn{60};  // in which a table has turned, too
 
 // That daemon's answer to the request, which it checks itself: it gets the caller's token. 503
-// where there is none in time, or where too many strangers wait for one.
+// where there is none in time, or where too many wait for one.
 Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
                        std::chrono::seconds patience = kTurn);
 

@@ -42,11 +42,14 @@ struct Services {
   const Log& errors;  // what the operator must know
   std::atomic<bool> ready{false};
 
-  // Strangers that wait for another daemon: no more than there are threads for them, of whom one
-  // address may have half.
-  static constexpr std::size_t kMostElsewhere = 8;
-  const std::shared_ptr<Seats> elsewhere =
+  // Who waits for another daemon: strangers, of whom one address may have half of the seats, and
+  // callers with a token. There are as many threads for them, so that the others are served, and
+  // the watchdog is, whatever that daemon does.
+  static constexpr std::size_t kMostElsewhere = 8;  // of either
+  const std::shared_ptr<Seats> strangers_elsewhere =
       std::make_shared<Seats>(kMostElsewhere, kMostElsewhere / 2);
+  const std::shared_ptr<Seats> callers_elsewhere =
+      std::make_shared<Seats>(kMostElsewhere, kMostElsewhere);
 };
 
 }  // namespace vitrine

@@ -2,11 +2,14 @@
 // A daemon passes on what is asked of a scanner that another drives.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <cstdlib>
 #include <future>
 #include <nlohmann/json.hpp>
 
+#include "codec/files/file_descriptor.h"
 #include "local_server.h"
 #include "server/catalogue/sqlite_jobs.h"
 #include "server/http/routes.h"
@@ -168,11 +171,57 @@ TEST_F(PassedOn, strangers_leave_room_for_who_has_a_token) {
   const std::string scan = "/scans/" + new_scan();
   std::vector<Seats::Seat> taken;
   for (std::size_t i = 0; i < Services::kMostElsewhere; ++i)
-    taken.push_back(front_.services().elsewhere->take(std::to_string(i)).value());
+    taken.push_back(front_.services().strangers_elsewhere->take(std::to_string(i)).value());
   EXPECT_EQ(ask("GET", scan, "").status, 503);
   EXPECT_EQ(ask("GET", scan, operator_).status, 200);
   taken.clear();
   EXPECT_EQ(ask("GET", scan, "").status, 401);
+}
+
+// A daemon that hangs: it takes connections and says nothing.
+class Hung {
+ public:
+  Hung() {
+    sockaddr_in any{.sin_family = AF_INET, .sin_addr = {htonl(INADDR_LOOPBACK)}};
+    socklen_t size = sizeof any;
+    const timeval patience{.tv_sec = 20, .tv_usec = 0};
+    ::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<sockaddr*>(&any), size), 0);
+    EXPECT_EQ(::listen(socket_.get(), SOMAXCONN), 0);
+    EXPECT_EQ(::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&any), &size), 0);
+    address_ = "http://127.0.0.1:" + std::to_string(ntohs(any.sin_port));
+  }
+  const std::string& address() const { return address_; }
+  void wait_for_visitor() {
+    visitors_.emplace_back(::accept(socket_.get(), nullptr, nullptr));
+    ASSERT_TRUE(visitors_.back());
+  }
+
+ private:
+  const FileDescriptor socket_{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+  std::string address_;
+  std::vector<FileDescriptor> visitors_;
+};
+
+// Else it would have all workers of this one, whose watchdog would bite.
+TEST_F(PassedOn, who_waits_for_a_daemon_that_hangs_leaves_workers_for_the_others) {
+  const std::string scan = "/scans/" + new_scan();
+  Hung hung;
+  ASSERT_TRUE(jobs_->take_scanner("rig", {"driver", 1h}, hung.address()));
+  claims_.beat();
+  std::vector<std::unique_ptr<test::HttpClient>> waiting;
+  const auto call = [&](const std::string& who) {
+    waiting.push_back(std::make_unique<test::HttpClient>(front_.port()));
+    waiting.back()->send("GET /api/v1" + scan + " HTTP/1.1\r\nHost: a\r\n" + who + "\r\n");
+    hung.wait_for_visitor();
+  };
+  for (std::size_t i = 0; i < Services::kMostElsewhere; ++i) {
+    call(operator_);
+    call("X-Forwarded-For: 192.0.2." + std::to_string(i) + "\r\n");
+  }
+  EXPECT_EQ(ask("GET", scan, operator_).status, 503);
+  EXPECT_EQ(ask("GET", scan, "").status, 503);
+  EXPECT_EQ(ask("GET", "/models", operator_).status, 200);
 }
 
 TEST_F(PassedOn, who_asks_is_told_on) {
