@@ -15,6 +15,8 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "support/uninterrupted.h"
+
 namespace vitrine::test {
 namespace {
 
@@ -52,11 +54,11 @@ void HttpClient::connect(const void* address, std::size_t size) {
 }
 
 ssize_t HttpClient::read_some(char* bytes, std::size_t size) {
-  return ::recv(socket_, bytes, size, 0);
+  return uninterrupted([&] { return ::recv(socket_, bytes, size, 0); });
 }
 
 ssize_t HttpClient::write_some(const char* bytes, std::size_t size) {
-  return ::send(socket_, bytes, size, MSG_NOSIGNAL);
+  return uninterrupted([&] { return ::send(socket_, bytes, size, MSG_NOSIGNAL); });
 }
 
 HttpClient::~HttpClient() {

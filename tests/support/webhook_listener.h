@@ -11,6 +11,7 @@
 #include <string>
 
 #include "codec/files/file_descriptor.h"
+#include "support/uninterrupted.h"
 
 namespace vitrine::test {
 
@@ -33,7 +34,7 @@ class WebhookListener {
   // The next request, whose body is a JSON object where it is no GET; nobody answers it before the
   // descriptor is gone.
   FileDescriptor accept(std::string& request) {
-    FileDescriptor peer(::accept(socket_.get(), nullptr, nullptr));
+    FileDescriptor peer(uninterrupted([&] { return ::accept(socket_.get(), nullptr, nullptr); }));
     char buffer[1024];
     const auto ends = [&] {
       return request.ends_with("}") ||

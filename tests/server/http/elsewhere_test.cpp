@@ -15,6 +15,7 @@
 #include "server/http/routes.h"
 #include "support/fake_backend.h"
 #include "support/http_client.h"
+#include "support/uninterrupted.h"
 #include "support/webhook_listener.h"
 
 namespace vitrine {
@@ -193,7 +194,8 @@ class Hung {
   }
   const std::string& address() const { return address_; }
   void wait_for_visitor() {
-    visitors_.emplace_back(::accept(socket_.get(), nullptr, nullptr));
+    visitors_.emplace_back(
+        test::uninterrupted([&] { return ::accept(socket_.get(), nullptr, nullptr); }));
     ASSERT_TRUE(visitors_.back());
   }
 
