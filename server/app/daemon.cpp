@@ -243,15 +243,14 @@ class Daemon {
         [this, id = ended.id] { return scans_.jobs().may_tell(id); }, told);
   }
 
+  StreamHost stream_host() { return {services_, workers_, public_.rate_limit(), crowd_}; }
+
   HttpOptions public_options() {
     return {.routes = public_routes(),
             .recorded = true,
             .max_connections = connections_,
             .patience = live_.get()->idle_timeout,
-            .stream =
-                [this](StreamCall call) {
-                  return stream(std::move(call), {services_, workers_, public_.rate_limit()});
-                },
+            .stream = [this](StreamCall call) { return stream(std::move(call), stream_host()); },
             .tls = tls_,
             .max_connections_per_address = live_.get()->max_connections_per_address > 0
                                                ? live_.get()->max_connections_per_address
@@ -387,6 +386,7 @@ class Daemon {
   ExportCache exports_;
   const WebPages pages_;
   Metrics metrics_;
+  Crowd crowd_;
   Authenticator tokens_;
   Services services_;
   const std::uint32_t connections_;

@@ -109,7 +109,7 @@ asio::awaitable<void> stream(StreamCall call, StreamHost host) {
   const Counted counted(host.services.metrics);
   const auto connection = call.connection;
   co_await serve_stream({connection, &connection->socket}, std::move(call.request), *model,
-                        options_of(call, asker));
+                        options_of(call, asker), host.crowd);
   connection->on_drain = nullptr;
 }
 

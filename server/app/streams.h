@@ -3,6 +3,7 @@
 #pragma once
 
 #include "server/http/http_server.h"
+#include "server/stream/crowd.h"
 
 namespace vitrine {
 
@@ -11,6 +12,7 @@ struct StreamHost {
   Services& services;
   Workers& workers;
   RateLimit& rate_limit;
+  Crowd& crowd;
 };
 
 // Serves one until it ends. Each model is looked up by a worker, and each `open` costs a call of

@@ -63,7 +63,7 @@ void Pacer::arrived(std::uint64_t bytes, Time now) {
   note_silence(now);
   const Duration delay = measure_delay(now);
   if (delay.count() < 0 || base_ == Duration::max()) return;
-  const double fitting = rate(now) * (base_ + kQueue).count();
+  const double speed = rate(now), fitting = speed * base_.count() + queue_bytes(speed);
   const double more = delay - base_ < kShortQueue ? window_ + static_cast<double>(bytes) : 0;
   window_ = std::clamp(std::max(fitting, more), kLeastWindow, kMostWindow);
 }
@@ -78,10 +78,31 @@ void Pacer::note_silence(Time now) {
   if (busy_ - recovered_ >= kWindow) steady_ = rate(now);
 }
 
-bool Pacer::may_send(Time now) {
+// Of connections that wait in one queue a faster one may have more bytes there, but fewer for its
+// rate: so it becomes slower, and the others faster, until all are equally fast.
+double Pacer::queue_bytes(double rate) {
+  const double extra = std::min(rate * (kQueue - kFastQueue).count(), kFastExtra);
+  return std::max(rate * kFastQueue.count() + extra, kLeastWindow);
+}
+
+std::uint32_t Pacer::slice_bytes(double rate) const {
+  constexpr double kLeast = 1024;
+  return static_cast<std::uint32_t>(
+      std::clamp(rate * slice_time_.count(), kLeast, static_cast<double>(kMaxSlice)));
+}
+
+// A delay may be the link's own or a crowd's queue that was there before: no connection can tell by
+// itself. What is on its way because of it therefore has a bound, which all share.
+std::uint32_t Pacer::room(Time now, std::size_t crowd) {
+  const double speed = rate(now), sharers = std::max(1.0, static_cast<double>(crowd));
+  slice_time_ = std::max(kSliceTime, sharers * kSliceCost);
+  const std::uint32_t slice = slice_bytes(speed);
   if (in_flight() == 0) drains_ = false;
-  if (in_flight() > 0 && now - progress_ >= kNudge) return true;
-  return !drains_ && static_cast<double>(in_flight()) < window_;
+  if (in_flight() == 0 || now - progress_ >= kNudge) return slice;
+  const double most = std::min(window_, queue_bytes(speed) + kShared / sharers);
+  const double left = most - static_cast<double>(in_flight());
+  if (drains_ || left < slice / 2.0) return 0;
+  return std::min(slice, static_cast<std::uint32_t>(left));
 }
 
 double Pacer::rate(Time now) const {
@@ -103,7 +124,7 @@ double Pacer::rate(Time now) const {
 bool Pacer::is_falling(Time now) const {
   constexpr double kMuch = 0.9;
   if (!is_measured_) return false;
-  if (in_flight() > 0 && now - heard_ >= 2 * kSliceTime) return true;
+  if (in_flight() > 0 && now - heard_ >= 2 * slice_time_) return true;
   const Sample& last = samples_.back();
   const auto before = std::find_if(samples_.rbegin(), samples_.rend(), [&](const Sample& sample) {
     return last.busy - sample.busy >= kLeastTime;
@@ -122,12 +143,6 @@ double Pacer::hope(Time now) const {
   }
   const double seen = static_cast<double>(arrived_) / std::max(busy(now), kSomething).count();
   return busy(now) < kSomething ? std::max(4 * kFirstGuess, seen) : std::max(kFirstGuess, seen);
-}
-
-std::uint32_t Pacer::slice_bytes(Time now) const {
-  constexpr double kLeast = 1024;
-  return static_cast<std::uint32_t>(
-      std::clamp(rate(now) * kSliceTime.count(), kLeast, static_cast<double>(kMaxSlice)));
 }
 
 }  // namespace vitrine

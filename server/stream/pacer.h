@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast a connection is, and so how much may be on its way: as much as the link holds and a
 // short queue keeps it busy, so that a new wish waits for little. Measured from end to end, by what
-// the client acknowledges; no proxy's buffers deceive it. Pure: the caller tells the time.
+// the client acknowledges; no proxy's buffers deceive it. Connections that wait for the same link
+// or processor come to equal shares of it. Pure: the caller tells the time.
 #pragma once
 
 #include <chrono>
@@ -23,10 +24,10 @@ class Pacer {
 
   std::uint64_t in_flight() const { return sent_ - arrived_; }
 
-  // Whether a further slice may follow. Where nothing has arrived for kNudge one may in any case:
-  // the client may be one that acknowledges several at a time.
-  bool may_send(Time now);
-  std::uint32_t slice_bytes(Time now) const;  // about kSliceTime long, at most kMaxSlice
+  // Bytes of the slice that may follow; 0 where none may. `crowd` is how many connections have
+  // something on their way, this one included. Where nothing has arrived for kNudge a slice may
+  // follow in any case: the client may be one that acknowledges several at a time.
+  std::uint32_t room(Time now, std::size_t crowd);
 
   bool is_measured() const { return is_measured_; }
   // Bytes per second over the last kWindow in which something was on its way. Falls while nothing
@@ -48,14 +49,18 @@ class Pacer {
   static constexpr Duration kLeastTime{0.2};  // shorter bursts tell of buffers, not of the link
   static constexpr Duration kSample{0.02};    // samples lie apart by this or more
   static constexpr Duration kSliceTime{0.04};
-  static constexpr Duration kQueue{0.08};              // what may queue beyond the link's own delay
-  static constexpr Duration kShortQueue{0.03};         // less than this: the link may take more
-  static constexpr Duration kBaseAge{10};              // the link's delay is measured anew
+  static constexpr Duration kSliceCost{50e-6};    // of a processor's time, whatever its length
+  static constexpr Duration kQueue{0.1};          // what may queue beyond the link's own delay;
+  static constexpr Duration kFastQueue{0.04};     // where the link is fast, this
+  static constexpr double kFastExtra = 6 * 1024;  // and so many bytes
+  static constexpr Duration kShortQueue{0.03};    // less than this: the link may take more
+  static constexpr Duration kBaseAge{10};         // the link's delay is measured anew
   static constexpr std::uint64_t kEnough = 64 * 1024;  // arrived: measured, however fast
   static constexpr std::size_t kMostMarks = 64;
   static constexpr double kFirstWindow = 16 * 1024;
   static constexpr double kLeastWindow = 4 * 1024;
   static constexpr double kMostWindow = 16 << 20;
+  static constexpr double kShared = 256 * 1024;  // of all: what longer delays may take
 
   struct Mark {
     std::uint64_t end;  // sent up to here
@@ -66,6 +71,8 @@ class Pacer {
     std::uint64_t arrived;
   };
 
+  static double queue_bytes(double rate);
+  std::uint32_t slice_bytes(double rate) const;
   Duration busy(Time now) const;
   void advance(Time now);
   void add_sample();
@@ -86,6 +93,7 @@ class Pacer {
   Time base_since_{};
   bool drains_ = false;  // until nothing is on its way, so that base_ is seen without a queue
   double window_ = kFirstWindow;
+  Duration slice_time_ = kSliceTime;  // in a crowd it is longer, as slices cost time
 };
 
 }  // namespace vitrine

@@ -74,15 +74,14 @@ void StreamState::still_queued(std::uint64_t bytes, Time now) {
 }
 
 // How long the next slice may be; 0 where none may go.
-std::uint32_t StreamState::room(Time now) {
-  is_held_ = credit_ > 0 && !pacer_.may_send(now);
-  return is_held_ ? 0
-                  : static_cast<std::uint32_t>(
-                        std::min<std::uint64_t>(pacer_.slice_bytes(now), credit_));
+std::uint32_t StreamState::room(Time now, std::size_t crowd) {
+  const std::uint32_t paced = pacer_.room(now, crowd);
+  is_held_ = credit_ > 0 && paced == 0;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(paced, credit_));
 }
 
-StreamOutput StreamState::next(Time now) {
-  const std::uint32_t most = room(now);
+StreamOutput StreamState::next(Time now, std::size_t crowd) {
+  const std::uint32_t most = room(now, crowd);
   const auto is_sending = [](const Sharer& model) { return model.stream.is_sending(); };
   const auto sharers = static_cast<std::size_t>(std::ranges::count_if(models_, is_sending));
   for (Sharer& model : models_) {

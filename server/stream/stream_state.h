@@ -27,8 +27,9 @@ class StreamState {
 
   // What to send now; nothing before a further message or wakes(). A slice is chosen only now and
   // takes its credit, so a new wish or a `have` counts at once. Models that have something to send
-  // get equal shares, slice by slice.
-  StreamOutput next(Time now);
+  // get equal shares, slice by slice. `crowd` is how many streams are busy, this one included.
+  StreamOutput next(Time now, std::size_t crowd = 1);
+  bool is_busy() const { return pacer_.in_flight() > 0; }  // something is on its way
 
   // When next() may have something although no message has come; nothing: never.
   std::optional<Time> wakes(Time now) const;
@@ -55,7 +56,7 @@ class StreamState {
   Expected<void> receive_one(const OpenMessage& message, Time now);
   template <class Do>
   Expected<void> with_model(std::uint16_t number, const Do& act);
-  std::uint32_t room(Time now);
+  std::uint32_t room(Time now, std::size_t crowd);
   void serve(Sharer& model, std::uint32_t bytes, Time now);
 
   std::vector<Sharer> models_;  // who has been served least comes first

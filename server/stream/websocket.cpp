@@ -38,11 +38,13 @@ StreamState::Time now() {
 // A reader that feeds the state and a writer that pulls from it, both on the socket's strand.
 class StreamSession : public std::enable_shared_from_this<StreamSession> {
  public:
-  StreamSession(std::shared_ptr<ByteStream> socket, StreamOptions options)
+  StreamSession(std::shared_ptr<ByteStream> socket, StreamOptions options, Crowd& crowd)
       : socket_(std::move(socket)),
         websocket_(*socket_),
         change_(socket_->get_executor()),
-        options_(std::move(options)) {}
+        options_(std::move(options)),
+        crowd_(crowd),
+        member_(crowd) {}
 
   asio::awaitable<bool> accept(Request request) {
     configure();
@@ -207,7 +209,8 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
         continue;
       }
       if (state_.is_granted_ahead()) ask_kernel();
-      const StreamOutput output = state_.next(now());
+      member_.set_busy(state_.is_busy());
+      const StreamOutput output = state_.next(now(), crowd_.busy());
       if (const auto* slice = std::get_if<Slice>(&output)) {
         sent = co_await send_slice(*slice);
       } else if (const auto* promise = std::get_if<PromiseMessage>(&output)) {
@@ -255,6 +258,8 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
   websocket::stream<ByteStream&, /*deflate=*/false> websocket_;
   asio::steady_timer change_;
   StreamOptions options_;
+  const Crowd& crowd_;
+  CrowdMember member_;
   StreamState state_;
   std::map<std::uint16_t, Model> models_;  // that state_ knows
   std::vector<std::string> answers_;       // to be sent first
@@ -265,8 +270,8 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
 }  // namespace
 
 asio::awaitable<void> serve_stream(std::shared_ptr<ByteStream> socket, Request request, Model model,
-                                   StreamOptions options) {
-  auto session = std::make_shared<StreamSession>(std::move(socket), std::move(options));
+                                   StreamOptions options, Crowd& crowd) {
+  auto session = std::make_shared<StreamSession>(std::move(socket), std::move(options), crowd);
   const bool accepted = co_await session->accept(std::exchange(request, {}));
   if (accepted) co_await session->run(std::move(model));
 }

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "server/store/published_model.h"
+#include "server/stream/crowd.h"
 #include "server/transport/byte_stream.h"
 
 namespace vitrine {
@@ -36,10 +37,10 @@ struct StreamOptions {
 
 // Runs on the socket's strand, and returns when nothing is pending there. `request` is an upgrade
 // that offers pmesh.v1. Memory per connection: the session's state, and the one slice that is being
-// sent.
+// sent. The crowd outlives it.
 boost::asio::awaitable<void> serve_stream(
     std::shared_ptr<ByteStream> socket,
     boost::beast::http::request<boost::beast::http::string_body> request, StreamedModel model,
-    StreamOptions options);
+    StreamOptions options, Crowd& crowd);
 
 }  // namespace vitrine

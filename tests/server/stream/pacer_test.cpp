@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
+#include <ostream>
+#include <queue>
+#include <utility>
+#include <vector>
 
 #include "server/stream/slice.h"
 
@@ -25,8 +30,8 @@ class Link {
         pacer.arrived(queue_.front().bytes, now);
         arrived += queue_.front().bytes;
       }
-      while (pacer.may_send(now))
-        send(pacer, pacer.slice_bytes(now));
+      while (const std::uint32_t room = pacer.room(now, 1))
+        send(pacer, room);
       longest = std::max(longest, static_cast<double>(pacer.in_flight()) / rate);
     }
   }
@@ -79,7 +84,9 @@ TEST_P(PacerTest, FindsTheRateFillsTheLinkAndKeepsItsQueueShort) {
 
 INSTANTIATE_TEST_SUITE_P(Links, PacerTest,
                          ::testing::Values(std::pair(50'000, 0.01), std::pair(100'000, 0.001),
-                                           std::pair(200'000, 0.15), std::pair(800'000, 0.02),
+                                           std::pair(100'000, 0.1), std::pair(200'000, 0.15),
+                                           std::pair(400'000, 0.001), std::pair(400'000, 0.1),
+                                           std::pair(800'000, 0.02), std::pair(800'000, 0.1),
                                            std::pair(10'000'000, 0.05)));
 
 TEST(Pacer, NoticesWithinASecondThatTheLinkHasBecomeSlow) {
@@ -128,13 +135,13 @@ TEST(Pacer, TimeWithNothingOnItsWayTellsNothing) {
 TEST(Pacer, HoldsBackWhereNothingIsAcknowledgedButNotForEver) {
   Pacer pacer;
   Pacer::Time now{};
-  while (pacer.may_send(now))
-    pacer.sent(pacer.slice_bytes(now), now);
+  while (const std::uint32_t room = pacer.room(now, 1))
+    pacer.sent(room, now);
   EXPECT_LE(pacer.in_flight(), 18'000u);
   now += Pacer::kNudge;
-  EXPECT_TRUE(pacer.may_send(now));
+  EXPECT_GT(pacer.room(now, 1), 0u);
   pacer.sent(1000, now);
-  EXPECT_FALSE(pacer.may_send(now));
+  EXPECT_EQ(pacer.room(now, 1), 0u);
 }
 
 TEST(Pacer, TakesNoMoreThanWasSentForArrived) {
@@ -154,6 +161,104 @@ TEST(Pacer, ALongTransferDoesNotLengthenItsQueue) {
   link.run(pacer, 1);
   EXPECT_LE(link.longest, link.delay + 0.15);
 }
+
+// Connections whose slices and acknowledgements wait for the same thing, first come, first served.
+class SharedQueue {
+ public:
+  SharedQueue(std::size_t size, double rate) : members_(size), rate_(rate) {}
+
+  // Three of four begin in the first two seconds, the others when those have filled the queue.
+  void run(double until) {
+    for (; now_ < until; now_ += 0.001) {
+      for (; !queue_.empty() && queue_.top().at <= now_; queue_.pop())
+        arrive(queue_.top());
+      for (std::size_t i = 0; i < members_.size(); ++i) {
+        const double part = static_cast<double>(i) / static_cast<double>(members_.size());
+        if (now_ >= (i % 4 == 3 ? 6 + part : 2 * part)) pull(i);
+      }
+    }
+  }
+
+  // Of what they have got since it was last asked for.
+  std::vector<double> shares() {
+    std::vector<double> shares;
+    for (Member& member : members_)
+      shares.push_back(static_cast<double>(std::exchange(member.arrived, 0)));
+    std::ranges::sort(shares);
+    return shares;
+  }
+
+ private:
+  struct Member {
+    Pacer pacer;
+    std::uint64_t arrived = 0;
+  };
+  struct Packet {
+    double at;
+    std::size_t member;
+    std::uint64_t bytes;
+    bool operator<(const Packet& other) const { return at > other.at; }  // the first is on top
+  };
+
+  static Pacer::Time time(double now) { return Pacer::Time(Pacer::Duration(1000 + now)); }
+
+  void arrive(const Packet& packet) {
+    Member& member = members_[packet.member];
+    member.pacer.arrived(packet.bytes, time(now_));
+    member.arrived += packet.bytes;
+    busy_ -= member.pacer.in_flight() == 0 ? 1 : 0;
+    pull(packet.member);
+  }
+
+  void pull(std::size_t number) {
+    constexpr double kDelay = 0.001;
+    constexpr std::uint64_t kCredit = 64 * 1024;
+    Pacer& pacer = members_[number].pacer;
+    while (const std::uint64_t bytes = std::min<std::uint64_t>(pacer.room(time(now_), busy_),
+                                                               kCredit - pacer.in_flight())) {
+      busy_ += pacer.in_flight() == 0 ? 1 : 0;
+      pacer.sent(bytes, time(now_));
+      free_ = std::max(free_, now_) + static_cast<double>(bytes) / rate_;
+      queue_.push({free_ + kDelay, number, bytes});
+    }
+  }
+
+  std::vector<Member> members_;
+  const double rate_;
+  double now_ = 0, free_ = 0;
+  std::size_t busy_ = 0;
+  std::priority_queue<Packet> queue_;
+};
+
+struct CrowdCase {
+  std::size_t members;
+  double rate;  // bytes per second, of all
+};
+void PrintTo(const CrowdCase& one, std::ostream* out) {
+  *out << one.members << " at " << one.rate;
+}
+
+class PacerCrowdTest : public ::testing::TestWithParam<CrowdCase> {};
+
+// As long as it takes for delays to be measured anew, twice.
+TEST_P(PacerCrowdTest, ComesToEqualShares) {
+  SharedQueue crowd(GetParam().members, GetParam().rate);
+  crowd.run(20);
+  crowd.shares();
+  for (const double until : {25.0, 30.0}) {
+    crowd.run(until);
+    const std::vector<double> shares = crowd.shares();
+    EXPECT_GE(shares.front(), shares[shares.size() / 2] / 2);
+    double all = 0;
+    for (const double share : shares)
+      all += share;
+    EXPECT_GE(all, 0.95 * 5 * GetParam().rate);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, PacerCrowdTest,
+                         ::testing::Values(CrowdCase{20, 2e6}, CrowdCase{50, 5e6},
+                                           CrowdCase{200, 20e6}, CrowdCase{200, 60e6}));
 
 }  // namespace
 }  // namespace vitrine

@@ -87,7 +87,7 @@ class WebsocketTest : public ::testing::TestWithParam<bool> {
     beast::flat_buffer buffer;
     beast::http::request<beast::http::string_body> request;
     co_await beast::http::async_read(*stream, buffer, request, asio::use_awaitable);
-    co_await serve_stream(std::move(stream), std::move(request), model, options);
+    co_await serve_stream(std::move(stream), std::move(request), model, options, crowd);
   }
 
   const TemporaryFolder folder;
@@ -98,6 +98,7 @@ class WebsocketTest : public ::testing::TestWithParam<bool> {
     return PublishedModels(*installation.store, *installation.catalogue).find(id.id).value();
   }();
   std::vector<std::string> faults;
+  Crowd crowd;
   asio::io_context io;
   tcp::acceptor acceptor{io, {asio::ip::address_v4::loopback(), 0}};
   std::shared_ptr<const TlsContext> tls;
