@@ -57,6 +57,7 @@ std::string_view value_of(const RequestHeader& request, field name) {
 Response not_modified(Response response) {
   response.status = 304;
   response.type.clear();
+  std::erase_if(response.fields, [](const auto& one) { return one.first == "Content-Encoding"; });
   response.body = std::string();
   return response;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "server/http/content_coding.h"
 #include "server/http/handlers.h"
 #include "server/http/preview.h"
 #include "server/http/public_url.h"
@@ -15,6 +16,13 @@ Response page(std::string_view path, const Request& request, Services& services)
   response.caching = Caching::kRevalidate;
   response.etag = found->etag;
   response.body = SharedBytes{nullptr, found->asset.bytes};
+  if (found->asset.gzip.empty()) return response;
+  response.fields = {{"Vary", "Accept-Encoding"}};
+  const auto codings = request.header[beast::http::field::accept_encoding];
+  if (!accepts_gzip({codings.data(), codings.size()})) return response;
+  response.fields.emplace_back("Content-Encoding", "gzip");
+  response.etag = found->gzip_etag;
+  response.body = SharedBytes{nullptr, found->asset.gzip};
   return response;
 }
 
@@ -47,7 +55,7 @@ Response show_scan_page(const Request& request, Services& services) {
 // Whose buttons turn motors is framed by nobody.
 Response show_console(const Request& request, Services& services) {
   Response response = page("/console.html", request, services);
-  response.fields = {{"X-Frame-Options", "DENY"}};
+  response.fields.emplace_back("X-Frame-Options", "DENY");
   return response;
 }
 

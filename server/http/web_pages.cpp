@@ -5,10 +5,17 @@
 
 namespace vitrine {
 
+namespace {
+
+std::string tag_of(std::span<const std::uint8_t> bytes) {
+  return '"' + to_hex(sha256(bytes)) + '"';
+}
+
+}  // namespace
+
 WebPages::WebPages(std::span<const WebAsset> assets) {
-  for (const WebAsset& asset : assets) {
-    pages_.emplace(asset.path, WebPage{asset, '"' + to_hex(sha256(asset.bytes)) + '"'});
-  }
+  for (const WebAsset& asset : assets)
+    pages_.emplace(asset.path, WebPage{asset, tag_of(asset.bytes), tag_of(asset.gzip)});
 }
 
 const WebPage* WebPages::find(std::string_view path) const {

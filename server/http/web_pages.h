@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The embedded web client, looked up by path, each file with its entity tag.
+// The embedded web client, looked up by path, each file with its entity tags.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace vitrine {
 
 struct WebPage {
   WebAsset asset;
-  std::string etag;
+  std::string etag, gzip_etag;  // each representation has its own (RFC 9110, section 8.8.3.3)
 };
 
 class WebPages {

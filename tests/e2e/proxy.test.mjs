@@ -11,6 +11,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
+import { gunzipSync } from "node:zlib";
 import { Daemon } from "./daemon.mjs";
 import { Nginx } from "./nginx.mjs";
 
@@ -112,6 +113,18 @@ test("ranges of files and conditions on manifests reach the daemon", async () =>
   const { headers } = await ask(manifest);
   assert.equal(headers["cache-control"], "no-cache");
   assert.equal((await ask(manifest, { "If-None-Match": headers.etag })).status, 304);
+});
+
+test("code passes through by gzip to who accepts it, each form with a tag of its own", async () => {
+  const path = "/progressive-mesh.js", gzip = { "Accept-Encoding": "gzip" };
+  const packed = await ask(path, gzip), plain = await ask(path);
+  assert.equal(packed.headers["content-encoding"], "gzip");
+  assert.equal(plain.headers["content-encoding"], undefined);
+  assert.deepEqual(gunzipSync(packed.body), plain.body);
+  assert.notEqual(packed.headers.etag, plain.headers.etag);
+  for (const { headers } of [packed, plain]) assert.equal(headers.vary, "Accept-Encoding");
+  assert.equal((await ask(path, { ...gzip, "If-None-Match": packed.headers.etag })).status, 304);
+  assert.equal((await ask(path, { ...gzip, "If-None-Match": plain.headers.etag })).status, 200);
 });
 
 test("the addresses that the daemon tells are nginx's", async () => {

@@ -52,6 +52,7 @@ for (const kind of ["plain", "coloured"]) {
       assert.equal(shown.length, 1);
       assert.ok(shown[0].detail.triangles < mesh.faces.length / 10);
       assert.equal(viewer.finishedChunks, 0);
+      assert.match(await viewer.counts(), /^[1-9][\d,]* of [\d,]+ triangles$/);
       const base = await picture("base");
       assert.ok(await differs(viewer, base), "the canvas shows something");
       assert.equal(viewer.finishedChunks, 0);
@@ -264,6 +265,40 @@ test("with a pixel error a larger view asks for more", async () => {
   const { width, height } = viewer.page.viewportSize();
   await viewer.sharpened(small, () => viewer.page.setViewportSize({ width: 2 * width, height: 2 * height }));
   assert.deepEqual(await viewer.complaints(), []);
+  await viewer.page.context().close();
+});
+
+test("the far side of the surface does not speckle its outline", async () => {
+  const viewer = await refined(pages.plain);
+  await viewer.frames();
+  const { edges, dark } = await viewer.page.locator("progressive-mesh canvas").evaluate((canvas) => {
+    const gl = canvas.getContext("webgl2"), { width, height } = canvas, data = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, data);
+    const seen = { edges: 0, dark: 0 };
+    for (let y = 0; y < height; ++y) {
+      const end = 4 * width * (y + 1);
+      let at = end - 4 * width;
+      while (at < end && data[at + 3] === 0) at += 4;
+      if (at === end || data[at + 3] === 255) continue; // nothing there, or no pixel that is covered in part
+      const edge = (255 * data[at]) / data[at + 3];
+      while (data[at + 3] < 255) at += 4;
+      ++seen.edges;
+      if (edge < 0.8 * data[at + 4]) ++seen.dark;
+    }
+    return seen;
+  });
+  assert.ok(edges > 100 && dark < edges / 5, `${dark} of ${edges} pixels are darker than the surface within`);
+  await viewer.page.context().close();
+});
+
+test("the code of a first visit travels packed, in less than half of its bytes", async () => {
+  const viewer = await refined(pages.plain);
+  const code = await viewer.page.evaluate(() => performance.getEntriesByType("resource").filter(({ name }) => /\.(js|css|wasm)$/.test(name))
+    .map(({ name, encodedBodySize: sent, decodedBodySize: read }) => ({ name, sent, read })));
+  assert.deepEqual(code.filter(({ sent, read }) => sent === 0 || sent >= read), []);
+  const [sent, read] = ["sent", "read"].map((what) => code.reduce((sum, one) => sum + one[what], 0));
+  console.log(`${code.length} files of code: ${sent} bytes for ${read}`);
+  assert.ok(sent < read / 2, `${sent} bytes for ${read}`);
   await viewer.page.context().close();
 });
 

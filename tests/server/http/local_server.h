@@ -85,7 +85,9 @@ class LocalServer {
     return options;
   }
 
-  static constexpr WebAsset kPages[] = {{"/model.html", "text/html; charset=utf-8", {}}};
+  static constexpr std::uint8_t kPlain[] = {'p', 'l', 'a', 'i', 'n'}, kPacked[] = {'g', 'z'};
+  static constexpr WebAsset kPages[] = {{"/model.html", "text/html; charset=utf-8", {}},
+                                        {"/docs.js", "text/javascript", kPlain, kPacked}};
 
   TemporaryFolder folder_;
   Installation installation_ = open_installation({.folder = folder_.path()}).value();
