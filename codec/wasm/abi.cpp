@@ -53,9 +53,6 @@ VITRINE_EXPORT(model_open) Model* model_open(const std::uint8_t* data, std::uint
   auto model = Model::open(bytes_at(data, size));
   return succeeded(model) ? model->release() : nullptr;
 }
-VITRINE_EXPORT(model_close) void model_close(Model* model) {
-  delete model;
-}
 
 // The manifest as numbers; see Model::summary for the layout.
 VITRINE_EXPORT(summary) const double* summary(Model* model) {

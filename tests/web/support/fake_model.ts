@@ -71,8 +71,6 @@ export class FakeDecoder implements ModelDecoder {
       positions: new Float32Array(), normals: new Int16Array(), colours: undefined, indices: new Uint32Array(),
     };
   }
-
-  latticeSurface = () => ({ positions: new Int32Array(), faces: new Uint32Array(), colours: undefined });
 }
 
 /** A request that waits for the test. */

@@ -37,7 +37,6 @@ interface Exports {
   normals(model: Pointer): Pointer;
   indices(model: Pointer): Pointer;
   colours(model: Pointer): Pointer;
-  lattice_positions(model: Pointer): Pointer;
 }
 
 /** The base mesh as Draco gives it: lattice coordinates, indices, YCoCg-R colours; 3 each. */
@@ -47,45 +46,38 @@ export interface BaseMesh {
   colours: Int32Array | undefined;
 }
 
-/** The exact surface: lattice coordinates, indices, sRGB bytes; 3 each. */
-export interface LatticeSurface {
-  positions: Int32Array;
-  faces: Uint32Array;
-  colours: Uint8Array | undefined;
-}
-
 export class Decoder {
-  readonly #wasm: Exports;
-  #model: Pointer = 0;
+  protected readonly wasm: Exports;
+  protected model: Pointer = 0;
   #info: ModelInfo | undefined;
   #parents = new Uint32Array(0);
   #known = 0; // vertices that have a parent
 
-  private constructor(instance: WebAssembly.Instance) {
-    this.#wasm = instance.exports as unknown as Exports;
-    this.#wasm._initialize();
+  protected constructor(instance: WebAssembly.Instance) {
+    this.wasm = instance.exports as unknown as Exports;
+    this.wasm._initialize();
   }
 
   static async create(module: WebAssembly.Module): Promise<Decoder> {
-    return new Decoder(await WebAssembly.instantiate(module, {}));
+    return new this(await WebAssembly.instantiate(module, {}));
   }
 
   /** The length of the header that begins with `bytes`. */
   headerLength(bytes: Uint8Array): number {
-    const length = this.#lend(bytes, (data, size) => this.#wasm.header_length(data, size));
+    const length = this.#lend(bytes, (data, size) => this.wasm.header_length(data, size));
     if (length < 0) throw this.#error();
     return length;
   }
 
   open(header: Uint8Array): ModelInfo {
-    this.#model = this.#lend(header, (data, size) => this.#wasm.model_open(data, size));
-    if (this.#model === 0) throw this.#error();
+    this.model = this.#lend(header, (data, size) => this.wasm.model_open(data, size));
+    if (this.model === 0) throw this.#error();
     this.#info = this.#readInfo();
     return this.#info;
   }
 
   checkBase(bytes: Uint8Array): void {
-    const fits = this.#lend(bytes, (data, size) => this.#wasm.check_base(this.#model, data, size));
+    const fits = this.#lend(bytes, (data, size) => this.wasm.check_base(this.model, data, size));
     if (!fits) throw new DamagedError(this.#error().message);
   }
 
@@ -94,8 +86,8 @@ export class Decoder {
     const started = this.#lend(positions, (points) =>
       this.#lend(faces, (corners) =>
         this.#lend(colours ?? new Int32Array(0), (tints) =>
-          this.#wasm.start(
-            this.#model, points, positions.length / 3, corners, faces.length / 3, colours ? tints : 0))));
+          this.wasm.start(
+            this.model, points, positions.length / 3, corners, faces.length / 3, colours ? tints : 0))));
     if (!started) throw this.#error();
     if (this.#info) this.#info.centre = this.#readInfo().centre;
     this.#adopt();
@@ -113,7 +105,7 @@ export class Decoder {
   #wantView({ camera, fov, width, height, pixels, bytes = Infinity, triangles = Infinity }: View): number {
     const numbers = Float64Array.of(...camera.slice(0, 16), fov, width, height, pixels, bytes, triangles);
     if (numbers.length !== 22) throw new ModelError("the camera must have 16 numbers");
-    return this.#lend(numbers, (data) => this.#wasm.want_view(this.#model, data));
+    return this.#lend(numbers, (data) => this.wasm.want_view(this.model, data));
   }
 
   #wantAmount(want: Exclude<Want, { view: View }>): number {
@@ -122,24 +114,24 @@ export class Decoder {
       : "bytes" in want ? [1, want.bytes]
       : "error" in want ? [2, want.error]
       : [3, want.level];
-    return this.#wasm.want(this.#model, kind, value);
+    return this.wasm.want(this.model, kind, value);
   }
 
   /** The next chunk on the way to the goal; it then counts as requested. */
   nextChunk(): number | undefined {
-    const chunk = this.#wasm.next_chunk(this.#model);
+    const chunk = this.wasm.next_chunk(this.model);
     return chunk < 0 ? undefined : chunk;
   }
 
   /** Throws DamagedError where the SHA-256 is another: fetch the chunk again. */
   checkChunk(chunk: number, bytes: Uint8Array): void {
-    const fits = this.#lend(bytes, (data, size) => this.#wasm.check_chunk(this.#model, chunk, data, size));
+    const fits = this.#lend(bytes, (data, size) => this.wasm.check_chunk(this.model, chunk, data, size));
     if (!fits) throw new DamagedError(this.#error().message);
   }
 
   /** Applies a checked chunk. Throws ModelError where its content is impossible: then want() starts over. */
   apply(chunk: number, bytes: Uint8Array): void {
-    const applied = this.#lend(bytes, (data, size) => this.#wasm.apply(this.#model, chunk, data, size));
+    const applied = this.#lend(bytes, (data, size) => this.wasm.apply(this.model, chunk, data, size));
     if (!applied) throw this.#error();
     this.#adopt();
   }
@@ -151,31 +143,31 @@ export class Decoder {
 
   /** Takes down who split, for the chunk applied last. */
   #adopt(): void {
-    const count = this.#wasm.vertex_count(this.#model);
+    const count = this.wasm.vertex_count(this.model);
     if (count > this.#parents.length) {
       const longer = new Uint32Array(Math.max(count, 2 * this.#parents.length));
       longer.set(this.#parents);
       this.#parents = longer;
     }
-    for (; this.#known < count; ++this.#known) this.#parents[this.#known] = this.#wasm.parent_of(this.#model, this.#known);
+    for (; this.#known < count; ++this.#known) this.#parents[this.#known] = this.wasm.parent_of(this.model, this.#known);
   }
 
   /** At the goal: takes back the splits beyond it. */
   trim(): void {
-    this.#wasm.trim(this.#model);
+    this.wasm.trim(this.model);
   }
 
   get bytesHeld(): number {
-    return this.#wasm.bytes_held(this.#model);
+    return this.wasm.bytes_held(this.model);
   }
 
   /** Memory in use, in pages of 64 KiB. */
   get pages(): number {
-    return this.#wasm.memory.buffer.byteLength >> 16;
+    return this.wasm.memory.buffer.byteLength >> 16;
   }
 
   surface(): Surface {
-    const wasm = this.#wasm, model = this.#model;
+    const wasm = this.wasm, model = this.model;
     const vertices = wasm.vertex_count(model);
     const positions = new Float32Array(3 * vertices), normals = new Int16Array(4 * vertices);
     const colours = this.#info?.coloured ? new Uint16Array(4 * vertices) : undefined;
@@ -188,63 +180,51 @@ export class Decoder {
     return { triangles: indices.length / 3, vertices, bytes: this.bytesHeld, positions, normals, colours, indices };
   }
 
-  latticeSurface(): LatticeSurface {
-    const wasm = this.#wasm, model = this.#model;
-    const vertices = wasm.vertex_count(model);
-    const positions = new Int32Array(3 * vertices);
-    const colours = this.#info?.coloured ? new Uint8Array(3 * vertices) : undefined;
-    this.#eachPiece((buffer, at, count) => {
-      positions.set(new Int32Array(buffer, wasm.lattice_positions(model), 3 * count), 3 * at);
-      colours?.set(new Uint8Array(buffer, wasm.colours(model), 3 * count), 3 * at);
-    });
-    return { positions, faces: this.#faces(), colours };
-  }
-
   /** Takes the displayed surface: `use` gets `count` vertices from the `at`-th on, piece by piece. */
   #eachPiece(use: (buffer: ArrayBuffer, at: number, count: number) => void): void {
-    const wasm = this.#wasm;
-    wasm.display(this.#model);
-    for (let at = 0, count; (count = wasm.next_vertices(this.#model)) > 0; at += count) {
+    const wasm = this.wasm;
+    wasm.display(this.model);
+    for (let at = 0, count; (count = wasm.next_vertices(this.model)) > 0; at += count) {
       use(wasm.memory.buffer, at, count);
     }
   }
 
   /** The faces of the surface that #eachPiece took. */
   #faces(): Uint32Array {
-    const wasm = this.#wasm;
-    const faces = new Uint32Array(3 * wasm.face_count(this.#model));
-    for (let at = 0, count; (count = wasm.next_faces(this.#model)) > 0; at += count) {
-      faces.set(new Uint32Array(wasm.memory.buffer, wasm.indices(this.#model), 3 * count), 3 * at);
+    const wasm = this.wasm;
+    const faces = new Uint32Array(3 * wasm.face_count(this.model));
+    for (let at = 0, count; (count = wasm.next_faces(this.model)) > 0; at += count) {
+      faces.set(new Uint32Array(wasm.memory.buffer, wasm.indices(this.model), 3 * count), 3 * at);
     }
     return faces;
   }
 
   #lend<T>(array: Uint8Array | Int32Array | Uint32Array | Float64Array, use: (data: Pointer, size: number) => T): T {
-    const data = this.#wasm.allocate(Math.max(array.byteLength, 1));
+    const data = this.wasm.allocate(Math.max(array.byteLength, 1));
     if (data === 0) throw new ModelError("the model is too large for this browser's memory");
     try {
       const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
-      new Uint8Array(this.#wasm.memory.buffer).set(bytes, data);
+      new Uint8Array(this.wasm.memory.buffer).set(bytes, data);
       return use(data, array.byteLength);
     } finally {
-      this.#wasm.release(data);
+      this.wasm.release(data);
     }
   }
 
   #error(): ModelError {
-    return new ModelError(this.#text(this.#wasm.error_text()));
+    return new ModelError(this.#text(this.wasm.error_text()));
   }
 
   #text(pointer: Pointer): string {
-    const bytes = new Uint8Array(this.#wasm.memory.buffer);
+    const bytes = new Uint8Array(this.wasm.memory.buffer);
     return new TextDecoder().decode(bytes.slice(pointer, bytes.indexOf(0, pointer)));
   }
 
   /** Reads the layout that Model::summary (codec/wasm/model.h) describes. */
   #readInfo(): ModelInfo {
-    const wasm = this.#wasm;
-    const pointer = wasm.summary(this.#model);
-    const numbers = new Float64Array(wasm.memory.buffer, pointer, wasm.summary_length(this.#model)).slice();
+    const wasm = this.wasm;
+    const pointer = wasm.summary(this.model);
+    const numbers = new Float64Array(wasm.memory.buffer, pointer, wasm.summary_length(this.model)).slice();
     const at = (i: number) => numbers[i] ?? 0;
     const kFixed = 11, kLevel = 5, kChunk = 4;
     const levels = Array.from({ length: at(0) }, (_, i) => {
@@ -264,14 +244,14 @@ export class Decoder {
       coloured: at(5) !== 0,
       bits: at(6),
       step: at(7),
-      unit: this.#text(wasm.unit(this.#model)),
+      unit: this.#text(wasm.unit(this.model)),
       centre: [at(8), at(9), at(10)],
     };
   }
 
   #hash(chunk: number): string {
-    const pointer = this.#wasm.chunk_hash(this.#model, chunk);
-    const digest = new Uint8Array(this.#wasm.memory.buffer, pointer, 32);
+    const pointer = this.wasm.chunk_hash(this.model, chunk);
+    const digest = new Uint8Array(this.wasm.memory.buffer, pointer, 32);
     return Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
   }
 }

@@ -3,7 +3,7 @@
 // time, applies them in that order and offers each state for display. A new want supersedes the
 // one before at the next chunk; what was fetched is kept, so going back is free of charge.
 import { Shown, type Piece } from "./change.ts";
-import type { BaseMesh, LatticeSurface } from "./decoder.ts";
+import type { BaseMesh } from "./decoder.ts";
 import type { Source } from "./source.ts";
 import {
   DamagedError, ModelError, UnreachableError,
@@ -24,7 +24,6 @@ export interface ModelDecoder {
   readonly bytesHeld: number;
   readonly parents: Uint32Array;
   surface(): Surface;
-  latticeSurface(): LatticeSurface;
 }
 
 /** Where a session shows what it has. */
@@ -119,10 +118,6 @@ export class Session {
     this.#present();
     while (this.#showing) await this.#showing;
     return turn === this.#turn;
-  }
-
-  latticeSurface(): LatticeSurface {
-    return this.decoder.latticeSurface();
   }
 
   close(): void {
