@@ -56,6 +56,26 @@ test("the amounts asked for may change at any time", async () => {
   await viewer.page.context().close();
 });
 
+test("max-bytes and target-error are kept to, and progress tells how much of it is there", async () => {
+  const { levels } = await (await fetch(`${url.replace("/models/", "/api/v1/models/")}/manifest`)).json();
+  const half = Math.round(levels.at(-1).cumulative_bytes / 2), fine = levels.at(-3).max_error;
+  const viewer = await opened({ "max-bytes": String(half) });
+  await viewer.events("load");
+  const shown = async () => (await viewer.seen()).filter(({ type }) => type === "refine").at(-1).detail;
+  const some = await shown();
+  assert.equal(some.bytes, levels.findLast(({ cumulative_bytes: bytes }) => bytes <= half).cumulative_bytes);
+  const told = (await viewer.events("progress")).map(({ detail }) => detail);
+  assert.ok(told.length > 1 && told.every(({ bytes, total }) => bytes <= total));
+  assert.deepEqual(told.at(-1), { bytes: some.bytes, total: some.bytes });
+  await viewer.settled(async () => {
+    await set(viewer, "target-error", String(fine));
+    await set(viewer, "max-bytes", null);
+  });
+  assert.equal((await shown()).triangles, levels.at(-3).faces);
+  assert.equal((await shown()).vertices, levels.at(-3).vertices);
+  await viewer.page.context().close();
+});
+
 test("the camera stands where its attributes say", async () => {
   const viewer = await opened({ "camera-orbit": "40deg 70deg auto", "field-of-view": "20deg", "max-triangles": "0" });
   await viewer.events("load");
@@ -90,6 +110,7 @@ test("only camera-controls lets the visitor move the camera", async () => {
   const still = await drag();
   const turned = await drag();
   assert.notEqual(turned, still);
+  assert.deepEqual((await viewer.seen()).findLast(({ type }) => type === "camera-change").detail, { source: "user-interaction" });
   await set(viewer, "camera-controls", null);
   assert.equal(await touch(), "auto");
   assert.equal(await drag(), turned);
@@ -123,13 +144,30 @@ test("loading lazy waits until the viewer is near", async () => {
   await viewer.page.context().close();
 });
 
-test("reveal manual keeps the poster until it is dismissed", async () => {
-  const viewer = await opened({ reveal: "manual", "max-triangles": "0", poster: `${url.replace("/models/", "/api/v1/models/")}/poster.png` });
+test("the poster is seen until the first picture; reveal manual keeps it until it is dismissed", async () => {
+  const poster = (viewer) => viewer.page.locator("progressive-mesh .poster");
+  const address = `${url.replace("/models/", "/api/v1/models/")}/poster.png`;
+  const waiting = await opened({ loading: "lazy", "max-triangles": "0", poster: address, style: "display: block; margin-top: 5000px; height: 400px" });
+  await poster(waiting).waitFor();
+  await waiting.settled(() => element(waiting).scrollIntoViewIfNeeded());
+  assert.equal(await poster(waiting).isVisible(), false);
+  await waiting.page.context().close();
+  const viewer = await opened({ reveal: "manual", "max-triangles": "0", poster: address });
   await viewer.events("load");
-  const poster = viewer.page.locator("progressive-mesh .poster");
-  assert.ok(await poster.isVisible());
+  assert.ok(await poster(viewer).isVisible());
   await element(viewer).evaluate((viewed) => viewed.dismissPoster());
-  assert.equal(await poster.isVisible(), false);
+  assert.equal(await poster(viewer).isVisible(), false);
+  await viewer.page.context().close();
+});
+
+test("alt is what is heard of the picture, now and later", async () => {
+  const viewer = await opened({ "max-triangles": "0" });
+  await viewer.events("load");
+  await viewer.page.getByRole("img", { name: "Demosthenes", exact: true }).waitFor(); // the page's words
+  await set(viewer, "alt", "Roman copy");
+  await viewer.page.getByRole("img", { name: "Roman copy", exact: true }).waitFor();
+  await set(viewer, "alt", null);
+  await viewer.page.getByRole("img", { name: "Three-dimensional model" }).waitFor();
   await viewer.page.context().close();
 });
 

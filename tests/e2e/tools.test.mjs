@@ -75,9 +75,17 @@ describe("on a wide, light page", () => {
   test("each choice tells its size, and its wait once the line has been measured", async () => {
     assert.match(await facts("lowest"), /^1\.\d KB at once$/);
     assert.match(await facts("highest"), /^\d+(\.\d)? KB$/);
+    await heard(viewer, /^The first shape is shown, [1-9]/);
+    await page.locator("progressive-mesh [role=status]").evaluate((place) => {
+      window.said = [];
+      new MutationObserver(() => place.textContent && window.said.push(place.textContent)).observe(place, { childList: true });
+    });
     await viewer.releaseLayers();
     await viewer.events("load");
     await heard(viewer, "The detail asked for is shown");
+    const said = await page.evaluate(() => window.said), states = (await viewer.events("refine")).length;
+    assert.ok(said.length <= 2 && states > 4, `milestones alone, of ${states} states: ${said.join(" ")}`);
+    assert.match(await page.locator("output .bytes").textContent(), /^[\d.]+ KB of [\d.]+ KB$/);
     assert.match(await facts("highest"), / KB at once$/);
     assert.equal(await facts("refine"), "complete");
     assert.match(await page.locator("output .error").textContent(), /^error ≤ [\d.]+ mm$/);
@@ -101,6 +109,8 @@ describe("on a wide, light page", () => {
     await page.locator("canvas").focus();
     for (let i = 0; i < 8; ++i) await page.keyboard.press("ArrowRight");
     await heard(viewer, "Seen from the right.");
+    const ring = await page.locator("canvas").evaluate((canvas) => getComputedStyle(canvas).outline);
+    assert.match(ring, /solid 2px$/, "who uses keys sees where they go");
     await page.keyboard.press("+");
     assert.notEqual(await cameraOf(viewer), first);
     await page.locator("canvas").focus();
@@ -131,6 +141,16 @@ describe("on a wide, light page", () => {
     const [model] = await Promise.all([page.waitForEvent("download"), page.getByRole("link", { name: "Download the model" }).click()]);
     const coarsest = (await viewer.seen()).find(({ type }) => type === "refine").detail.triangles;
     assert.match((await readFile(await model.path())).toString("latin1"), new RegExp(`element face ${coarsest}\n`));
+  });
+
+  test("it fills the screen and gives it back", async () => {
+    const { height } = await page.locator("progressive-mesh").boundingBox();
+    const filled = () => page.evaluate(() => document.fullscreenElement?.localName);
+    await button("fullScreen").click();
+    await page.waitForFunction((before) => document.querySelector("progressive-mesh").clientHeight > before, height);
+    assert.equal(await filled(), "progressive-mesh");
+    await button("fullScreen").click();
+    await page.waitForFunction(() => document.fullscreenElement === null);
   });
 
   test("raking light comes from where the visitor turns it", async () => {

@@ -87,7 +87,7 @@ class ScanDesk implements ScanSight {
   }
 
   #offer(scan: Scan): void {
-    const choices = `${scan.state} ${scan.model}`; // buttons stay as long as they are right
+    const choices = scan.model ?? scan.state; // buttons, and a model's viewer, stay as long as they are right
     if (choices === this.#choices) return;
     this.#choices = choices;
     if (scan.model) return void this.#modelled(scan.model).catch((error) => this.#alert.show(error));

@@ -63,7 +63,7 @@ function show(api: Document): void {
     document.getElementById("nouns")?.append(link);
   }
   document.getElementById("calls")?.append(...sections.values());
-  document.getElementById("about")?.append(...prose(api.info.description));
+  document.getElementById("summary")?.append(...prose(api.info.description));
   if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
 }
 

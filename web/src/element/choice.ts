@@ -56,7 +56,7 @@ export class Choice {
   enable(info: ModelInfo): void {
     this.#info = info;
     this.#line.sample(this.#bytesOf(0), performance.now());
-    this.#tell();
+    this.#again?.(); // the base mesh is shown already
   }
 
   disable(): void {
@@ -66,11 +66,10 @@ export class Choice {
 
   /** `bounded`: the model is refined everywhere alike, so that its level's error holds. */
   show({ triangles, bytes }: { triangles: number; bytes: number }, bounded: boolean): void {
-    if (!this.#info) return;
     this.#again = () => this.show({ triangles, bytes }, bounded);
     this.#triangles = triangles;
     const texts = this.#texts;
-    if (!texts) return;
+    if (!texts || !this.#info) return;
     const counted = texts.triangles(triangles, this.#info.levels[this.#finest]?.faces ?? triangles);
     this.#write(".triangles", counted);
     this.#write(".bytes", texts.bytes(bytes, this.#info.fileBytes));

@@ -2,6 +2,7 @@
 // New vertices part from their parents, and old ones leave their places, over a quarter of a second
 // instead of popping: in the vertex shader, by attributes that are there only meanwhile.
 import type { Material } from "three";
+import { evenOutline } from "./outline.ts";
 
 const kDuration = 250; // milliseconds
 /** Changes under way at once; when there are more, the oldest ends early. */
@@ -31,6 +32,7 @@ export class Geomorph {
           objectNormal = mix(fromNormal.xyz, objectNormal, morphed());`)
         .replace("#include <begin_vertex>", `#include <begin_vertex>
           transformed = mix(fromPosition.xyz, transformed, morphed());`);
+      shader.fragmentShader = evenOutline(shader.fragmentShader);
     };
   }
 
