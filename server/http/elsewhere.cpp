@@ -73,9 +73,11 @@ std::vector<nlohmann::ordered_json> ask_all(std::span<const Question> questions,
     return json.is_object() ? json : nullptr;
   };
   std::vector<std::future<nlohmann::ordered_json>> asked;
+  asked.reserve(questions.size());
   for (const Question& question : questions)
     asked.push_back(std::async(std::launch::async, ask, std::cref(question)));
   std::vector<nlohmann::ordered_json> answers;
+  answers.reserve(asked.size());
   for (auto& one : asked)
     answers.push_back(one.get());
   return answers;
