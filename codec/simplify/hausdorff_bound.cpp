@@ -16,6 +16,9 @@ constexpr std::size_t kFine = 2;
 // Of the limit: the radius of a piece that one true distance may settle.
 constexpr double kOneDistance = 0.9;
 constexpr double kSlack = 1e-6;  // of the limit: what a cut may leave standing
+// Where the limit is so many times as wide as the target's triangles, a triangle of the source
+// needs far fewer pieces that one true distance settles than a patch over it has triangles.
+constexpr double kWide = 4;
 
 Vec3 centre_of(const Corners& t) {
   return (t.a + t.b + t.c) * (1.0 / 3);
@@ -24,6 +27,15 @@ Vec3 centre_of(const Corners& t) {
 double squared_area(const Corners& t) {  // of the parallelogram
   const Vec3 normal = normal_of(t);
   return dot(normal, normal);
+}
+
+// The root of the mean of twice the area, of a sample of the triangles.
+double typical_width(const WitnessSurface& surface) {
+  constexpr std::uint32_t kStride = 64;
+  double area = 0, count = 0;
+  for (std::uint32_t t = 0; t < surface.size(); t += kStride)
+    area += std::sqrt(squared_area(surface.triangle(t))), ++count;
+  return std::sqrt(area / std::max(count, 1.0));
 }
 
 constexpr std::uint16_t kSeveral = 0xFFFF;
@@ -127,6 +139,7 @@ Overlaps HausdorffBound::add(const RegionedSurface& source, const WitnessSurface
                              const Overlaps& known) {
   target_ = &target;
   fine_ = source.bvh.size() >= kFine * target.size();
+  wide_ = kWide * typical_width(target);
   last_ = 0;
   Visit all{source, known, node_regions(source), PatchCover(target)};
   visit(all, 0);
@@ -167,6 +180,7 @@ void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
   const Vec3 centre = centre_of(triangle);
   last_ = target_->stroll(centre, last_);
   if (fine_ && settle(std::array{triangle.a, triangle.b, triangle.c}, last_)) return;
+  if (limit() > wide_) return cover(ConvexPiece(triangle), last_);
   if (lay_patch(all, triangle, t)) return;
   // The way there may have led to another sheet of the surface.
   const SurfacePoint nearest = target_->closest(centre, last_);

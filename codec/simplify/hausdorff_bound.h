@@ -5,7 +5,8 @@
 // is largest at a corner: the largest corner distance bounds the piece's distance to the whole
 // target. A piece with too weak a bound is cut along an edge of S, beyond which the neighbour of S
 // takes over, and halved where that does not help. Most triangles never come to that: they lie
-// under a patch of the target (see patch_cover.h).
+// under a patch of the target (see patch_cover.h). Where the target's triangles are much smaller
+// than what is allowed, a few true distances settle a triangle sooner than its patch would.
 //
 // Sheets that cross or lie on each other can ask for a piece for each square of the precision: the
 // work is bounded by growing what counts as negligible.
@@ -117,6 +118,7 @@ class HausdorffBound {
   unsigned losses_ = 0;
   const WitnessSurface* target_ = nullptr;
   bool fine_ = false;  // the source has the smaller triangles: one of the target may serve several
+  double wide_ = 0;    // a limit above this is wide beside the target's triangles
   std::uint32_t last_ = 0;  // the newest witness: the next one is near it
 };
 

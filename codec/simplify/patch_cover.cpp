@@ -47,16 +47,20 @@ float outside(float depth, float slack) {
 struct PatchCover::Prism {
   Corners base;
   Vec3 normal;
-  double unit;
+  double unit, per_unit;
   float limit;                         // units
   float twice_area = 0, per_area = 0;  // of the triangle, and 1 over it, units
   Lanes x{}, y{}, z{}, offset{};       // of the directions along which places are told
   Lanes centre{};
 
   Prism(const Corners& t, double most)
-      : base(t), normal{}, unit(longest_edge(t)), limit(static_cast<float>(most / unit)) {
-    const double scale = 1 / unit;
-    const Vec3 ab = (t.b - t.a) * scale, bc = (t.c - t.b) * scale, ca = (t.a - t.c) * scale;
+      : base(t),
+        normal{},
+        unit(longest_edge(t)),
+        per_unit(1 / unit),
+        limit(static_cast<float>(most / unit)) {
+    const Vec3 ab = (t.b - t.a) * per_unit, bc = (t.c - t.b) * per_unit,
+               ca = (t.a - t.c) * per_unit;
     normal = cross(ab, bc);
     const double area = length(normal);
     if (!(area > kLeastArea)) return;
@@ -81,7 +85,7 @@ struct PatchCover::Prism {
   bool flat() const { return per_area == 0; }
 
   Place place(const Vec3& p) const {
-    const Vec3 r = (p - base.a) * (1 / unit);
+    const Vec3 r = (p - base.a) * per_unit;
     const auto rx = static_cast<float>(r.x), ry = static_cast<float>(r.y),
                rz = static_cast<float>(r.z);
     const float reach = 1 + std::abs(rx) + std::abs(ry) + std::abs(rz), slack = kRounding * reach;
