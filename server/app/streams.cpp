@@ -82,6 +82,7 @@ StreamOptions options_of(const StreamCall& call, const Asker& asker) {
   StreamOptions options;
   options.patience = patience;
   options.head = call.head;
+  options.is_direct = !services.settings.get()->trusted_proxies.contain(connection->remote);
   options.find = [asker](std::string id) { return find_further(asker, std::move(id)); };
   options.is_current = [asker](StreamedModel model) { return is_current(asker, std::move(model)); };
   options.waits_for_peer = [connection, patience](bool waits) {

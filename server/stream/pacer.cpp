@@ -92,14 +92,17 @@ std::uint32_t Pacer::slice_bytes(double rate) const {
 }
 
 // A delay may be the link's own or a crowd's queue that was there before: no connection can tell by
-// itself. What is on its way because of it therefore has a bound, which all share.
+// itself. But for what is known to be its own, what is on its way because of it therefore has a
+// bound, which all share.
 std::uint32_t Pacer::room(Time now, std::size_t crowd) {
   const double speed = rate(now), sharers = std::max(1.0, static_cast<double>(crowd));
   slice_time_ = std::max(kSliceTime, sharers * kSliceCost);
   const std::uint32_t slice = slice_bytes(speed);
   if (in_flight() == 0) drains_ = false;
   if (in_flight() == 0 || now - progress_ >= kNudge) return slice;
-  const double most = std::min(window_, queue_bytes(speed) + kShared / sharers);
+  const double own = speed * own_.value_or(Duration::zero()).count();
+  const double shared = (own_ ? kShared : kUnknownShared) / sharers;
+  const double most = std::min(window_, own + queue_bytes(speed) + shared);
   const double left = most - static_cast<double>(in_flight());
   if (drains_ || left < slice / 2.0) return 0;
   return std::min(slice, static_cast<std::uint32_t>(left));

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace vitrine {
@@ -23,6 +24,9 @@ class Pacer {
   void arrived(std::uint64_t bytes, Time now);  // of those sent
 
   std::uint64_t in_flight() const { return sent_ - arrived_; }
+
+  // The connection's own delay, where that is known from beside: no crowd's queue is in it.
+  void know_delay(Duration own) { own_ = own; }
 
   // Bytes of the slice that may follow; 0 where none may. `crowd` is how many connections have
   // something on their way, this one included. Where nothing has arrived for kNudge a slice may
@@ -60,7 +64,9 @@ class Pacer {
   static constexpr double kFirstWindow = 16 * 1024;
   static constexpr double kLeastWindow = 4 * 1024;
   static constexpr double kMostWindow = 16 << 20;
-  static constexpr double kShared = 256 * 1024;  // of all: what longer delays may take
+  // Of all connections: what delays may take that are not known to be their own; and where nothing
+  // is known of that, so that visitors who are far away are not held back behind a proxy.
+  static constexpr double kShared = 256 * 1024, kUnknownShared = 8 << 20;
 
   struct Mark {
     std::uint64_t end;  // sent up to here
@@ -92,6 +98,7 @@ class Pacer {
   Duration base_ = Duration::max();  // the shortest way to the client and back
   Time base_since_{};
   bool drains_ = false;  // until nothing is on its way, so that base_ is seen without a queue
+  std::optional<Duration> own_;  // of the delay: surely no queue
   double window_ = kFirstWindow;
   Duration slice_time_ = kSliceTime;  // in a crowd it is longer, as slices cost time
 };

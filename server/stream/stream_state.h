@@ -39,6 +39,9 @@ class StreamState {
   bool is_granted_ahead() const { return granted_ > sent_; }
   void still_queued(std::uint64_t bytes, Time now);
 
+  // The connection's own delay; to be called where no proxy stands between.
+  void know_delay(Pacer::Duration own) { pacer_.know_delay(own); }
+
   std::uint64_t credit() const { return credit_; }
 
  private:

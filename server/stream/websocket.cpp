@@ -17,6 +17,7 @@
 #include <optional>
 
 #include "server/stream/stream_state.h"
+#include "server/transport/least_round_trip.h"
 
 namespace vitrine {
 namespace {
@@ -154,6 +155,9 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
   asio::awaitable<Expected<void>> take_wish(const WantMessage& wish) {
     const auto model = models_.find(wish.model);
     bool is_current = true;
+    if (options_.is_direct) {
+      if (const auto own = least_round_trip(socket_->native_handle())) state_.know_delay(*own);
+    }
     if (model != models_.end()) is_current = co_await options_.is_current(model->second);
     if (!is_current) close_with(websocket::close_code::service_restart);
     co_return state_.receive(wish, now());

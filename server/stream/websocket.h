@@ -21,6 +21,7 @@ using StreamedModel = std::shared_ptr<const PublishedModel>;
 struct StreamOptions {
   std::chrono::seconds patience{30};  // for handshakes, and before a silent peer is pinged and cut
   bool head = false;                  // the model's head comes first
+  bool is_direct = false;             // the peer of the socket is the client: no proxy
   // A model that this client may see; fails with what the client is told. Off the socket's strand.
   std::function<boost::asio::awaitable<Expected<StreamedModel>>(std::string id)> find;
   // Whether this client may still see the model, and its file is the one that was opened. Asked at

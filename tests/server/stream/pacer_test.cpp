@@ -21,6 +21,7 @@ class Link {
  public:
   double rate = 100'000;  // bytes per second
   double delay = 0.02;    // seconds, there and back
+  std::size_t crowd = 1;
 
   // Sends as much as the pacer lets through, for that long.
   void run(Pacer& pacer, double seconds) {
@@ -30,7 +31,7 @@ class Link {
         pacer.arrived(queue_.front().bytes, now);
         arrived += queue_.front().bytes;
       }
-      while (const std::uint32_t room = pacer.room(now, 1))
+      while (const std::uint32_t room = pacer.room(now, crowd))
         send(pacer, room);
       longest = std::max(longest, static_cast<double>(pacer.in_flight()) / rate);
     }
@@ -162,10 +163,39 @@ TEST(Pacer, ALongTransferDoesNotLengthenItsQueue) {
   EXPECT_LE(link.longest, link.delay + 0.15);
 }
 
+struct FarCase {
+  std::size_t crowd;
+  bool is_direct;
+};
+void PrintTo(const FarCase& one, std::ostream* out) {
+  *out << one.crowd << (one.is_direct ? " directly" : " behind a proxy");
+}
+
+class FarPacerTest : public ::testing::TestWithParam<FarCase> {};
+
+// A busy hour must not make links slower that are long, and not full.
+TEST_P(FarPacerTest, FillsALongLinkInACrowd) {
+  Link link;
+  link.rate = 400'000, link.delay = 0.15, link.crowd = GetParam().crowd;
+  Pacer pacer;
+  if (GetParam().is_direct) pacer.know_delay(Pacer::Duration(link.delay));
+  link.run(pacer, 3);
+  const std::uint64_t before = link.arrived;
+  link.run(pacer, 5);
+  EXPECT_GE(static_cast<double>(link.arrived - before), 0.85 * 5 * link.rate);
+}
+
+INSTANTIATE_TEST_SUITE_P(Crowds, FarPacerTest,
+                         ::testing::Values(FarCase{20, true}, FarCase{500, true},
+                                           FarCase{20, false}, FarCase{100, false}));
+
 // Connections whose slices and acknowledgements wait for the same thing, first come, first served.
 class SharedQueue {
  public:
-  SharedQueue(std::size_t size, double rate) : members_(size), rate_(rate) {}
+  SharedQueue(std::size_t size, double rate) : members_(size), rate_(rate) {
+    for (Member& member : members_)
+      member.pacer.know_delay(Pacer::Duration(kDelay));
+  }
 
   // Three of four begin in the first two seconds, the others when those have filled the queue.
   void run(double until) {
@@ -189,6 +219,7 @@ class SharedQueue {
   }
 
  private:
+  static constexpr double kDelay = 0.001;
   struct Member {
     Pacer pacer;
     std::uint64_t arrived = 0;
@@ -211,7 +242,6 @@ class SharedQueue {
   }
 
   void pull(std::size_t number) {
-    constexpr double kDelay = 0.001;
     constexpr std::uint64_t kCredit = 64 * 1024;
     Pacer& pacer = members_[number].pacer;
     while (const std::uint64_t bytes = std::min<std::uint64_t>(pacer.room(time(now_), busy_),
