@@ -265,8 +265,8 @@ TEST_F(SharedJobs, what_is_put_aside_goes_over_with_its_scanner) {
 TEST_F(SharedJobs, what_is_cancelled_while_it_is_taken_up_is_not_put_aside_again) {
   const JobRecord job = scan_at("left");
   {
+    std::promise<void> go;  // outlives the lane that waits for it
     JobQueue scans = scanning({.builds = false});
-    std::promise<void> go;
     scans.lane("left").post([&] { go.get_future().wait(); });
     ASSERT_TRUE(scans.add(job, {}, {}));
     ASSERT_TRUE(scans.pause(job.id));
