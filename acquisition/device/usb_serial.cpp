@@ -142,6 +142,7 @@ void UsbSerial::mark_gone() {
   changed_.notify_all();
 }
 
+// All transfers are there before the first is on its way: on_transfer() looks through them.
 Expected<void> UsbSerial::listen() {
   for (Incoming& incoming : incoming_) {
     incoming.transfer.reset(libusb_alloc_transfer(0));
@@ -149,6 +150,8 @@ Expected<void> UsbSerial::listen() {
     libusb_fill_bulk_transfer(incoming.transfer.get(), handle_.get(), line_.in,
                               incoming.bytes.data(), static_cast<int>(incoming.bytes.size()),
                               &on_transfer, this, 0);
+  }
+  for (Incoming& incoming : incoming_) {
     const std::lock_guard lock(mutex_);
     const int code = libusb_submit_transfer(incoming.transfer.get());
     if (code != LIBUSB_SUCCESS) return Unexpected(usb_error(name_, "cannot be read", code));

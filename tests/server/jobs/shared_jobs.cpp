@@ -204,8 +204,8 @@ TEST_F(SharedJobs, what_is_cancelled_before_anybody_begins_is_never_begun) {
 
 TEST_F(SharedJobs, what_is_put_aside_can_be_cancelled_by_another) {
   const JobRecord job = scan_at("left");
+  std::promise<void> go;  // outlives the lane that waits for it
   JobQueue scans = scanning({.builds = false});
-  std::promise<void> go;
   scans.lane("left").post([&] { go.get_future().wait(); });
   ASSERT_TRUE(scans.add(job, {}, {}));
   ASSERT_TRUE(scans.pause(job.id));
