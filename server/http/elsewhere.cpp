@@ -17,6 +17,7 @@ constexpr const char* kPassedOn = "Vitrine-Passed-On";
 constexpr std::size_t kMostBytes = 64 << 20;   // of a picture
 constexpr std::chrono::seconds kToConnect{3};  // it is in the same building
 constexpr std::chrono::seconds kGlance{5};
+constexpr std::chrono::seconds kTurn{60};  // in which a table has turned, too
 
 std::vector<std::string> fields_of(const Request& request) {
   std::vector<std::string> fields = {fmt::format("{}: 1", kPassedOn),
@@ -54,48 +55,16 @@ Response passed_back(RemoteAnswer answer, std::string body, const Request& reque
   return response;
 }
 
-}  // namespace
-
-bool is_passed_on(const Request& request) {
-  return request.header.find(kPassedOn) != request.header.end();
-}
-
-std::vector<nlohmann::ordered_json> ask_all(std::span<const Question> questions,
-                                            const Request& request, Services& services) {
-  const auto ask = [&](const Question& question) -> nlohmann::ordered_json {
-    Request one = request;
-    one.path = question.path;
-    one.query = question.query;
-    const auto answer = ask_elsewhere(question.address, one, services, kGlance);
-    const auto* const text = std::get_if<std::string>(&answer.body);
-    if (answer.status != 200 || text == nullptr) return nullptr;
-    auto json = nlohmann::ordered_json::parse(*text, nullptr, /*allow_exceptions=*/false);
-    return json.is_object() ? json : nullptr;
-  };
-  std::vector<std::future<nlohmann::ordered_json>> asked;
-  asked.reserve(questions.size());
-  for (const Question& question : questions)
-    asked.push_back(std::async(std::launch::async, ask, std::cref(question)));
-  std::vector<nlohmann::ordered_json> answers;
-  answers.reserve(asked.size());
-  for (auto& one : asked)
-    answers.push_back(one.get());
-  return answers;
-}
-
-std::optional<std::string> elsewhere(const std::string& scanner, const Request& request,
-                                     Services& services) {
-  if (is_passed_on(request)) return std::nullopt;
-  return services.scans.address_of(scanner);
-}
-
-Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
-                       std::chrono::seconds patience) {
-  if (address.empty()) return away(request.id);
-  const auto seat = request.caller
-                        ? services.callers_elsewhere->take("")
+tl::expected<Seats::Seat, Seats::Refusal> seat_for(const Request& request, Services& services,
+                                                   bool is_stop) {
+  if (is_stop) return services.stops_elsewhere->take("");
+  return request.caller ? services.callers_elsewhere->take("")
                         : services.strangers_elsewhere->take(network_of(request.visitor));
-  if (!seat) return away(request.id);
+}
+
+Response ask_at_once(const std::string& address, const Request& request, Services& services,
+                     std::chrono::seconds patience) {
+  if (address.empty()) return away(request.id);
   const std::string json = request.body.empty() ? "" : request.body.dump();
   std::string body;
   RemoteServer server;
@@ -115,6 +84,49 @@ Response ask_elsewhere(const std::string& address, const Request& request, Servi
                   }});
   if (!answer) return internal_error(answer.error(), request, services);
   return passed_back(std::move(*answer), std::move(body), request);
+}
+
+}  // namespace
+
+bool is_passed_on(const Request& request) {
+  return request.header.find(kPassedOn) != request.header.end();
+}
+
+std::vector<nlohmann::ordered_json> ask_all(std::span<const Question> questions,
+                                            const Request& request, Services& services) {
+  const auto ask = [&](const Question& question) -> nlohmann::ordered_json {
+    Request one = request;
+    one.path = question.path;
+    one.query = question.query;
+    const auto answer = ask_at_once(question.address, one, services, kGlance);
+    const auto* const text = std::get_if<std::string>(&answer.body);
+    if (answer.status != 200 || text == nullptr) return nullptr;
+    auto json = nlohmann::ordered_json::parse(*text, nullptr, /*allow_exceptions=*/false);
+    return json.is_object() ? json : nullptr;
+  };
+  const auto seat = seat_for(request, services, /*is_stop=*/false);  // one: one worker waits
+  if (!seat) return std::vector<nlohmann::ordered_json>(questions.size());
+  std::vector<std::future<nlohmann::ordered_json>> asked;
+  asked.reserve(questions.size());
+  for (const Question& question : questions)
+    asked.push_back(std::async(std::launch::async, ask, std::cref(question)));
+  std::vector<nlohmann::ordered_json> answers;
+  answers.reserve(asked.size());
+  for (auto& one : asked)
+    answers.push_back(one.get());
+  return answers;
+}
+
+std::optional<std::string> elsewhere(const std::string& scanner, const Request& request,
+                                     Services& services) {
+  if (is_passed_on(request)) return std::nullopt;
+  return services.scans.address_of(scanner);
+}
+
+Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
+                       bool is_stop) {
+  const auto seat = seat_for(request, services, is_stop);
+  return seat ? ask_at_once(address, request, services, kTurn) : away(request.id);
 }
 
 }  // namespace vitrine

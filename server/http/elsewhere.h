@@ -19,12 +19,11 @@ namespace vitrine {
 std::optional<std::string> elsewhere(const std::string& scanner, const Request& request,
                                      Services& services);
 
-constexpr std::chrono::seconds kTurn{60};  // in which a table has turned, too
-
 // That daemon's answer to the request, which it checks itself: it gets the caller's token. 503
-// where there is none in time, or where too many wait for one.
+// where there is none in time, or where too many wait for one: emergency stops alone, or all
+// others.
 Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
-                       std::chrono::seconds patience = kTurn);
+                       bool is_stop = false);
 
 struct Question {
   std::string address, path, query;

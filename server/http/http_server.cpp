@@ -18,7 +18,7 @@ void answer_at_once(ByteStream& stream, std::string_view text) {
       ::send(stream.native_handle(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
-constexpr std::size_t kElsewhere = 2 * Services::kMostElsewhere;  // threads: strangers and callers
+constexpr std::size_t kElsewhere = 3 * Services::kMostElsewhere;  // threads, for all its kinds
 
 // One address may hold a quarter of them: nobody locks the others out.
 std::shared_ptr<Seats> shared_seats(std::size_t count) {

@@ -87,10 +87,11 @@ Response switch_laser(const Request& request, Services& services) {
 
 // Its body is not even read: nobody who presses this button is to be taught.
 Response stop_scanner(const Request& request, Services& services) {
-  return with_scanner(request, services, [](ScannerStation& scanner) {
+  const auto stop = [](ScannerStation& scanner) {
     scanner.stop();
     return state_of(scanner);
-  });
+  };
+  return with_scanner(request, services, stop, /*is_stop=*/true);
 }
 
 Response show_preview(const Request& request, Services& services) {

@@ -43,12 +43,15 @@ struct Services {
   std::atomic<bool> ready{false};
 
   // Who waits for another daemon: strangers, of whom one address may have half of the seats, and
-  // callers with a token. There are as many threads for them, so that the others are served, and
-  // the watchdog is, whatever that daemon does.
-  static constexpr std::size_t kMostElsewhere = 8;  // of either
+  // callers with a token, and emergency stops, which find one whoever else waits. There are as many
+  // threads for them, so that the others are served, and the watchdog is, whatever that daemon
+  // does.
+  static constexpr std::size_t kMostElsewhere = 8;  // of each
   const std::shared_ptr<Seats> strangers_elsewhere =
       std::make_shared<Seats>(kMostElsewhere, kMostElsewhere / 2);
   const std::shared_ptr<Seats> callers_elsewhere =
+      std::make_shared<Seats>(kMostElsewhere, kMostElsewhere);
+  const std::shared_ptr<Seats> stops_elsewhere =
       std::make_shared<Seats>(kMostElsewhere, kMostElsewhere);
 };
 

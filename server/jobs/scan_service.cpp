@@ -165,7 +165,7 @@ void ScanService::recall(JobRecord job) {
   ScannerStation* station = scanner(job.scanner);
   auto entry = means_.jobs.find_scan(*job.scan);
   if (station == nullptr || !entry || !*entry) return;
-  if (!holds_turn(folder_of(*job.scan), (*entry)->turn)) return;
+  if (!holds_turn(folder_of(*job.scan), (*entry)->turn).value_or(false)) return;
   const auto view = station->backend().view(folder_of(*job.scan));
   if (!view || *view == nullptr) return;
   const ScanTold told = (*view)->told();
@@ -368,7 +368,9 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
 }
 
 Expected<void> ScanService::check_turn(const ScanEntry& scan) const {
-  if (holds_turn(folder_of(scan.id), scan.turn)) return {};
+  const auto is_here = holds_turn(folder_of(scan.id), scan.turn);
+  if (!is_here) return Unexpected(is_here.error());
+  if (*is_here) return {};
   return fail(ErrorCode::kState,
               fmt::format("the folder scans/{} of the data is gone, or another daemon has measured "
                           "the scan into its own; have that one drive the scanner, restore the "
@@ -380,7 +382,9 @@ Expected<void> ScanService::check_turn(const ScanEntry& scan) const {
 // and has turned the table since.
 Expected<void> ScanService::settle_turn(JobRun& run, ScanEntry& scan) {
   const std::filesystem::path folder = folder_of(scan.id);
-  if (holds_turn(folder, scan.turn)) return {};
+  const auto is_here = holds_turn(folder, scan.turn);
+  if (!is_here) return Unexpected(is_here.error());  // what was measured is not to be lost
+  if (*is_here) return {};
   if (scan.step > 0) {
     means_.events.event(Severity::kWarning,
                         fmt::format("scan {} begins anew: another daemon has measured its {} steps",
@@ -447,6 +451,12 @@ Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station)
 Expected<JobEnd> ScanService::reprocess(JobRun& run, ScannerStation& station) {
   const auto order = stored_order(run.job().parameters);
   if (!order) return Unexpected(order.error());
+  // Another daemon may have ordered it, or measured the scan anew since.
+  const auto scan =
+      patiently(run, [&] { return means_.jobs.find_scan(run.job().scan.value_or(ScanId())); });
+  if (!scan) return Unexpected(scan.error());
+  if (!*scan) return fail(ErrorCode::kState, "the scan is not in the catalogue; scan again");
+  if (auto here = check_turn(**scan); !here) return Unexpected(here.error());
   run.report("meshing", 0);
   const auto mesh =
       station.backend().mesh_anew(*order, folder_of(run.job().scan.value_or(ScanId())));

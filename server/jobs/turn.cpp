@@ -14,11 +14,18 @@ constexpr std::uint64_t kMostBytes = 64;
 
 }  // namespace
 
-bool holds_turn(const std::filesystem::path& folder, const std::string& turn) {
-  std::error_code unknown;
-  if (!std::filesystem::exists(folder, unknown)) return false;
+Expected<bool> holds_turn(const std::filesystem::path& folder, const std::string& turn) {
+  std::error_code error;
+  const bool is_there = std::filesystem::exists(folder, error);
+  const bool is_named = !error && is_there && std::filesystem::exists(folder / kTurn, error);
+  if (error) {
+    return fail(ErrorCode::kIo, fmt::format("cannot look into the folder {}: {}", folder.string(),
+                                            error.message()));
+  }
+  if (!is_named) return is_there && turn.empty();
   const auto bytes = read_file(folder / kTurn, kMostBytes);
-  return turn == (bytes ? std::string(bytes->begin(), bytes->end()) : std::string());
+  if (!bytes) return Unexpected(bytes.error());
+  return turn == std::string(bytes->begin(), bytes->end());
 }
 
 Expected<void> begin_turn(const std::filesystem::path& folder, const std::string& turn) {

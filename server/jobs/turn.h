@@ -11,8 +11,8 @@
 namespace vitrine {
 
 // Whether that is what the folder holds: a ScanEntry::turn, empty where an earlier version has made
-// the folder.
-bool holds_turn(const std::filesystem::path& folder, const std::string& turn);
+// the folder. kIo where it is there and cannot be read.
+Expected<bool> holds_turn(const std::filesystem::path& folder, const std::string& turn);
 
 // The folder, without what it held, for that turn.
 Expected<void> begin_turn(const std::filesystem::path& folder, const std::string& turn);

@@ -179,6 +179,15 @@ TEST_F(PassedOn, strangers_leave_room_for_who_has_a_token) {
   EXPECT_EQ(ask("GET", scan, "").status, 401);
 }
 
+TEST_F(PassedOn, an_emergency_stop_waits_behind_nobody) {
+  std::vector<Seats::Seat> taken;
+  for (std::size_t i = 0; i < Services::kMostElsewhere; ++i)
+    taken.push_back(front_.services().callers_elsewhere->take("").value());
+  EXPECT_EQ(ask("GET", "/scanners/rig/preview", operator_).status, 503);
+  EXPECT_EQ(ask("POST", "/scanners/rig/stop", operator_).status, 200);
+  EXPECT_EQ(world_.stops, 1u);
+}
+
 // A daemon that hangs: it takes connections and says nothing.
 class Hung {
  public:
