@@ -13,7 +13,9 @@ export class Technician {
     Object.assign(this, { replicas, visitor, token: visitor.token, turns: 0, scans: [], stopped: false });
   }
 
+  /** From when a daemon has taken the scanner. */
   async calibrate() {
+    while ((await this.visitor.json("GET", "/scanners/rig")).status !== 200) await pause(100);
     const { status, body } = await this.visitor.json("POST", "/scanners/rig/calibrations", { poses: kPoses }, { "Idempotency-Key": "calibration" });
     if (status !== 202) throw new Error(`a calibration is answered by ${status}: ${JSON.stringify(body)}`);
     await this.#until(`/jobs/${body.job}`, ({ state }) => state === "done");
