@@ -55,9 +55,8 @@ Response passed_back(RemoteAnswer answer, std::string body, const Request& reque
   return response;
 }
 
-tl::expected<Seats::Seat, Seats::Refusal> seat_for(const Request& request, Services& services,
-                                                   bool is_stop) {
-  if (is_stop) return services.stops_elsewhere->take("");
+tl::expected<Seats::Seat, Seats::Refusal> seat_for(const Request& request, Services& services) {
+  if (request.urgent) return services.stops_elsewhere->take("");
   return request.caller ? services.callers_elsewhere->take("")
                         : services.strangers_elsewhere->take(network_of(request.visitor));
 }
@@ -104,7 +103,7 @@ std::vector<nlohmann::ordered_json> ask_all(std::span<const Question> questions,
     auto json = nlohmann::ordered_json::parse(*text, nullptr, /*allow_exceptions=*/false);
     return json.is_object() ? json : nullptr;
   };
-  const auto seat = seat_for(request, services, /*is_stop=*/false);  // one: one worker waits
+  const auto seat = seat_for(request, services);  // one: one worker waits
   if (!seat) return std::vector<nlohmann::ordered_json>(questions.size());
   std::vector<std::future<nlohmann::ordered_json>> asked;
   asked.reserve(questions.size());
@@ -123,9 +122,8 @@ std::optional<std::string> elsewhere(const std::string& scanner, const Request& 
   return services.scans.address_of(scanner);
 }
 
-Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
-                       bool is_stop) {
-  const auto seat = seat_for(request, services, is_stop);
+Response ask_elsewhere(const std::string& address, const Request& request, Services& services) {
+  const auto seat = seat_for(request, services);
   return seat ? ask_at_once(address, request, services, kTurn) : away(request.id);
 }
 

@@ -20,10 +20,8 @@ std::optional<std::string> elsewhere(const std::string& scanner, const Request& 
                                      Services& services);
 
 // That daemon's answer to the request, which it checks itself: it gets the caller's token. 503
-// where there is none in time, or where too many wait for one: emergency stops alone, or all
-// others.
-Response ask_elsewhere(const std::string& address, const Request& request, Services& services,
-                       bool is_stop = false);
+// where there is none in time, or where too many wait for one.
+Response ask_elsewhere(const std::string& address, const Request& request, Services& services);
 
 struct Question {
   std::string address, path, query;

@@ -41,6 +41,7 @@ struct Request {
   const std::optional<Caller>& caller;
   bool encrypted = false;         // the visitor came by https
   std::string_view visitor = {};  // their address, as Visitor::address
+  bool urgent = false;            // as its Route
 };
 
 using Handler = Response (*)(const Request& request, Services& services);
@@ -69,7 +70,8 @@ struct Route {
   QuickHandler quick = nullptr;
   bool reads_body = true;  // of a POST or PATCH: JSON; else it does not matter, or goes
                            // where the answer's sink is
-  bool limited = true;     // by request-rate
+  bool urgent = false;     // an emergency stop: neither limited by request-rate nor, where another
+                           // daemon is to answer, behind who else waits for one
 };
 
 // Whether other origins' pages may read the answers.

@@ -34,9 +34,9 @@ constexpr Route kPublic[] = {
     {kGet, "/api/v1/scanners/{name}", show_scanner, kDevice, Role::kViewer},
     {kPost, "/api/v1/scanners/{name}/jog", jog_scanner, kDevice, Role::kOperator},
     {kPost, "/api/v1/scanners/{name}/laser", switch_laser, kDevice, Role::kOperator},
-    // Not behind those who wait for devices or the disk, and however often somebody has called.
+    // Not behind those who wait for devices or the disk.
     {kPost, "/api/v1/scanners/{name}/stop", stop_scanner, kWorker, Role::kOperator, nullptr,
-     /*reads_body=*/false, /*limited=*/false},
+     /*reads_body=*/false, /*urgent=*/true},
     {kGet, "/api/v1/scanners/{name}/preview", show_preview, kDevice, Role::kOperator},
     {kGet, "/api/v1/scanners/{name}/calibrations", list_calibrations, kWorker, Role::kViewer},
     {kPost, "/api/v1/scanners/{name}/calibrations", start_calibration, kWorker, Role::kOperator},

@@ -11,10 +11,9 @@ namespace vitrine {
 // Calls `answer(scanner)` with the scanner of the request's {name}, has the daemon answer that
 // drives it, or answers 404.
 template <class Answer>
-Response with_scanner(const Request& request, Services& services, Answer&& answer,
-                      bool is_stop = false) {
+Response with_scanner(const Request& request, Services& services, Answer&& answer) {
   if (const auto address = elsewhere(std::string(request.parameters.name), request, services))
-    return ask_elsewhere(*address, request, services, is_stop);
+    return ask_elsewhere(*address, request, services);
   ScannerStation* scanner = services.scans.scanner(request.parameters.name);
   if (scanner == nullptr) return problem(404, "there is no such scanner", request.id);
   return answer(*scanner);

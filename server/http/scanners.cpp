@@ -87,11 +87,10 @@ Response switch_laser(const Request& request, Services& services) {
 
 // Its body is not even read: nobody who presses this button is to be taught.
 Response stop_scanner(const Request& request, Services& services) {
-  const auto stop = [](ScannerStation& scanner) {
+  return with_scanner(request, services, [](ScannerStation& scanner) {
     scanner.stop();
     return state_of(scanner);
-  };
-  return with_scanner(request, services, stop, /*is_stop=*/true);
+  });
 }
 
 Response show_preview(const Request& request, Services& services) {

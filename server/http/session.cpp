@@ -339,7 +339,8 @@ class Session {
                           exchange.body,
                           exchange.caller,
                           exchange.visitor.encrypted,
-                          exchange.visitor.address};
+                          exchange.visitor.address,
+                          route.urgent};
     if (answer_at_once(request, exchange)) co_return true;
     if (route.place != Place::kInline &&
         is_beyond_rate(network_of(exchange.visitor.address), exchange))
@@ -369,7 +370,7 @@ class Session {
 
   // Sets the answer to one who asks too often.
   bool is_beyond_rate(std::string_view who, Exchange& exchange) {
-    if (!exchange.route->limited) return false;
+    if (exchange.route->urgent) return false;
     const auto wait = server_.rate_limit().take(who);
     if (wait.count() == 0) return false;
     exchange.response = problem(429, "too many requests; wait", exchange.id);

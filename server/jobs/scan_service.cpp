@@ -429,19 +429,25 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
   return end;
 }
 
-Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
-  auto entry =
+Expected<ScanEntry> ScanService::scan_of(const JobRun& run) {
+  auto scan =
       patiently(run, [&] { return means_.jobs.find_scan(run.job().scan.value_or(ScanId())); });
-  if (!entry) return Unexpected(entry.error());
-  if (!*entry) return fail(ErrorCode::kState, "the scan is not in the catalogue; scan again");
-  const auto order = stored_order((*entry)->parameters);
+  if (!scan) return Unexpected(scan.error());
+  if (!*scan) return fail(ErrorCode::kState, "the scan is not in the catalogue; scan again");
+  return **scan;
+}
+
+Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
+  auto scan = scan_of(run);
+  if (!scan) return Unexpected(scan.error());
+  const auto order = stored_order(scan->parameters);
   if (!order) return Unexpected(order.error());
-  if (auto settled = settle_turn(run, **entry); !settled) return Unexpected(settled.error());
+  if (auto settled = settle_turn(run, *scan); !settled) return Unexpected(settled.error());
   Expected<std::optional<TriangleMesh>> mesh;
   {
-    Listener listener(*this, run, **entry);
+    Listener listener(*this, run, *scan);
     run.report("scanning", 0);
-    mesh = station.backend().scan(*order, folder_of((*entry)->id), listener);
+    mesh = station.backend().scan(*order, folder_of(scan->id), listener);
     listener.keep();
   }
   if (!mesh) return Unexpected(mesh.error());
@@ -452,14 +458,11 @@ Expected<JobEnd> ScanService::reprocess(JobRun& run, ScannerStation& station) {
   const auto order = stored_order(run.job().parameters);
   if (!order) return Unexpected(order.error());
   // Another daemon may have ordered it, or measured the scan anew since.
-  const auto scan =
-      patiently(run, [&] { return means_.jobs.find_scan(run.job().scan.value_or(ScanId())); });
+  const auto scan = scan_of(run);
   if (!scan) return Unexpected(scan.error());
-  if (!*scan) return fail(ErrorCode::kState, "the scan is not in the catalogue; scan again");
-  if (auto here = check_turn(**scan); !here) return Unexpected(here.error());
+  if (auto here = check_turn(*scan); !here) return Unexpected(here.error());
   run.report("meshing", 0);
-  const auto mesh =
-      station.backend().mesh_anew(*order, folder_of(run.job().scan.value_or(ScanId())));
+  const auto mesh = station.backend().mesh_anew(*order, folder_of(scan->id));
   if (!mesh) return Unexpected(mesh.error());
   return make_model(run, *order, *mesh);
 }

@@ -95,6 +95,7 @@ class ScanService {
   };
 
   Expected<JobEnd> work(JobRun& run);
+  Expected<ScanEntry> scan_of(const JobRun& run);
   Expected<JobEnd> work_on_scan(JobRun& run, ScannerStation& station);
   Expected<void> settle_turn(JobRun& run, ScanEntry& scan);
   Expected<void> check_turn(const ScanEntry& scan) const;

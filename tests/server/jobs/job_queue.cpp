@@ -7,6 +7,7 @@
 
 #include "server/catalogue/sqlite_database.h"
 #include "server/catalogue/sqlite_jobs.h"
+#include "support/held_lane.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine {
@@ -164,8 +165,7 @@ TEST_F(Jobs, a_paused_job_says_why_until_it_is_resumed_whatever_it_told_meanwhil
     return end;
   });
   const JobRecord job = job_for("a"), waiting = job_for("", JobKind::kReprocess);
-  std::promise<void> go;
-  queue->lane("").post([&] { go.get_future().wait(); });
+  test::HeldLane held(queue->lane(""));
   ASSERT_TRUE(queue->add(job, {}, {}));
   ASSERT_TRUE(queue->add(waiting, {}, {}));
   gate_.await_beginning();
@@ -174,7 +174,7 @@ TEST_F(Jobs, a_paused_job_says_why_until_it_is_resumed_whatever_it_told_meanwhil
   settle(*queue);
   for (const JobRecord& one : {job, waiting})
     EXPECT_EQ(queue->find(one.id).value()->note, "stopped");
-  go.set_value();
+  held.let_go();
   ASSERT_TRUE(queue->resume(job.id));
   EXPECT_EQ(queue->find(job.id).value()->note, "");
   gate_.await_beginning(2);

@@ -1,69 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/jobs/scan_service.h"
-
 #include <gtest/gtest.h>
 
 #include <future>
 
-#include "server/store/installation.h"
-#include "support/fake_backend.h"
-#include "support/temporary_folder.h"
+#include "scans_test.h"
+#include "support/held_lane.h"
 
 namespace vitrine {
 namespace {
 
-using test::FakeScanner;
 using test::HeldAtStep;
-
-class Scans : public testing::Test {
- protected:
-  Scans() { start(); }
-
-  // A daemon's life: a new service over the same folder.
-  void start(std::chrono::milliseconds patience = std::chrono::hours(1)) {
-    std::vector<std::unique_ptr<ScannerBackend>> backends;
-    backends.push_back(std::make_unique<test::FakeBackend>(world_));
-    service_ = std::make_unique<ScanService>(ScanMeans{*installation_.store,
-                                                       *installation_.catalogue,
-                                                       *installation_.jobs,
-                                                       events_,
-                                                       folder_.path(),
-                                                       VITRINE_BIN_DIR "/vitrined",
-                                                       patience,
-                                                       {},
-                                                       quota_.get()},
-                                             std::move(backends));
-    ASSERT_TRUE(service_->start());
-  }
-  void settle() {
-    service_->jobs().lane(world_.name).run([] {});
-  }
-  // The daemon is told to stop while a scan is held at a step.
-  void stop_while(HeldAtStep& held) {
-    std::thread stopper([this] { service_->stop(); });
-    while (service_->scan(order_, {}).error().message.find("stopping") == std::string::npos)
-      std::this_thread::yield();
-    held.open();
-    stopper.join();
-  }
-  ScanInfo info(const ScanId& id) { return **service_->find(id); }
-  ScanStarted begin(const ScanOrder& order) {
-    const auto started = service_->scan(order, std::nullopt);
-    EXPECT_TRUE(started) << started.error().message;
-    return *started;
-  }
-  ScannerStation& station() { return *service_->scanner(world_.name); }
-
-  const ScanOrder order_{
-      .scanner = "rig", .request = {.steps = 12}, .metadata = {.title = "A ring"}};
-  FakeScanner world_;
-  test::TemporaryFolder folder_;
-  Installation installation_ = open_installation({.folder = folder_.path()}).value();
-  const Log events_ = Log::open("").value();
-  const Uploads uploads_{folder_.path() / "uploads", {}};
-  std::unique_ptr<Quota> quota_;
-  std::unique_ptr<ScanService> service_;
-};
+using Scans = ScansTest;
 
 TEST_F(Scans, a_scan_ends_in_a_draft_that_has_the_operators_words) {
   const auto started = begin(order_);
@@ -323,13 +270,9 @@ TEST_F(Scans, what_a_command_throws_is_its_error_and_the_daemon_goes_on) {
 }
 
 TEST_F(Scans, what_scans_when_the_daemon_stops_goes_on_at_the_next_start) {
-  HeldAtStep held(world_, 7);
-  const auto started = begin(order_);
-  held.await();
-  stop_while(held);
+  const auto started = begin_and_stop();
   EXPECT_FALSE(world_.laser);
   EXPECT_FALSE(world_.open);
-  EXPECT_EQ(world_.steps, 7);
   service_.reset();
   start();
   settle();
@@ -339,10 +282,7 @@ TEST_F(Scans, what_scans_when_the_daemon_stops_goes_on_at_the_next_start) {
 }
 
 TEST_F(Scans, progress_and_calibration_are_not_lost_when_the_daemon_was_killed) {
-  HeldAtStep held(world_, 7);
-  const auto started = begin(order_);
-  held.await();
-  stop_while(held);
+  const auto started = begin_and_stop();
   service_.reset();
   ScanEntry entry = *installation_.jobs->find_scan(started.scan).value();
   JobRecord job = *installation_.jobs->find_job(started.job).value();
@@ -362,38 +302,6 @@ TEST_F(Scans, progress_and_calibration_are_not_lost_when_the_daemon_was_killed) 
   settle();
 }
 
-TEST_F(Scans, what_another_daemon_has_measured_since_is_measured_anew) {
-  HeldAtStep held(world_, 7);
-  const auto started = begin(order_);
-  held.await();
-  stop_while(held);
-  service_.reset();
-  ScanEntry entry = *installation_.jobs->find_scan(started.scan).value();
-  const JobRecord job = installation_.jobs->claim(started.job, {"other", {}}).value().value();
-  entry.turn = "another's";
-  entry.step = 3;
-  ASSERT_TRUE(installation_.jobs->update(entry, {job.id, job.fence}));
-  ASSERT_TRUE(installation_.jobs->drop_leases("other"));
-  EXPECT_EQ(world_.steps, 7);
-  start();
-  settle();
-  EXPECT_EQ(info(started.scan).job.record.state, JobState::kDone);
-  EXPECT_EQ(world_.steps, 7 + 12);
-  entry = info(started.scan).entry;
-  EXPECT_EQ(service_->view(entry).value()->points(), 12 * test::kFakePoints);
-}
-
-TEST_F(Scans, a_turn_of_another_daemon_is_not_shown_for_this_ones) {
-  const auto started = begin(order_);
-  settle();
-  ScanEntry entry = info(started.scan).entry;
-  service_.reset();
-  entry.turn = "another's";
-  start();
-  EXPECT_EQ(service_->view(entry).error().code, ErrorCode::kState);
-  EXPECT_EQ(service_->reprocess(entry, order_, {}).error().code, ErrorCode::kState);
-}
-
 TEST_F(Scans, progress_does_not_go_back_when_a_scan_that_failed_is_gone_on_with) {
   world_.before_step = [](int step) -> std::optional<Error> {
     if (step < 6) return std::nullopt;
@@ -402,12 +310,11 @@ TEST_F(Scans, progress_does_not_go_back_when_a_scan_that_failed_is_gone_on_with)
   const auto started = begin(order_);
   settle();
   const ScanInfo failed = info(started.scan);
-  std::promise<void> seen;
-  service_->jobs().lane(world_.name).post([&] { seen.get_future().wait(); });
+  test::HeldLane held(service_->jobs().lane(world_.name));
   ASSERT_TRUE(service_->resume(failed.entry));
   EXPECT_EQ(info(started.scan).job.record.progress, failed.job.record.progress);
   EXPECT_GT(failed.job.record.progress, 0.3);
-  seen.set_value();
+  held.let_go();
   settle();
 }
 

@@ -8,6 +8,7 @@
 #include "server/catalogue/sqlite_database.h"
 #include "server/catalogue/sqlite_jobs.h"
 #include "server/jobs/job_queue.h"
+#include "support/held_lane.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine {
@@ -91,6 +92,14 @@ class SharedJobs : public testing::Test {
   JobQueue scanning(TakenJobs taken) {
     taken.holder = "scans";
     return {*catalogue_, events_, [](JobRun&) -> Expected<JobEnd> { return JobEnd::kDone; }, taken};
+  }
+
+  // The queue has put the job aside; its lane comes to it once the answer is gone.
+  static test::HeldLane put_aside(JobQueue& queue, const JobRecord& job) {
+    test::HeldLane held(queue.lane(job.scanner));
+    EXPECT_TRUE(queue.add(job, {}, {}));
+    EXPECT_TRUE(queue.pause(job.id));
+    return held;
   }
 
   test::TemporaryFolder folder_;
@@ -191,11 +200,10 @@ TEST_F(SharedJobs, whoever_cancels_a_job_reaches_who_does_it) {
 
 TEST_F(SharedJobs, what_is_cancelled_before_anybody_begins_is_never_begun) {
   const JobRecord job = upload();
-  std::promise<void> go;
-  first_.queue().lane("").post([&] { go.get_future().wait(); });
+  test::HeldLane held(first_.queue().lane(""));
   ASSERT_TRUE(first_.queue().add(job, {}, {}));
   EXPECT_EQ(front_.cancel(job.id)->record.state, JobState::kCancelled);
-  go.set_value();
+  held.let_go();
   first_.settle();
   EXPECT_EQ(stored(job), JobState::kCancelled);
   EXPECT_EQ(first_.queue().find(job.id).value()->record.state, JobState::kCancelled);
@@ -204,17 +212,13 @@ TEST_F(SharedJobs, what_is_cancelled_before_anybody_begins_is_never_begun) {
 
 TEST_F(SharedJobs, what_is_put_aside_can_be_cancelled_by_another) {
   const JobRecord job = scan_at("left");
-  std::promise<void> go;  // outlives the lane that waits for it
   JobQueue scans = scanning({.builds = false});
-  scans.lane("left").post([&] { go.get_future().wait(); });
-  ASSERT_TRUE(scans.add(job, {}, {}));
-  ASSERT_TRUE(scans.pause(job.id));
+  const auto held = put_aside(scans, job);
   scans.beat();
   EXPECT_TRUE(scans.job_of("left"));
   EXPECT_EQ(front_.cancel(job.id)->record.state, JobState::kCancelled);
   scans.beat();
   EXPECT_EQ(scans.job_of("left"), std::nullopt);
-  go.set_value();
 }
 
 TEST_F(SharedJobs, who_comes_back_after_a_job_was_given_up_changes_nothing) {
@@ -232,9 +236,7 @@ TEST_F(SharedJobs, who_comes_back_after_a_job_was_given_up_changes_nothing) {
 }
 
 TEST_F(SharedJobs, what_is_put_aside_goes_over_with_its_scanner) {
-  JobRecord job;
-  job.id = JobId::generate();
-  job.scanner = "left";
+  const JobRecord job = scan_at("left");
   std::string driver = "first";
   const auto queue_of = [&](const std::string& holder) {
     return std::make_unique<JobQueue>(
@@ -243,11 +245,7 @@ TEST_F(SharedJobs, what_is_put_aside_goes_over_with_its_scanner) {
                   .drives = [&driver, holder](const std::string&) { return driver == holder; }});
   };
   const auto first = queue_of("first"), second = queue_of("second");
-  std::promise<void> go;
-  first->lane("left").post([&] { go.get_future().wait(); });
-  ASSERT_TRUE(first->add(job, {}, {}));
-  ASSERT_TRUE(first->pause(job.id));
-  go.set_value();
+  put_aside(*first, job);
   first->lane("left").run([] {});
   second->beat();
   EXPECT_EQ(second->job_of("left"), std::nullopt);
@@ -265,12 +263,8 @@ TEST_F(SharedJobs, what_is_put_aside_goes_over_with_its_scanner) {
 TEST_F(SharedJobs, what_is_cancelled_while_it_is_taken_up_is_not_put_aside_again) {
   const JobRecord job = scan_at("left");
   {
-    std::promise<void> go;  // outlives the lane that waits for it
     JobQueue scans = scanning({.builds = false});
-    scans.lane("left").post([&] { go.get_future().wait(); });
-    ASSERT_TRUE(scans.add(job, {}, {}));
-    ASSERT_TRUE(scans.pause(job.id));
-    go.set_value();
+    put_aside(scans, job);
   }
   JobQueue next = scanning({.drives = [&](const std::string&) {
     front_.cancel(job.id);
