@@ -38,6 +38,28 @@ Picture grey_picture(const Frame& frame) {
   return picture;
 }
 
+// A scanner whose daemon does not answer now, or where too many wait, is not gone.
+void add_others(nlohmann::ordered_json& list, const Request& request, Services& services) {
+  const auto others = services.scans.others();
+  std::vector<Question> questions;
+  for (const auto& [address, names] : others)
+    questions.push_back({address, std::string(request.path), std::string(request.query)});
+  const auto answers = ask_all(questions, request, services);
+  auto answer = answers.begin();
+  for (const auto& [address, names] : others) {
+    const nlohmann::ordered_json& told = *answer++;
+    if (told.contains("scanners")) {
+      list.insert(list.end(), told["scanners"].begin(), told["scanners"].end());
+      continue;
+    }
+    for (const std::string& name : names)
+      list.push_back(scanner_json({.name = name,
+                                   .state = ScannerState::kUnreachable,
+                                   .problem = "its daemon has not answered; ask again, and where "
+                                              "that stays so, look at the daemon's log"}));
+  }
+}
+
 }  // namespace
 
 Response list_scanners(const Request& request, Services& services) {
@@ -45,15 +67,7 @@ Response list_scanners(const Request& request, Services& services) {
   for (const ScannerStatus& scanner : services.scans.scanners()) {
     if (!elsewhere(scanner.name, request, services)) list.push_back(scanner_json(scanner));
   }
-  if (is_passed_on(request)) return json_answer({{"scanners", std::move(list)}});
-  std::vector<Question> questions;
-  for (const std::string& address : services.scans.addresses())
-    questions.push_back({address, std::string(request.path), std::string(request.query)});
-  for (const auto& others : ask_all(questions, request, services)) {
-    if (others.is_null() || !others.contains("scanners")) continue;
-    for (const auto& scanner : others["scanners"])
-      list.push_back(scanner);
-  }
+  if (!is_passed_on(request)) add_others(list, request, services);
   return json_answer({{"scanners", std::move(list)}});
 }
 

@@ -204,8 +204,9 @@ std::optional<std::string> ScanService::address_of(const std::string& name) cons
   return means_.claims == nullptr ? std::nullopt : means_.claims->address_of(name);
 }
 
-std::vector<std::string> ScanService::addresses() const {
-  return means_.claims == nullptr ? std::vector<std::string>() : means_.claims->addresses();
+std::map<std::string, std::vector<std::string>> ScanService::others() const {
+  if (means_.claims == nullptr) return {};
+  return means_.claims->others();
 }
 
 ScannerStation* ScanService::scanner(std::string_view name) {

@@ -60,9 +60,9 @@ class ScanService {
   std::vector<ScannerStatus> scanners();
   ScannerStation* scanner(std::string_view name);  // null where there is none of that name
   std::vector<std::string> names() const;          // of those that are configured here
-  // As ScannerClaims::address_of().
+  // As those of ScannerClaims.
   std::optional<std::string> address_of(const std::string& name) const;
-  std::vector<std::string> addresses() const;  // of all those
+  std::map<std::string, std::vector<std::string>> others() const;
   // A fresh picture, the latest of the scan while one is under way.
   Expected<Frame> picture(ScannerStation& scanner);
   Expected<JobRecord> calibrate(ScannerStation& scanner, const CalibrationOrder& order,

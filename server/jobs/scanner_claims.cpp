@@ -121,13 +121,11 @@ std::optional<std::string> ScannerClaims::address_of(const std::string& scanner)
   return driver->is_current ? driver->address : "";
 }
 
-std::vector<std::string> ScannerClaims::addresses() const {
+std::map<std::string, std::vector<std::string>> ScannerClaims::others() const {
   const std::scoped_lock lock(mutex_);
-  std::vector<std::string> all;
+  std::map<std::string, std::vector<std::string>> all;
   for (const ScannerDriver& driver : drivers_) {
-    const bool is_there = is_elsewhere(driver) && driver.is_current;
-    if (is_there && std::ranges::find(all, driver.address) == all.end())
-      all.push_back(driver.address);
+    if (is_elsewhere(driver) && driver.is_current) all[driver.address].push_back(driver.scanner);
   }
   return all;
 }

@@ -37,7 +37,8 @@ class ScannerClaims {
   // Where the daemon is that drives it; empty where it did last and has let its lease run out.
   // Nothing where that is this one, or nobody, or where it is not to be reached.
   std::optional<std::string> address_of(const std::string& scanner) const;
-  std::vector<std::string> addresses() const;  // of all others, each once
+  // The others that are there, by their addresses, and which scanners they drive.
+  std::map<std::string, std::vector<std::string>> others() const;
 
  private:
   using Clock = std::chrono::nanoseconds;  // since the machine has started, suspended or not

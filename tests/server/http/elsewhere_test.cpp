@@ -114,6 +114,26 @@ TEST_F(PassedOn, the_lists_of_all_are_one) {
   EXPECT_EQ(list[0]["name"], "rig");
 }
 
+TEST_F(PassedOn, in_a_list_that_not_all_have_answered_their_scanners_are_unreachable) {
+  const auto expect_unreachable = [this] {
+    const auto answer = ask("GET", "/scanners", operator_);
+    EXPECT_EQ(answer.status, 200);
+    const auto list = json::parse(answer.body)["scanners"];
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_EQ(list[0]["name"], "rig");
+    EXPECT_EQ(list[0]["state"], "unreachable");
+    EXPECT_THAT(list[0]["problem"].get<std::string>(), testing::HasSubstr("has not answered"));
+  };
+  std::vector<Seats::Seat> taken;
+  for (std::size_t i = 0; i < Services::kMostElsewhere; ++i)
+    taken.push_back(front_.services().callers_elsewhere->take("").value());
+  expect_unreachable();
+  taken.clear();
+  ASSERT_TRUE(jobs_->take_scanner("rig", {"driver", 1h}, "http://127.0.0.1:1"));
+  claims_.beat();
+  expect_unreachable();
+}
+
 TEST_F(PassedOn, a_scan_begins_where_its_scanner_is) {
   const auto begun = ask("POST", "/scans", operator_, R"({"scanner": "rig", "steps": 12})");
   ASSERT_EQ(begun.status, 202) << begun.body;

@@ -13,7 +13,9 @@ namespace vitrine {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Pair;
 
 class Claimants : public testing::Test {
  protected:
@@ -41,7 +43,7 @@ TEST_F(Claimants, of_two_that_are_configured_for_a_scanner_one_commands_it) {
   EXPECT_FALSE(second->has_jobs_of("left"));
   EXPECT_EQ(first->address_of("left"), std::nullopt);
   EXPECT_EQ(second->address_of("left"), "http://a:1");
-  EXPECT_EQ(second->addresses(), std::vector<std::string>{"http://a:1"});
+  EXPECT_THAT(second->others(), ElementsAre(Pair("http://a:1", ElementsAre("left"))));
 }
 
 TEST_F(Claimants, who_was_stopped_beyond_the_lease_commands_nothing_and_hears_who_does) {
@@ -64,7 +66,7 @@ TEST_F(Claimants, nobody_waits_for_a_daemon_whose_lease_has_run_out) {
   ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as time does
   second->beat();
   EXPECT_EQ(second->address_of("left"), "");
-  EXPECT_TRUE(second->addresses().empty());
+  EXPECT_TRUE(second->others().empty());
   EXPECT_FALSE(second->has_jobs_of("left")) << "it may come back";
 }
 

@@ -87,7 +87,7 @@ async function work(api: Api): Promise<unknown> {
   byId("tools").replaceChildren(leave, stop.button);
   top.append(stop.said);
   void isAdmin(api).then((yes) => yes && nav.append(h("a", { href: "#/tokens" }, texts.tokens.title)), () => undefined);
-  void stop.learn(signal).catch(() => undefined);
+  void stop.keepLearning(signal).catch(() => undefined);
   void desk.jobs.run(signal);
   addEventListener("hashchange", () => void go(desk), { signal });
   addEventListener("beforeunload", (event) => desk.uploads.isSending && event.preventDefault(), { signal });

@@ -6,7 +6,7 @@ import type { Page } from "./desk.ts";
 import { field, form, type Values } from "./forms.ts";
 import { badge, heading, paged } from "./parts.ts";
 import { texts } from "./texts/index.ts";
-import type { Calibrations, Scan, ScanPage, Scanner } from "./types.ts";
+import type { Calibration, Calibrations, Scan, ScanPage, Scanner } from "./types.ts";
 
 const words = texts.scans;
 
@@ -39,10 +39,12 @@ export const newScanPage: Page = async ({ desk, view, signal, words: [wanted] })
   const chosen = field({ name: "scanner", label: words.scanner, options: scanners.map(({ name }) => [name, name]), value: wanted ?? scanners[0]?.name });
   const calibration = field({ name: "calibration", label: texts.calibration.one, options: [["", texts.calibration.newest]] });
   const select = chosen.querySelector("select") as HTMLSelectElement;
+  const offer = (known: Calibration[]) => calibration.querySelector("select")?.replaceChildren(
+    h("option", { value: "" }, texts.calibration.newest), ...known.map(({ number, rms }) => h("option", { value: number }, words.calibration(number, rms))));
   const learn = async () => {
+    offer([]); // of a scanner that is not to be reached the newest is all there is
     const { calibrations } = await desk.api.get<Calibrations>(`/scanners/${encodeURIComponent(select.value)}/calibrations`, signal);
-    const options = calibrations.map(({ number, rms }) => h("option", { value: number }, words.calibration(number, rms)));
-    calibration.querySelector("select")?.replaceChildren(h("option", { value: "" }, texts.calibration.newest), ...options);
+    offer(calibrations);
   };
   const begin = async (values: Values) => {
     const { id } = await desk.api.begin<{ id: string }>("/scans", orderOf(values));
@@ -65,6 +67,6 @@ export const newScanPage: Page = async ({ desk, view, signal, words: [wanted] })
     field({ name: "publish", label: words.publish, type: "checkbox" }),
   ], words.start, begin)));
   select.addEventListener("change", () => void learn().catch(() => undefined));
-  await learn();
+  await learn().catch(() => undefined);
   return words.new;
 };

@@ -4,50 +4,57 @@ import { h } from "../gallery/dom.ts";
 import type { Api } from "./api.ts";
 import { pause } from "./desk.ts";
 import { sentence } from "./forms.ts";
+import { Problem } from "./problem.ts";
 import { texts } from "./texts/index.ts";
 import type { Scanner } from "./types.ts";
 
 const kTries = 3;
-/** Milliseconds until the scanners are asked for again. */
-const kPause = 2000;
+/** Milliseconds after the answer that it cannot be done now. Where nobody answers, time has passed. */
+const kBetween = 1000;
+/** Milliseconds between two looks at which scanners there are. */
+const kPause = 3000;
 
 export class EmergencyStop {
   readonly button = h("button", { type: "button", class: "stop", hidden: true }, texts.stop.button);
   readonly said = h("div", { role: "alert", class: "stopped", hidden: true });
   #scanners: string[] = [];
 
-  constructor(private readonly api: Api) {
+  constructor(private readonly api: Pick<Api, "get" | "stop">) {
     this.button.addEventListener("click", () => void this.#stop());
   }
 
-  /** Known before it is needed: nobody who presses waits for a list. */
-  async learn(signal: AbortSignal): Promise<void> {
-    for (;;) {
-      try {
-        const { scanners } = await this.api.get<{ scanners: Scanner[] }>("/scanners", signal);
-        this.#scanners = scanners.map(({ name }) => name);
-        this.button.hidden = scanners.length === 0;
-        return;
-      } catch {
-        await pause(kPause, signal);
-      }
+  /** The scanners are known before it is needed: nobody who presses waits for a list. */
+  async keepLearning(signal: AbortSignal): Promise<void> {
+    while (!signal.aborted) {
+      await this.#learn(signal).catch(() => undefined); // the next look is near
+      await pause(kPause, signal);
     }
+  }
+
+  async #learn(signal: AbortSignal): Promise<void> {
+    const { scanners } = await this.api.get<{ scanners: Scanner[] }>("/scanners", signal);
+    this.#scanners = scanners.map(({ name }) => name);
+    this.button.hidden = scanners.length === 0;
   }
 
   async #stop(): Promise<void> {
     this.#say(texts.stop.stopping, "");
-    const ends = await Promise.allSettled(this.#scanners.map((name) => this.#surely(name)));
+    const scanners = this.#scanners;
+    const ends = await Promise.allSettled(scanners.map((name) => this.#surely(name)));
     const failed = ends.find((end): end is PromiseRejectedResult => end.status === "rejected");
     if (failed) this.#say(`${texts.stop.failed} ${sentence(failed.reason)}`, "bad");
-    else this.#say(texts.stop.done(this.#scanners.join(", ")), "good");
+    else this.#say(texts.stop.done(scanners.join(", ")), "good");
   }
 
+  /** Who refuses it does so again. That it cannot be done now, or that nobody answers, may pass. */
   async #surely(scanner: string): Promise<void> {
     for (let left = kTries; ; --left) {
       try {
         return await this.api.stop(scanner);
       } catch (error) {
-        if (left === 1 || !(error instanceof TypeError)) throw error; // nobody answered: at once again
+        const answered = error instanceof Problem;
+        if (left === 1 || (answered && error.status < 500)) throw error;
+        if (answered) await new Promise((resolve) => setTimeout(resolve, kBetween));
       }
     }
   }
