@@ -330,7 +330,7 @@ Lane& JobQueue::lane(const std::string& scanner) {
 
 Lane& JobQueue::lane_of(const std::string& name) {
   auto& lane = lanes_[name];
-  if (!lane) lane = std::make_unique<Lane>();
+  if (!lane) lane = std::make_unique<Lane>(events_);
   return *lane;
 }
 

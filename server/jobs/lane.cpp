@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/lane.h"
 
+#include <exception>
 #include <utility>
 
 namespace vitrine {
 
-Lane::Lane() : thread_([this] { work(); }) {}
+Lane::Lane(const Log& events) : events_(events), thread_([this] { work(); }) {}
 
 void Lane::post(std::function<void()> task) {
   const std::scoped_lock lock(mutex_);
@@ -33,14 +34,17 @@ void Lane::work() {
   std::unique_lock lock(mutex_);
   for (bool has_worked = false;;) {
     const bool is_idle = has_worked && at_rest_ && !changed_.wait_for(lock, patience_, is_wanted);
-    if (is_idle) waiting_.push_back(at_rest_);
-    changed_.wait(lock, is_wanted);
-    if (waiting_.empty()) return;
-    const auto task = std::exchange(waiting_.front(), {});
-    waiting_.pop_front();
+    if (!is_idle) changed_.wait(lock, is_wanted);
+    if (!is_idle && waiting_.empty()) return;
+    const auto task = is_idle ? at_rest_ : std::exchange(waiting_.front(), {});
+    if (!is_idle) waiting_.pop_front();
     has_worked = !is_idle;
     lock.unlock();
-    task();
+    try {
+      task();
+    } catch (const std::exception& fault) {
+      events_.event(Severity::kError, fault.what());
+    }
     lock.lock();
   }
 }

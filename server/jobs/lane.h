@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that does one thing after another, in the order in which they were handed in.
+// A thread that does one thing after another, in the order in which they were handed in. What one
+// of them throws (memory has run out) is told, and the next is done. The log outlives it.
 #pragma once
 
 #include <chrono>
@@ -10,11 +11,13 @@
 #include <mutex>
 #include <thread>
 
+#include "server/log/log.h"
+
 namespace vitrine {
 
 class Lane {
  public:
-  Lane();
+  explicit Lane(const Log& events);
   ~Lane() { finish(); }  // what is waiting is done first
   Lane(const Lane&) = delete;
   Lane& operator=(const Lane&) = delete;
@@ -39,6 +42,7 @@ class Lane {
  private:
   void work();
 
+  const Log& events_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;

@@ -28,7 +28,7 @@ void Webhooks::tell(const std::string& url, const std::string& json, std::functi
   const std::scoped_lock lock(mutex_);
   if (stopping_ || !waiting_.emplace(url, json).second) return;
   auto& lane = lanes_[origin_of(url)];
-  if (!lane) lane = std::make_unique<Lane>();
+  if (!lane) lane = std::make_unique<Lane>(events_);
   lane->post(
       [this, message = Message{url, json, std::move(may), std::move(done)}] { deliver(message); });
 }
