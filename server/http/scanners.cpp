@@ -42,6 +42,7 @@ Picture grey_picture(const Frame& frame) {
 void add_others(nlohmann::ordered_json& list, const Request& request, Services& services) {
   const auto others = services.scans.others();
   std::vector<Question> questions;
+  questions.reserve(others.size());
   for (const auto& [address, names] : others)
     questions.push_back({address, std::string(request.path), std::string(request.query)});
   const auto answers = ask_all(questions, request, services);
