@@ -49,8 +49,9 @@ void add_others(nlohmann::ordered_json& list, const Request& request, Services& 
   auto answer = answers.begin();
   for (const auto& [address, names] : others) {
     const nlohmann::ordered_json& told = *answer++;
-    if (told.contains("scanners")) {
-      list.insert(list.end(), told["scanners"].begin(), told["scanners"].end());
+    if (const auto scanners = told.find("scanners");
+        scanners != told.end() && scanners->is_array()) {
+      list.insert(list.end(), scanners->begin(), scanners->end());
       continue;
     }
     for (const std::string& name : names)
