@@ -85,6 +85,15 @@ test("scanners that come and go are learnt, whatever goes wrong meanwhile", asyn
   expect(daemon.stopped).toEqual(["left", "left", "right"]);
 });
 
+test("a scanner that is no more in the list is stopped all the same", async () => {
+  const daemon = new Daemon([["left", "right"], ["right"], []]), { button, press } = await learnt(daemon);
+  await vi.advanceTimersByTimeAsync(kLook);
+  await press();
+  expect(daemon.stopped).toEqual(["left", "right"]);
+  await vi.advanceTimersByTimeAsync(kLook);
+  expect(button.hidden).toBe(false);
+});
+
 test("who is left asks no more", async () => {
   const daemon = new Daemon([[], ["left"]]), { button } = await learnt(daemon);
   end.abort();

@@ -28,7 +28,8 @@ export type Page = (visit: Visit) => Promise<string> | string;
 /** Resolves after `milliseconds`; rejects where the visit ends before. */
 export function pause(milliseconds: number, signal: AbortSignal): Promise<void> {
   return new Promise((resolve, reject) => {
-    const timer = setTimeout(resolve, milliseconds);
-    signal.addEventListener("abort", () => (clearTimeout(timer), reject(signal.reason)));
+    const leave = () => (clearTimeout(timer), reject(signal.reason));
+    const timer = setTimeout(() => (signal.removeEventListener("abort", leave), resolve()), milliseconds);
+    signal.addEventListener("abort", leave, { once: true });
   });
 }

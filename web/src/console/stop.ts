@@ -9,7 +9,7 @@ import { texts } from "./texts/index.ts";
 import type { Scanner } from "./types.ts";
 
 const kTries = 3;
-/** Milliseconds after the answer that it cannot be done now. Where nobody answers, time has passed. */
+/** Milliseconds until it is sent again. */
 const kBetween = 1000;
 /** Milliseconds between two looks at which scanners there are. */
 const kPause = 3000;
@@ -17,7 +17,8 @@ const kPause = 3000;
 export class EmergencyStop {
   readonly button = h("button", { type: "button", class: "stop", hidden: true }, texts.stop.button);
   readonly said = h("div", { role: "alert", class: "stopped", hidden: true });
-  #scanners: string[] = [];
+  /** All that were ever in the list: one whose daemon is lost to the others may still turn. */
+  readonly #scanners = new Set<string>();
 
   constructor(private readonly api: Pick<Api, "get" | "stop">) {
     this.button.addEventListener("click", () => void this.#stop());
@@ -33,13 +34,13 @@ export class EmergencyStop {
 
   async #learn(signal: AbortSignal): Promise<void> {
     const { scanners } = await this.api.get<{ scanners: Scanner[] }>("/scanners", signal);
-    this.#scanners = scanners.map(({ name }) => name);
-    this.button.hidden = scanners.length === 0;
+    for (const { name } of scanners) this.#scanners.add(name);
+    this.button.hidden = this.#scanners.size === 0;
   }
 
   async #stop(): Promise<void> {
     this.#say(texts.stop.stopping, "");
-    const scanners = this.#scanners;
+    const scanners = [...this.#scanners];
     const ends = await Promise.allSettled(scanners.map((name) => this.#surely(name)));
     const failed = ends.find((end): end is PromiseRejectedResult => end.status === "rejected");
     if (failed) this.#say(`${texts.stop.failed} ${sentence(failed.reason)}`, "bad");
@@ -52,9 +53,9 @@ export class EmergencyStop {
       try {
         return await this.api.stop(scanner);
       } catch (error) {
-        const answered = error instanceof Problem;
-        if (left === 1 || (answered && error.status < 500)) throw error;
-        if (answered) await new Promise((resolve) => setTimeout(resolve, kBetween));
+        const refused = error instanceof Problem && error.status < 500;
+        if (left === 1 || refused) throw error;
+        await new Promise((resolve) => setTimeout(resolve, kBetween));
       }
     }
   }
