@@ -17,11 +17,21 @@ LEAST_OF_DECODER = 95  # per cent
 
 
 def decoder_sources(lines):
-    """What of codec/progressive the browser compiles, its headers, connectivity, and what decodes the base natively.
-    Not codec/core, which serves encoder and decoder alike."""
+    """What of codec/progressive the browser compiles, the headers there that it includes, connectivity, and what decodes
+    the base natively. Not codec/core, which serves encoder and decoder alike."""
     listed = set(re.findall(r"codec/progressive/\w+\.cpp", (ROOT / "codec/wasm/CMakeLists.txt").read_text()))
     listed |= {"codec/mesh/connectivity.cpp", "codec/base/base_decoder.cpp", "codec/progressive/refine.cpp"}
-    return {source for source in lines if source in listed or re.fullmatch(r"codec/progressive/\w+\.h", source)}
+    return set(lines) & with_headers(listed)
+
+
+def with_headers(sources):
+    """The sources, and what of codec/progressive they include, by whatever way."""
+    found, ahead = set(sources), list(sources)
+    while ahead:
+        included = set(re.findall(r'#include "(codec/progressive/\w+\.h)"', (ROOT / ahead.pop()).read_text()))
+        ahead += included - found
+        found |= included
+    return found
 
 
 def replay(program, profile):
