@@ -8,6 +8,7 @@
 
 #include "server/config/networks.h"
 #include "server/http/published.h"
+#include "server/http/request_body.h"
 #include "server/remote/remote_server.h"
 
 namespace vitrine {
@@ -61,6 +62,16 @@ tl::expected<Seats::Seat, Seats::Refusal> seat_for(const Request& request, Servi
                         : services.strangers_elsewhere->take(network_of(request.visitor));
 }
 
+// An object that is no deeper than one from outside may be; else null.
+nlohmann::ordered_json object_in(const std::string& text) {
+  using Json = nlohmann::ordered_json;
+  const auto is_shallow = [](int depth, Json::parse_event_t, const Json&) {
+    return depth <= kMaxBodyDepth;
+  };
+  auto json = Json::parse(text, is_shallow, /*allow_exceptions=*/false);
+  return json.is_object() ? json : nullptr;
+}
+
 Response ask_at_once(const std::string& address, const Request& request, Services& services,
                      std::chrono::seconds patience) {
   if (address.empty()) return away(request.id);
@@ -99,9 +110,7 @@ std::vector<nlohmann::ordered_json> ask_all(std::span<const Question> questions,
     one.query = question.query;
     const auto answer = ask_at_once(question.address, one, services, kGlance);
     const auto* const text = std::get_if<std::string>(&answer.body);
-    if (answer.status != 200 || text == nullptr) return nullptr;
-    auto json = nlohmann::ordered_json::parse(*text, nullptr, /*allow_exceptions=*/false);
-    return json.is_object() ? json : nullptr;
+    return answer.status == 200 && text != nullptr ? object_in(*text) : nullptr;
   };
   const auto seat = seat_for(request, services);  // one: one worker waits
   if (!seat) return std::vector<nlohmann::ordered_json>(questions.size());
@@ -124,7 +133,8 @@ std::optional<std::string> elsewhere(const std::string& scanner, const Request& 
 
 Response ask_elsewhere(const std::string& address, const Request& request, Services& services) {
   const auto seat = seat_for(request, services);
-  return seat ? ask_at_once(address, request, services, kTurn) : away(request.id);
+  if (!seat) return away(request.id);
+  return ask_at_once(address, request, services, request.urgent ? kGlance : kTurn);
 }
 
 }  // namespace vitrine

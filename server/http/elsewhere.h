@@ -2,7 +2,6 @@
 // What another daemon answers: the one that drives a scanner.
 #pragma once
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -38,6 +39,15 @@ Picture grey_picture(const Frame& frame) {
   return picture;
 }
 
+bool is_list(const nlohmann::ordered_json& answer) {
+  const auto is_scanner = [](const auto& scanner) {
+    return scanner.is_object() && scanner.contains("name") && scanner["name"].is_string();
+  };
+  const auto scanners = answer.find("scanners");
+  return scanners != answer.end() && scanners->is_array() &&
+         std::all_of(scanners->begin(), scanners->end(), is_scanner);
+}
+
 // A scanner whose daemon does not answer now, or where too many wait, is not gone.
 void add_others(nlohmann::ordered_json& list, const Request& request, Services& services) {
   const auto others = services.scans.others();
@@ -49,9 +59,8 @@ void add_others(nlohmann::ordered_json& list, const Request& request, Services& 
   auto answer = answers.begin();
   for (const auto& [address, names] : others) {
     const nlohmann::ordered_json& told = *answer++;
-    if (const auto scanners = told.find("scanners");
-        scanners != told.end() && scanners->is_array()) {
-      list.insert(list.end(), scanners->begin(), scanners->end());
+    if (is_list(told)) {
+      list.insert(list.end(), told["scanners"].begin(), told["scanners"].end());
       continue;
     }
     for (const std::string& name : names)

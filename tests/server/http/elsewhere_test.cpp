@@ -134,6 +134,26 @@ TEST_F(PassedOn, in_a_list_that_not_all_have_answered_their_scanners_are_unreach
   expect_unreachable();
 }
 
+TEST_F(PassedOn, an_answer_that_is_no_list_of_scanners_is_none) {
+  test::WebhookListener stranger;
+  ASSERT_TRUE(jobs_->take_scanner("rig", {"driver", 1h}, "http://" + stranger.host()));
+  claims_.beat();
+  const std::size_t deep = 200'000;
+  for (const std::string& scanners :
+       {std::string("{}"), std::string("[null]"), std::string(R"([{"name": 1}])"),
+        std::string(deep, '[') + std::string(deep, ']')}) {
+    auto answer =
+        std::async(std::launch::async, [&] { return ask("GET", "/scanners", operator_); });
+    std::string asked;
+    test::WebhookListener::answer(stranger.accept(asked), "200 OK",
+                                  R"({"scanners": )" + scanners + "}");
+    const auto list = json::parse(answer.get().body)["scanners"];
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_EQ(list[0]["name"], "rig");
+    EXPECT_EQ(list[0]["state"], "unreachable");
+  }
+}
+
 TEST_F(PassedOn, a_scan_begins_where_its_scanner_is) {
   const auto begun = ask("POST", "/scans", operator_, R"({"scanner": "rig", "steps": 12})");
   ASSERT_EQ(begun.status, 202) << begun.body;
