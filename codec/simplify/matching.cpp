@@ -5,10 +5,15 @@
 #include <bit>
 #include <limits>
 
+#include "codec/progressive/placement.h"
+
 namespace vitrine {
 namespace {
 
-constexpr double kLifted = 0.9;
+// Where midpoints sink below a curved surface the display filter lifts them again: that share of
+// the error is not seen and keeps no vertex. In fine levels, where errors are rounding as much, the
+// filter is weaker.
+constexpr double kLiftedRegular = 0.6, kLifted = 0.9;
 // Shares of the edges, cheapest first, that a level may take: fewer follow the surface closer,
 // more need fewer levels. Measured on the rate-distortion curve.
 constexpr double kCheapRegular = 0.7, kCheap = 0.6;
@@ -25,12 +30,6 @@ std::uint32_t cost_key(double cost) {
   constexpr int kFraction = std::numeric_limits<float>::digits - 1;
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(std::max(cost, 0.0)));
   return bits >> (kFraction - kStepBits);
-}
-
-// Where midpoints sink below a curved surface the display filter lifts them again: that part of
-// the error is not seen and keeps no vertex.
-double displayed_error(const Quadric& q, const Vec3& target) {
-  return q.at(target) - kLifted * q.mendable(target);
 }
 
 }  // namespace
@@ -78,6 +77,7 @@ void Matcher::sum_rings() {
 
 void Matcher::list_edges(const LevelRules& rules) {
   edges_.clear();
+  const double lifted = rules.regular ? kLiftedRegular : kLifted;
   double lengths = 0;
   const Connectivity& mesh = surface_.mesh;
   for (VertexId v : surface_.live) {
@@ -91,9 +91,10 @@ void Matcher::list_edges(const LevelRules& rules) {
         Quadric both = surface_.quadric[v];
         both += surface_.quadric[w];
         const Vec3 target = likely_target(rules, c), d = surface_.point(v) - surface_.point(w);
+        const double displayed = both.at(target) - lifted * both.mendable(target);
         const double regular = rules.length_weight * dot(d, d) * both.weight();
         lengths += length(d);
-        edges_.push_back({cost_key(displayed_error(both, target) + regular), c});
+        edges_.push_back({cost_key(displayed + regular), c});
       }
       c = mesh.swing(c);
     } while (c != first);
@@ -101,13 +102,17 @@ void Matcher::list_edges(const LevelRules& rules) {
   mean_edge_ = lengths / static_cast<double>(std::max<std::size_t>(edges_.size(), 1));
 }
 
-// v~ up to rounding, for a fraction of the price of merged_position().
+// v~, of pyramid placement up to rounding, for a fraction of the price of merged_position(). The
+// rounding of midpoints counts: between edges of the same cost otherwise it may lie on the surface.
 Vec3 Matcher::likely_target(const LevelRules& rules, Corner c) const {
   const Connectivity& mesh = surface_.mesh;
   const VertexId v = mesh.vertex(c), w = mesh.neighbour(c);
+  if (rules.placement == Placement::kMidpoint) {
+    const Vec3i r = midpoint_term(rules.parity);
+    return surface_.middle(merge(surface_.position[v], surface_.position[w], r));
+  }
   const Vec3 p = surface_.point(v), q = surface_.point(w);
   const Vec3 middle = (p + q) * 0.5;
-  if (rules.placement == Placement::kMidpoint) return middle;
   Vec3 near;
   std::uint32_t m = 0;
   for (VertexId apex : {mesh.vertex(prev(c)), mesh.vertex(mesh.opposite(prev(c)))}) {

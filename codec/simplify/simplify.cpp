@@ -27,9 +27,13 @@ constexpr double kCellPerError = 1;  // side of a cell against the rms distance 
 // locked by topology, and each level has its price.
 constexpr std::uint32_t kLeastShare = 50;
 
-Surface make_surface(const LatticeMesh& fine, Connectivity mesh) {
+Surface make_surface(const LatticeMesh& fine, Connectivity mesh, std::span<const Vec3> original) {
   Surface s{.mesh = std::move(mesh), .position = fine.positions};
-  s.quadric = surface_quadrics(s.mesh, s.position);
+  const double per_unit = 1 / fine.lattice.step;
+  s.quadric = surface_quadrics(s.mesh, fine.positions.size(), [&](VertexId v) {
+    if (original.empty()) return to_vec3(fine.positions[v]);
+    return (original[v] - fine.lattice.origin) * per_unit;
+  });
   s.colour.reserve(fine.colours.size());
   for (const Colour& c : fine.colours)
     s.colour.push_back(to_ycocg(c));
@@ -220,7 +224,8 @@ void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out
 
 // Nothing where the coarsest level is more than one region.
 Expected<std::optional<Hierarchy>> try_simplify(const LatticeMesh& fine,
-                                                const SimplifyOptions& options) {
+                                                const SimplifyOptions& options,
+                                                std::span<const Vec3> original) {
   auto mesh = Connectivity::close(static_cast<std::uint32_t>(fine.positions.size()), fine.faces);
   if (!mesh) return tl::unexpected(mesh.error());
 
@@ -231,7 +236,7 @@ Expected<std::optional<Hierarchy>> try_simplify(const LatticeMesh& fine,
   out.leaf = labels.leaf;
   out.adjacency = leaf_adjacency(fine.faces, labels);
 
-  Surface surface = make_surface(fine, std::move(*mesh));
+  Surface surface = make_surface(fine, std::move(*mesh), original);
   surface.region = std::move(labels.leaf);
   Simplifier simplifier(surface, fine.lattice, options, labels.tree);
   if (!simplifier.run(out)) return std::optional<Hierarchy>();
@@ -242,14 +247,15 @@ Expected<std::optional<Hierarchy>> try_simplify(const LatticeMesh& fine,
 
 }  // namespace
 
-Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options) {
+Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options,
+                             std::span<const Vec3> original) {
   const bool parted = options.order == CollapseOrder::kBatch;
   SimplifyOptions whole = options;
   whole.region_vertices = 0;
-  auto hierarchy = try_simplify(fine, parted ? options : whole);
+  auto hierarchy = try_simplify(fine, parted ? options : whole, original);
   if (!hierarchy) return tl::unexpected(hierarchy.error());
   if (*hierarchy) return std::move(**hierarchy);
-  return std::move(**try_simplify(fine, whole));
+  return std::move(**try_simplify(fine, whole, original));
 }
 
 }  // namespace vitrine

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include "codec/core/expected.h"
 #include "codec/mesh/triangle_mesh.h"
@@ -28,11 +29,15 @@ struct SimplifyOptions {
   std::function<void(double)> progress = {};  // fraction done, 0..1; called once a level
 };
 
+// `original`: where the vertices of `fine` were before they were rounded to its lattice, model
+// units; empty: where they are. Quadrics are of its planes, which rounding would tilt where edges
+// are a few steps long.
 // Fails (kBadInput) where Connectivity::close refuses the faces. The base stays larger than asked
 // where no legal collapse is left (high genus; by heap, many components) or the format's number of
 // levels is reached. Where the coarsest level is more than one region, the model is simplified as
 // one. v~ lies within a quarter of the lattice's side of the lattice; with the midpoint placement
 // within it. The same input gives the same hierarchy on every machine.
-Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options);
+Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& options,
+                             std::span<const Vec3> original = {});
 
 }  // namespace vitrine

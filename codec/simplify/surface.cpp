@@ -8,8 +8,8 @@ constexpr double kBorderWeight = 2;  // of a border plane, against the squared l
 
 class Accumulator {
  public:
-  Accumulator(const Connectivity& mesh, const std::vector<Vec3i>& position)
-      : mesh_(mesh), position_(position), quadric_(position.size()) {}
+  Accumulator(const Connectivity& mesh, std::size_t vertices, const PositionOf& position)
+      : mesh_(mesh), position_(position), quadric_(vertices) {}
 
   std::vector<Quadric> run() && {
     for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
@@ -19,7 +19,7 @@ class Accumulator {
   }
 
  private:
-  Vec3 at(Corner c) const { return to_vec3(position_[mesh_.vertex(c)]); }
+  Vec3 at(Corner c) const { return position_(mesh_.vertex(c)); }
 
   Vec3 face_normal(Corner c) const {  // twice the area long
     return cross(at(next(c)) - at(c), at(prev(c)) - at(c));
@@ -48,15 +48,15 @@ class Accumulator {
   }
 
   const Connectivity& mesh_;
-  const std::vector<Vec3i>& position_;
+  const PositionOf& position_;
   std::vector<Quadric> quadric_;
 };
 
 }  // namespace
 
-std::vector<Quadric> surface_quadrics(const Connectivity& mesh,
-                                      const std::vector<Vec3i>& position) {
-  return Accumulator(mesh, position).run();
+std::vector<Quadric> surface_quadrics(const Connectivity& mesh, std::size_t vertices,
+                                      const PositionOf& position) {
+  return Accumulator(mesh, vertices, position).run();
 }
 
 }  // namespace vitrine

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "codec/mesh/connectivity.h"
@@ -11,6 +12,8 @@
 #include "codec/simplify/quadric.h"
 
 namespace vitrine {
+
+using PositionOf = std::function<Vec3(VertexId)>;  // of a real vertex, lattice units
 
 struct Surface {
   Connectivity mesh;
@@ -29,8 +32,9 @@ struct Surface {
   Vec3 point(VertexId v) const { return middle(position[v]); }
 };
 
-// One quadric per vertex: the planes of its faces weighted by area, and at the boundary planes
-// through the border edges, at right angles to the face, so that rims do not erode.
-std::vector<Quadric> surface_quadrics(const Connectivity& mesh, const std::vector<Vec3i>& position);
+// One quadric for each of the real vertices: the planes of its faces weighted by area, and at the
+// boundary planes through the border edges, at right angles to the face, so that rims do not erode.
+std::vector<Quadric> surface_quadrics(const Connectivity& mesh, std::size_t vertices,
+                                      const PositionOf& position);
 
 }  // namespace vitrine

@@ -119,7 +119,7 @@ Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const Bui
   const int bits = options.bits != 0 ? options.bits : automatic_bits(mesh);
   LatticeMesh fine = quantise(mesh, fit_lattice(mesh.positions, bits));
   mesh.faces = {};
-  auto hierarchy = simplify(fine, simplify_options(fine, options, progress));
+  auto hierarchy = simplify(fine, simplify_options(fine, options, progress), mesh.positions);
   if (!hierarchy) return tl::unexpected(hierarchy.error());
   report.seconds.simplify = watch.lap();
 

@@ -14,6 +14,11 @@ struct Model {
   TriangleMesh clean;
 };
 
+// From here on a scan is held to more: its fine levels are finer than what most views ask for.
+inline bool is_large(const Model& model) {
+  return model.clean.faces.size() >= 1'000'000;
+}
+
 Bytes read_file(const std::filesystem::path& path);
 
 // The mesh files of the folder VITRINE_MODELS (default: the ones that ship) with at most

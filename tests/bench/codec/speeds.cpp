@@ -19,9 +19,8 @@ namespace {
 constexpr int kRounds = 5;
 // On a smaller scan what is paid once weighs more than what is paid for each triangle.
 constexpr std::size_t kJudgedVertices = 100'000;
-constexpr double kMaxBuild = 20;       // times one meshopt_simplify
-constexpr double kMaxLargeBuild = 15;  // the same, of the largest model, where that is large
-constexpr std::size_t kLargeFaces = 1'000'000;
+constexpr double kMaxBuild = 20;        // times one meshopt_simplify
+constexpr double kMaxLargeBuild = 15;   // the same, of the largest model, where that is large
 constexpr double kMaxDecode = 8;        // times Draco's decoder
 constexpr double kMaxWasm = 2;          // times the native decoder
 constexpr double kMaxBytes = 60;        // of the WebAssembly decoder's memory per triangle
@@ -95,10 +94,6 @@ double peak_bytes(const Model& model, const std::string& placement) {
 
 double at_most(double limit, const Model& model) {
   return model.clean.positions.size() >= kJudgedVertices ? limit : kNoThreshold;
-}
-
-bool is_large(const Model& model) {
-  return model.clean.faces.size() >= kLargeFaces;
 }
 
 void memory_of_builds(Report& report, const Model& model) {

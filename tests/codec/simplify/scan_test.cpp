@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "codec/mesh/surface_distance.h"
 #include "hierarchies.h"
@@ -82,6 +83,17 @@ TEST(ErrorMeter, BoundIsTrueAndTightOnAScan) {
     SCOPED_TRACE(vertices);
     expect_tight(base_of(scan, vertices), scan);
   }
+}
+
+TEST(Simplify, FollowsTheSurfaceAsItWasBeforeRounding) {
+  const TriangleMesh scan = shipped_model("demosthenes.obj");
+  const LatticeMesh fine = quantise(scan, fit_lattice(scan.positions, 8));  // edges of a few steps
+  const auto half = static_cast<std::uint32_t>(fine.positions.size() / 2);
+  const auto rms = [&](std::span<const Vec3> original) {
+    const auto hierarchy = simplify(fine, {.target_vertices = half}, original);
+    return measure(to_model(hierarchy.value().base), scan)->rms;
+  };
+  EXPECT_LT(rms(scan.positions), 0.95 * rms({}));
 }
 
 TEST(ErrorMeter, BoundIsTrueAndTightAfterQuantisationAlone) {

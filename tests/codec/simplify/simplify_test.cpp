@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -302,12 +303,30 @@ TEST(Simplify, RimsKeepTheirPlace) {
   EXPECT_GE(middle_of(*high, shift).z, 4095 - tolerance);
 }
 
+// The rms height of vertices above the plane 3 z = x + y, lattice units.
+double off_plane(const LatticeMesh& mesh) {
+  double sum = 0;
+  for (const Vec3i& p : mesh.positions)
+    sum += std::pow(3 * p.z - p.x - p.y, 2) / 11;
+  return std::sqrt(sum / static_cast<double>(mesh.positions.size()));
+}
+
+TEST(Simplify, TakesMidpointsThatRoundOntoTheSurface) {
+  TriangleMesh plane = sheet(60, 60);
+  for (Vec3& p : plane.positions)
+    p = {p.x * 7.3, p.y * 7.7, (p.x * 7.3 + p.y * 7.7) / 3};
+  const LatticeMesh fine = quantise(plane, {.origin = {}, .step = 1, .bits = 12});
+  const auto hierarchy = simplify(fine, {.target_vertices = 1800}, plane.positions);
+  EXPECT_LT(off_plane(hierarchy.value().base), 0.95 * off_plane(fine));
+}
+
 Surface surface_of(const LatticeMesh& fine) {
   Surface surface;
   surface.mesh =
       *Connectivity::close(static_cast<std::uint32_t>(fine.positions.size()), fine.faces);
   surface.position = fine.positions;
-  surface.quadric = surface_quadrics(surface.mesh, fine.positions);
+  surface.quadric = surface_quadrics(surface.mesh, fine.positions.size(),
+                                     [&](VertexId v) { return to_vec3(fine.positions[v]); });
   return surface;
 }
 
