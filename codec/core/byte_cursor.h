@@ -86,7 +86,10 @@ class ByteWriter {
   void signed_varint(std::int64_t v) {
     varint(static_cast<std::uint64_t>(v) << 1 ^ static_cast<std::uint64_t>(v >> 63));
   }
-  void bytes(std::span<const std::uint8_t> b) { out_.insert(out_.end(), b.begin(), b.end()); }
+  void bytes(std::span<const std::uint8_t> b) {
+    for (const std::uint8_t v : b)
+      u8(v);
+  }
 
   std::size_t size() const { return out_.size(); }
   std::vector<std::uint8_t> take() { return std::move(out_); }
