@@ -87,7 +87,7 @@ class ByteWriter {
     varint(static_cast<std::uint64_t>(v) << 1 ^ static_cast<std::uint64_t>(v >> 63));
   }
   void bytes(std::span<const std::uint8_t> b) {
-    for (const std::uint8_t v : b)
+    for (const std::uint8_t v : b)  // g++ 12 sees an overflow in an insert() at the link
       u8(v);
   }
 

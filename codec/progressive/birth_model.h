@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adaptive models of components that are born whole: how their faces join and where their vertices
-// are. They start even, for there is nothing to know of specks beforehand.
+// are. Their bits start even but for residuals, which start as those of splits do.
 #pragma once
 
 #include <algorithm>

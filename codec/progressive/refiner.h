@@ -29,8 +29,8 @@ namespace vitrine {
 
 class Refiner {
  public:
-  // `base` holds the real faces as the Draco buffer decodes them, positions in lattice units. Its
-  // counts must equal the manifest's level 0 (kBadInput).
+  // `base` holds the real faces as the Draco buffer decodes them, positions in cells of level 0
+  // (cell.h). Its counts must equal the manifest's level 0 (kBadInput).
   static Expected<Refiner> start(std::shared_ptr<const Manifest> manifest, const BaseMesh& base);
   static Expected<Refiner> start(Manifest manifest, const BaseMesh& base) {
     return start(std::make_shared<const Manifest>(std::move(manifest)), base);

@@ -102,8 +102,8 @@ void Matcher::list_edges(const LevelRules& rules) {
   mean_edge_ = lengths / static_cast<double>(std::max<std::size_t>(edges_.size(), 1));
 }
 
-// v~, of pyramid placement up to rounding, for a fraction of the price of merged_position(). The
-// rounding of midpoints counts: between edges of the same cost otherwise it may lie on the surface.
+// v~, of pyramid placement up to rounding, for a fraction of the price of merged_position(). How
+// midpoints round counts: of edges that are equal else, one may round onto the surface.
 Vec3 Matcher::likely_target(const LevelRules& rules, Corner c) const {
   const Connectivity& mesh = surface_.mesh;
   const VertexId v = mesh.vertex(c), w = mesh.neighbour(c);

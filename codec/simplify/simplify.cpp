@@ -30,7 +30,7 @@ constexpr std::uint32_t kLeastShare = 50;
 Surface make_surface(const LatticeMesh& fine, Connectivity mesh, std::span<const Vec3> original) {
   Surface s{.mesh = std::move(mesh), .position = fine.positions};
   const double per_unit = 1 / fine.lattice.step;
-  s.quadric = surface_quadrics(s.mesh, fine.positions.size(), [&](VertexId v) {
+  s.quadric = surface_quadrics(s.mesh, [&](VertexId v) {
     if (original.empty()) return to_vec3(fine.positions[v]);
     return (original[v] - fine.lattice.origin) * per_unit;
   });
@@ -133,7 +133,7 @@ class Simplifier {
     refined_.push_back(std::move(refined));
   }
 
-  // From the planes of the fine mesh, lattice units.
+  // From the planes of the surface before it was rounded, lattice units.
   double rms_error() const {
     double error = 0, weight = 0;
     for (VertexId v : surface_.live) {

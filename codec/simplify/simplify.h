@@ -29,9 +29,9 @@ struct SimplifyOptions {
   std::function<void(double)> progress = {};  // fraction done, 0..1; called once a level
 };
 
-// `original`: where the vertices of `fine` were before they were rounded to its lattice, model
-// units; empty: where they are. Quadrics are of its planes, which rounding would tilt where edges
-// are a few steps long.
+// `original`: where the vertices were before they were rounded to the lattice, model units, one for
+// each of `fine` in its order; empty: where they are. Quadrics are of its planes, which rounding
+// would tilt where edges are a few steps long.
 // Fails (kBadInput) where Connectivity::close refuses the faces. The base stays larger than asked
 // where no legal collapse is left (high genus; by heap, many components) or the format's number of
 // levels is reached. Where the coarsest level is more than one region, the model is simplified as

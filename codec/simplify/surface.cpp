@@ -8,8 +8,8 @@ constexpr double kBorderWeight = 2;  // of a border plane, against the squared l
 
 class Accumulator {
  public:
-  Accumulator(const Connectivity& mesh, std::size_t vertices, const PositionOf& position)
-      : mesh_(mesh), position_(position), quadric_(vertices) {}
+  Accumulator(const Connectivity& mesh, const PositionOf& position)
+      : mesh_(mesh), position_(position), quadric_(mesh.vertex_count()) {}
 
   std::vector<Quadric> run() && {
     for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
@@ -54,9 +54,8 @@ class Accumulator {
 
 }  // namespace
 
-std::vector<Quadric> surface_quadrics(const Connectivity& mesh, std::size_t vertices,
-                                      const PositionOf& position) {
-  return Accumulator(mesh, vertices, position).run();
+std::vector<Quadric> surface_quadrics(const Connectivity& mesh, const PositionOf& position) {
+  return Accumulator(mesh, position).run();
 }
 
 }  // namespace vitrine

@@ -32,9 +32,8 @@ struct Surface {
   Vec3 point(VertexId v) const { return middle(position[v]); }
 };
 
-// One quadric for each of the real vertices: the planes of its faces weighted by area, and at the
+// One quadric for each real vertex: the planes of its faces weighted by area, and at the
 // boundary planes through the border edges, at right angles to the face, so that rims do not erode.
-std::vector<Quadric> surface_quadrics(const Connectivity& mesh, std::size_t vertices,
-                                      const PositionOf& position);
+std::vector<Quadric> surface_quadrics(const Connectivity& mesh, const PositionOf& position);
 
 }  // namespace vitrine

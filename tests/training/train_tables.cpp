@@ -109,7 +109,7 @@ bool study_mesh(const std::string& path, int bits, Study& study) {
   auto repaired = repair(std::move(*imported));
   if (!repaired) return false;
   const LatticeMesh fine = quantise(repaired->mesh, fit_lattice(repaired->mesh.positions, bits));
-  const auto hierarchy = simplify(fine, {});
+  const auto hierarchy = simplify(fine, {}, repaired->mesh.positions);
   if (!hierarchy) return false;
   const auto base = encode_base({hierarchy->base.positions, hierarchy->base.faces, {}});
   if (!base) return false;
