@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/export/far_from_origin.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vitrine {
 namespace {
 
 constexpr double kFarthest = 16;  // in longest sides: 2^4 of the 2^24 steps of single precision
 
+double farthest(const Bounds& bounds) {
+  const Vec3 &a = bounds.low, &b = bounds.high;
+  return std::max(
+      {std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
+}
+
 }  // namespace
 
 bool is_far_from_origin(const Bounds& bounds) {
-  const Vec3 &a = bounds.low, &b = bounds.high;
-  const double farthest = std::max(
-      {std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
-  return farthest > kFarthest * bounds.longest_side();
+  return farthest(bounds) > kFarthest * bounds.longest_side();
+}
+
+double most_rounding(const Bounds& bounds) {
+  const auto coordinate = static_cast<float>(farthest(bounds));
+  return (std::nextafter(coordinate, std::numeric_limits<float>::infinity()) - coordinate) / 2;
 }
 
 }  // namespace vitrine

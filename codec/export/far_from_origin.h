@@ -10,4 +10,7 @@ namespace vitrine {
 // side: coordinates of a map do that to an object.
 bool is_far_from_origin(const Bounds& bounds);
 
+// By how much single precision moves a coordinate at most.
+double most_rounding(const Bounds& bounds);
+
 }  // namespace vitrine

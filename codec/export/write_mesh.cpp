@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
+#include "codec/export/far_from_origin.h"
 #include "codec/export/write_drc.h"
 #include "codec/export/writers.h"
 #include "codec/mesh/unit.h"
@@ -98,6 +100,19 @@ Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFor
   }
   return fail(ErrorCode::kUnsupported,
               "unknown mesh format; choose PLY, GLB, OBJ, STL, DRC or VRML");
+}
+
+std::string note_on_precision(const TriangleMesh& mesh, MeshFormat format) {
+  if (format != MeshFormat::kStl && format != MeshFormat::kDrc) return {};
+  const Bounds box = bounds_of(mesh.positions);
+  if (!is_far_from_origin(box)) return {};
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "%s has single precision, which moves vertices so far from the origin by up to %.2g;"
+      " write PLY, OBJ or GLB, which keep them",
+      format == MeshFormat::kStl ? "STL" : "DRC", most_rounding(box));
+  return text;
 }
 
 }  // namespace vitrine

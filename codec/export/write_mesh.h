@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,5 +33,9 @@ std::optional<MeshFormat> format_of_extension(std::string_view extension);
 // (kLimit) where a format's 32-bit sizes do not suffice.
 Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
                                                std::string_view unit = {});
+
+// What people have to know of a mesh far from the origin in STL or DRC: by how much single
+// precision moves its vertices, as "CAUSE; NEXT STEP". Else empty.
+std::string note_on_precision(const TriangleMesh& mesh, MeshFormat format);
 
 }  // namespace vitrine

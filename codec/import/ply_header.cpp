@@ -108,7 +108,7 @@ Expected<void> HeaderParser::element(std::string_view line) {
       std::from_chars(count.data(), count.data() + count.size(), element.count);
   if (error != std::errc{} || end != count.data() + count.size()) {
     return bad("the count " + in_quotes(count) + " of element " + in_quotes(element.name) +
-               " is not a number");
+               " is not a number from 0 up that fits 64 bits");
   }
   header_.elements.push_back(std::move(element));
   return {};

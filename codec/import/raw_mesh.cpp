@@ -88,9 +88,11 @@ Expected<void> RawMesh::check_counts(const Limits& limits) const {
   }
   if (max_index_ >= positions.size()) {
     const std::string vertex =
-        max_index_ == 0xFFFF'FFFFu ? "a vertex that cannot be" : numbered(max_index_);
-    return bad_input(face_of_max_index() + " refers to " + vertex + ", but the file has only " +
-                     std::to_string(positions.size()) + "; the file is damaged, export it again");
+        max_index_ == 0xFFFF'FFFFu
+            ? "a vertex below 0 or beyond 32 bits"
+            : numbered(max_index_) + ", but the file has only " + std::to_string(positions.size());
+    return bad_input(face_of_max_index() + " refers to " + vertex +
+                     "; the file is damaged, export it again");
   }
   if (positions.size() > limits.vertices || triangles_.size() > limits.faces) {
     return fail(ErrorCode::kLimit, "the mesh has " + std::to_string(positions.size()) +
@@ -148,10 +150,10 @@ void RawMesh::close_seams() {
     for (std::uint32_t& v : face)
       v = renamed[v];
   }
-  repairs.push_back(std::to_string(welded) +
-                    (welded == 1 ? " repeated vertex welded" : " repeated vertices welded") +
-                    (has_seams ? ", parted by normals, textures or missing indices"
-                               : ", parted along matching borders"));
+  repairs.push_back(
+      std::to_string(welded) +
+      (welded == 1 ? " repeated vertex welded" : " repeated vertices welded") +
+      (has_seams ? ", parted by normals, textures or missing indices" : " along matching borders"));
 }
 
 Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {

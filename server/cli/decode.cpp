@@ -41,7 +41,9 @@ Expected<Product> decode_to(std::span<const std::uint8_t> pmesh, const std::opti
   const TriangleMesh mesh = refiner->display_mesh();
   auto file = write_mesh(mesh, format, manifest.unit);
   if (!file) return tl::unexpected(file.error());
-  return Product{describe(*refiner, mesh), std::move(*file)};
+  nlohmann::json report = describe(*refiner, mesh);
+  if (auto note = note_on_precision(mesh, format); !note.empty()) report["note"] = note;
+  return Product{std::move(report), std::move(*file)};
 }
 
 Outcome decode(const Arguments& arguments) {

@@ -165,8 +165,9 @@ Expected<Product> decode_held(const PartialModel& model, std::span<const std::ui
   const TriangleMesh mesh = refiner->display_mesh();
   auto file = write_mesh(mesh, *order.format, manifest.unit);
   if (!file) return tl::unexpected(file.error());
-  return Product{{{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}},
-                 std::move(*file)};
+  nlohmann::json report = {{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}};
+  if (auto note = note_on_precision(mesh, *order.format); !note.empty()) report["note"] = note;
+  return Product{std::move(report), std::move(*file)};
 }
 
 // Writes OUT; what it counts.

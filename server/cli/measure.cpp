@@ -5,6 +5,7 @@
 #include "server/cli/command.h"
 #include "server/cli/console.h"
 #include "server/cli/isolation.h"
+#include "server/cli/reading.h"
 #include "server/cli/surface_file.h"
 
 namespace vitrine::cli {
@@ -51,14 +52,16 @@ Outcome run_measure(const Arguments& arguments) {
   const auto samples = arguments.number("--samples", 1, 100'000'000);
   if (!samples) return tl::unexpected(samples.error());
   options.samples = samples->value_or(options.samples);
+  const auto reading = reading_options(arguments);
+  if (!reading) return tl::unexpected(reading.error());
   const auto a = InputFile::open(arguments.operand(0)), b = InputFile::open(arguments.operand(1));
   if (!a) return failed(a.error());
   if (!b) return failed(b.error());
 
   const auto product = isolate("cannot measure", [&](const ProgressReport&) -> Expected<Product> {
-    auto first = read_surface(*a, arguments.operand(0));
+    auto first = read_surface(*a, arguments.operand(0), *reading);
     if (!first) return tl::unexpected(first.error());
-    const auto second = read_surface(*b, arguments.operand(1));
+    const auto second = read_surface(*b, arguments.operand(1), *reading);
     if (!second) return tl::unexpected(second.error());
     const std::string note = note_on_units(*first, *second);
     convert(*first, second->unit);
@@ -73,9 +76,11 @@ Outcome run_measure(const Arguments& arguments) {
 }
 
 constexpr std::string_view kMeasureOperands[] = {"A", "B"};
-constexpr Flag kMeasureFlags[] = {{"--samples", "N", "points on each surface (default 200000)"},
-                                  {"--align", "", "first move A onto B: rigid, without scale"},
-                                  {"--json", "", "print one JSON object"}};
+constexpr Flag kMeasureFlags[] = {
+    {"--samples", "N", "points on each surface (default 200000)"},
+    {"--up", "y|z", "the axis of mesh files that points up, as for build"},
+    {"--align", "", "first move A onto B: rigid, without scale"},
+    {"--json", "", "print one JSON object"}};
 
 }  // namespace
 

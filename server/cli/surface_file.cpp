@@ -2,18 +2,17 @@
 #include "server/cli/surface_file.h"
 
 #include "codec/import/read_drc.h"
-#include "codec/import/read_mesh.h"
 #include "codec/mesh/unit.h"
 #include "server/jobs/open_model.h"
 
 namespace vitrine::cli {
 namespace {
 
-Expected<Surface> surface_in(const InputFile& file) {
+Expected<Surface> surface_in(const InputFile& file, const ReadOptions& reading) {
   if (is_drc(file.bytes()))
     return read_drc(file.bytes()).map([](TriangleMesh&& mesh) { return Surface{std::move(mesh)}; });
   if (!file.is_pmesh()) {
-    auto imported = read_mesh(file.bytes());
+    auto imported = read_mesh(file.bytes(), reading);
     if (!imported) return tl::unexpected(imported.error());
     return Surface{std::move(imported->mesh), std::move(imported->unit)};
   }
@@ -28,8 +27,9 @@ Expected<Surface> surface_in(const InputFile& file) {
 
 }  // namespace
 
-Expected<Surface> read_surface(const InputFile& file, const std::string& name) {
-  return surface_in(file).map_error([&](const Error& error) {
+Expected<Surface> read_surface(const InputFile& file, const std::string& name,
+                               const ReadOptions& reading) {
+  return surface_in(file, reading).map_error([&](const Error& error) {
     return Error{error.code, name + ": " + error.message};
   });
 }

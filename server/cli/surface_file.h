@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "codec/import/read_mesh.h"
 #include "codec/mesh/triangle_mesh.h"
 #include "server/cli/input.h"
 
@@ -15,8 +16,10 @@ struct Surface {
   std::string unit;  // empty where it is unknown
 };
 
-// Of a .pmesh the finest level. For untrusted bytes, but in the sandbox.
-Expected<Surface> read_surface(const InputFile& file, const std::string& name);
+// Of a .pmesh the finest level; `reading` is for mesh files. For untrusted bytes, but in the
+// sandbox.
+Expected<Surface> read_surface(const InputFile& file, const std::string& name,
+                               const ReadOptions& reading = {});
 
 // Only where both units are known: otherwise the numbers stay as they are.
 void convert(Surface& surface, std::string_view unit);

@@ -34,7 +34,7 @@ TEST(Seams, AnObjWithoutNormalsOrTexturesIsClosed) {
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 2, 1}, Triangle{0, 1, 3},
                                              Triangle{1, 2, 3}, Triangle{0, 3, 2}));
   EXPECT_THAT(result.repairs,
-              ElementsAre("4 repeated vertices welded, parted along matching borders"));
+              ElementsAre("4 repeated vertices welded along matching borders"));
 }
 
 TEST(Seams, OffAndPlyFollowTheSameRule) {
@@ -61,7 +61,7 @@ TEST(Seams, ASlitInASheetIsClosed) {
   EXPECT_EQ(result.boundary_edges, 4u);
   EXPECT_EQ(result.mesh.positions.size(), 5u);
   EXPECT_THAT(result.repairs,
-              ElementsAre("1 repeated vertex welded, parted along matching borders"));
+              ElementsAre("1 repeated vertex welded along matching borders"));
 }
 
 TEST(Seams, ASideThatRunsTheWrongWayIsWeldedAndTurned) {

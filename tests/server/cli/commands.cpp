@@ -279,6 +279,28 @@ TEST_F(VitrineCommand, a_model_that_was_turned_up_is_lossless_only_against_the_t
   EXPECT_NE(other.errors.find("give the --up that it was built with"), std::string::npos);
 }
 
+TEST_F(VitrineCommand, a_model_that_was_turned_up_is_measured_against_the_turned_input) {
+  const std::string in = write("in.ply", bumpy_ply(500));
+  vitrine_json({"build", in, "-o", path("out.pmesh"), "--up", "z"});
+  const json turned = vitrine_json({"measure", path("out.pmesh"), in, "--up", "z"});
+  EXPECT_LT(turned["max_percent"].get<double>(), 0.1);
+  const json other = vitrine_json({"measure", path("out.pmesh"), in});
+  EXPECT_GT(other["max_percent"].get<double>(), 1);
+}
+
+TEST_F(VitrineCommand, what_single_precision_moves_is_noted) {
+  const std::string in =
+      write("far.obj", "v 456789 5432109 0\nv 456790 5432109 0\nv 456789 5432110 0\nf 1 2 3\n");
+  vitrine_json({"build", in, "-o", path("far.pmesh")});
+  for (const std::string format : {"stl", "drc"}) {
+    const ProgramResult moved = vitrine({"decode", path("far.pmesh"), "-o", path("far." + format)});
+    expect_fault(moved, 0);  // a note has its form
+    EXPECT_THAT(moved.errors, HasSubstr("by up to 0.25; write PLY, OBJ or GLB"));
+  }
+  for (const std::string format : {"ply", "obj", "glb", "wrl"})
+    vitrine_json({"decode", path("far.pmesh"), "-o", path("far." + format)});
+}
+
 TEST_F(VitrineCommand, materials_that_lie_beside_an_obj_colour_the_model) {
   write("Bust.MTL", "newmtl stone\nKd 0.2 0.4 0.6\n");
   const std::string in = write("in.obj",

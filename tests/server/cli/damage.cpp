@@ -46,6 +46,15 @@ TEST_F(VitrineCommand, every_way_to_cut_the_head_is_an_error) {
   }
 }
 
+TEST_F(VitrineCommand, a_file_that_is_cut_in_its_base_has_no_coarser_level_to_ask_for) {
+  const std::string bytes = read(std::filesystem::path(model(600)).filename().string());
+  const std::size_t head = parse_header(to_bytes(bytes))->head_bytes();
+  const std::string cut = write("cut.pmesh", bytes.substr(0, head - 1));
+  const ProgramResult result = vitrine({"decode", cut, "-o", path("out.ply"), "--level", "0"});
+  expect_fault(result, 1);
+  EXPECT_THAT(result.errors, ::testing::EndsWith("; fetch it again\n"));
+}
+
 // Draco gets to see the damage, because the SHA-256 is made to fit.
 TEST_F(VitrineCommand, a_hostile_base_mesh_is_an_error_or_a_mesh_but_never_a_crash) {
   model(600);
