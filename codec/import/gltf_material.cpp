@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/import/data_uri.h"
 #include "codec/import/raw_mesh.h"
 
 namespace vitrine {
@@ -28,6 +29,16 @@ void place_texture(const Json& reference, const Json& sampler, BaseColour& out) 
   out.rotation = real(transform, "rotation", 0);
 }
 
+// Which picture a texture shows: the plain one, which all can read, or else that of an extension,
+// so that what it is can be told.
+std::uint64_t source_of(const Json& texture) {
+  std::uint64_t source = whole(texture, "source", kAbsent);
+  for (const Json& other : member(texture, "extensions")) {
+    if (source == kAbsent) source = whole(other, "source", kAbsent);
+  }
+  return source;
+}
+
 }  // namespace
 
 LinearColour BaseColour::at(double u, double v) const {
@@ -46,7 +57,7 @@ BaseColour GltfMaterials::base_colour(const Json& primitive) {
   const Json& reference = member(surface, "baseColorTexture");
   const Json& texture = element(document_, "textures", whole(reference, "index", kAbsent));
   if (!texture.is_object()) return out;
-  out.image = image(whole(texture, "source", kAbsent));
+  out.image = image(source_of(texture));
   place_texture(reference, element(document_, "samplers", whole(texture, "sampler", kAbsent)), out);
   return out;
 }
@@ -68,7 +79,14 @@ const Image* GltfMaterials::image(std::uint64_t index) {
 }
 
 Expected<Image> GltfMaterials::decode(std::uint64_t index) {
-  const std::uint64_t view = whole(element(document_, "images", index), "bufferView", kAbsent);
+  const Json& self = element(document_, "images", index);
+  const Json& uri = member(self, "uri");
+  if (const auto* place = uri.get_ptr<const std::string*>(); place && is_data_uri(*place)) {
+    const auto bytes = data_in_uri(*place);
+    if (!bytes) return bad_input("is a data: URI that is not base64; export the file again");
+    return decode_image(*bytes, pixels_left_);
+  }
+  const std::uint64_t view = whole(self, "bufferView", kAbsent);
   if (view == kAbsent) return bad_input("is not in the file");
   const auto bytes = buffer_.view(view);
   if (!bytes) return bad_input("lies beyond the end of the file");

@@ -5,8 +5,10 @@
 #include <turbojpeg.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "codec/import/raw_mesh.h"
@@ -18,10 +20,33 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::uint64_t kMostPixelsPerByte = 1024;
 
+// Formats that are not read, told by what is at a byte of theirs: media types, as glTF gives them.
+struct Format {
+  std::string_view type;
+  std::size_t at;
+  std::string_view magic;
+};
+constexpr std::array<Format, 8> kOthers{{{"image/webp", 8, "WEBP"},
+                                         {"image/ktx2", 0, "\xABKTX 20"},
+                                         {"image/avif", 4, "ftypavif"},
+                                         {"image/tiff", 0, {"II*\0", 4}},
+                                         {"image/tiff", 0, {"MM\0*", 4}},
+                                         {"image/gif", 0, "GIF8"},
+                                         {"image/bmp", 0, "BM"},
+                                         {"image/vnd-ms.dds", 0, "DDS "}}};
+
 bool starts_with(Bytes bytes, std::string_view magic) {
   return bytes.size() >= magic.size() &&
          std::equal(magic.begin(), magic.end(), bytes.begin(),
                     [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
+Unexpected unread(Bytes bytes) {
+  for (const auto& [type, at, magic] : kOthers) {
+    if (bytes.size() < at || !starts_with(bytes.subspan(at), magic)) continue;
+    return fail(ErrorCode::kUnsupported, "is " + std::string(type) + "; convert it to PNG or JPEG");
+  }
+  return fail(ErrorCode::kUnsupported, "is neither PNG nor JPEG; convert it to one of them");
 }
 
 Expected<Image> blank(std::uint64_t width, std::uint64_t height, std::size_t bytes,
@@ -100,7 +125,7 @@ Pair pixels_around(double t, std::uint32_t size, Wrap wrap) {
 Expected<Image> decode_image(Bytes bytes, std::uint64_t most_pixels) {
   if (starts_with(bytes, "\x89PNG")) return decode_png(bytes, most_pixels);
   if (starts_with(bytes, "\xFF\xD8\xFF")) return decode_jpeg(bytes, most_pixels);
-  return fail(ErrorCode::kUnsupported, "is neither PNG nor JPEG");
+  return unread(bytes);
 }
 
 LinearColour sample(const Image& image, double u, double v, Wrap wrap_u, Wrap wrap_v) {

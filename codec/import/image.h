@@ -26,7 +26,8 @@ inline constexpr std::uint64_t kMostPixels = 1u << 28;  // of all pictures of a 
 // Decodes a PNG or JPEG, told apart by content. Its size is checked before anything is allocated:
 // at most `most_pixels`, and at most 1024 for each byte. The libraries are not proof against every
 // byte: this belongs into the sandbox. Fails (kBadInput, kUnsupported, kLimit) with the fault
-// alone, as in "is neither PNG nor JPEG": the caller names the picture.
+// and any next step, as in "is image/webp; convert it to PNG or JPEG": the caller names the
+// picture.
 Expected<Image> decode_image(std::span<const std::uint8_t> bytes, std::uint64_t most_pixels);
 
 // What a coordinate outside of [0, 1) means.

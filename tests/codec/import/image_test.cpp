@@ -44,7 +44,10 @@ TEST(Image, JpegComesBackNearly) {
 }
 
 TEST(Image, RefusesOtherContentAndDamage) {
-  EXPECT_EQ(fault("GIF89a"), "is neither PNG nor JPEG");
+  EXPECT_EQ(fault("P6 1 1 255 ..."), "is neither PNG nor JPEG; convert it to one of them");
+  EXPECT_EQ(fault("GIF89a"), "is image/gif; convert it to PNG or JPEG");
+  EXPECT_EQ(fault(std::string("II*\0", 4)), "is image/tiff; convert it to PNG or JPEG");
+  EXPECT_EQ(fault("RIFF....WAVE"), "is neither PNG nor JPEG; convert it to one of them");
   EXPECT_EQ(fault(red_and_blue().substr(0, 40)), "is a damaged PNG");
   EXPECT_THAT(fault(jpeg_of(std::vector<std::uint8_t>(192, 9), 8).substr(0, 300)),
               HasSubstr("is a damaged JPEG"));

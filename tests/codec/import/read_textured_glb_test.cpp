@@ -8,6 +8,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::SizeIs;
 using vitrine::testing::GlbBuilder;
 using vitrine::testing::jpeg_of;
 using vitrine::testing::kBetween;
@@ -93,16 +94,66 @@ TEST(ReadTexturedGlb, AJpegIsRead) {
   EXPECT_NEAR(read_text(textured(picture).file()).mesh.colours.at(0)[0], 100, 3);
 }
 
+// What is said of the only picture of a file.
+std::string fault_of(const GlbBuilder& builder) {
+  const auto result = read_text(builder.file());
+  EXPECT_THAT(result.mesh.colours, ElementsAre());
+  EXPECT_EQ(result.mesh.faces.size(), 1u);
+  EXPECT_THAT(result.repairs, SizeIs(1));
+  return result.repairs.empty() ? "" : result.repairs.front();
+}
+
 TEST(ReadTexturedGlb, APictureThatCannotBeReadIsNamedAndTheMeshStays) {
-  const auto other = read_text(textured("RIFF....WEBPVP8 ").file());
-  EXPECT_THAT(other.mesh.colours, ElementsAre());
-  EXPECT_THAT(other.repairs, ElementsAre("texture map 0 not carried: it is neither PNG nor JPEG"));
-  const auto cut = read_text(textured(red_and_blue().substr(0, 50)).file());
-  EXPECT_THAT(cut.repairs, ElementsAre("texture map 0 not carried: it is a damaged PNG"));
+  EXPECT_EQ(fault_of(textured("P6 1 1 255 ...")),
+            "texture map 0 not carried: it is neither PNG nor JPEG; convert it to one of them");
+  EXPECT_EQ(fault_of(textured(red_and_blue().substr(0, 50))),
+            "texture map 0 not carried: it is a damaged PNG");
   GlbBuilder outside = textured(red_and_blue());
   outside.document["images"][0] = {{"uri", "skin.png"}};
-  EXPECT_THAT(read_text(outside.file()).repairs,
-              ElementsAre("texture map 0 not carried: it is not in the file"));
+  EXPECT_EQ(fault_of(outside), "texture map 0 not carried: it is not in the file");
+}
+
+TEST(ReadTexturedGlb, APictureOfAnExtensionIsToldByItsFormat) {
+  const std::tuple<std::string, std::string, std::string> kinds[] = {
+      {"EXT_texture_webp", "RIFF....WEBPVP8 ", "image/webp"},
+      {"KHR_texture_basisu", "\xABKTX 20\xBB\r\n\x1A\n", "image/ktx2"}};
+  for (const auto& [extension, picture, type] : kinds) {
+    GlbBuilder builder = textured(picture);
+    builder.document["textures"][0] = {{"extensions", {{extension, {{"source", 0}}}}}};
+    EXPECT_EQ(fault_of(builder),
+              "texture map 0 not carried: it is " + type + "; convert it to PNG or JPEG");
+  }
+}
+
+TEST(ReadTexturedGlb, ThePlainPictureGoesBeforeThatOfAnExtension) {
+  GlbBuilder builder = textured(red_and_blue());
+  builder.document["textures"][0]["extensions"]["EXT_texture_webp"] = {{"source", 7}};
+  EXPECT_THAT(read_text(builder.file()).mesh.colours, ElementsAre(kRed, kBlue, kRed));
+}
+
+// red_and_blue() in base64.
+const std::string kUri =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR42mP4zwAE/wEHAAH/"
+    "PX2MSQAAAABJRU5ErkJggg==";
+
+TEST(ReadTexturedGlb, APictureInADataUriIsRead) {
+  GlbBuilder builder = textured("");
+  builder.document["images"][0] = {{"uri", kUri}};
+  EXPECT_THAT(read_text(builder.file()).mesh.colours, ElementsAre(kRed, kBlue, kRed));
+}
+
+TEST(ReadTexturedGlb, ADataUriThatCannotBeReadIsNamedAndTheMeshStays) {
+  const std::string damaged = "texture map 0 not carried: it is ";
+  const std::pair<std::string, std::string> faults[] = {
+      {kUri.substr(0, 90), "a damaged PNG"},
+      {kUri.substr(0, 60) + "*", "a data: URI that is not base64; export the file again"},
+      {"data:image/png,%89PNG", "a data: URI that is not base64; export the file again"},
+      {"data:", "a data: URI that is not base64; export the file again"}};
+  for (const auto& [uri, fault] : faults) {
+    GlbBuilder builder = textured("");
+    builder.document["images"][0] = {{"uri", uri}};
+    EXPECT_EQ(fault_of(builder), damaged + fault);
+  }
 }
 
 TEST(ReadTexturedGlb, RefusesCoordinatesThatAreMissingOrDoNotMatch) {
