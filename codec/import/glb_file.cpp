@@ -10,6 +10,10 @@ namespace {
 constexpr int kDeepestJson = 64;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
+Unexpected cut_short(std::string what) {
+  return bad_input("GLB: " + std::move(what) + "; it is cut short, copy it again");
+}
+
 bool is_too_deep(std::string_view json) {
   int depth = 0;
   bool in_string = false;
@@ -30,14 +34,14 @@ Expected<std::size_t> checked_length(std::span<const std::uint8_t> bytes) {
   cursor.skip(4);
   const auto version = cursor.read<std::uint32_t>();
   const auto length = cursor.read<std::uint32_t>();
-  if (cursor.overrun()) return bad_glb("the header is cut short");
+  if (cursor.overrun()) return cut_short("the file ends within its header");
   if (version != 2) {
     return fail(ErrorCode::kUnsupported,
                 "GLB version " + std::to_string(version) + " is not read; export glTF 2.0");
   }
   if (length > bytes.size()) {
-    return bad_glb("the header claims " + counted(length, "byte") + ", the file has " +
-                   std::to_string(bytes.size()));
+    return cut_short("the header claims " + counted(length, "byte") + ", the file has " +
+                     std::to_string(bytes.size()));
   }
   return length;
 }
@@ -70,6 +74,18 @@ Expected<void> check_extensions(const Json& document) {
   return {};
 }
 
+// As glTF's rules for versions have it: minVersion must be read entirely, and without one the major
+// version. Without either, that of the container stands for both.
+Expected<void> check_version(const Json& document) {
+  const Json& asset = member(document, "asset");
+  const bool has_least = !member(asset, "minVersion").is_null();
+  const std::string version = text(asset, has_least ? "minVersion" : "version", "");
+  if (!has_least && member(asset, "version").is_null()) return {};
+  if (has_least ? version == "2.0" : version.starts_with("2.")) return {};
+  return fail(ErrorCode::kUnsupported,
+              "glTF version " + in_quotes(version) + " is not read; export glTF 2.0");
+}
+
 }  // namespace
 
 Unexpected bad_glb(std::string what) {
@@ -95,6 +111,7 @@ Expected<GlbFile> open_glb(std::span<const std::uint8_t> bytes, const Limits& li
   auto document = parse(json, limits);
   if (!document) return Unexpected(document.error());
   file.document = *std::move(document);
+  if (auto ok = check_version(file.document); !ok) return Unexpected(ok.error());
   if (auto ok = check_extensions(file.document); !ok) return Unexpected(ok.error());
   return file;
 }

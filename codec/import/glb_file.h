@@ -15,8 +15,8 @@ struct GlbFile {
   std::span<const std::uint8_t> binary;  // of the input; may be empty
 };
 
-// Fails (kBadInput, kUnsupported, kLimit) on another version, damaged chunks, JSON that is too long
-// or too deep, and on required extensions that are not read.
+// Fails (kBadInput, kUnsupported, kLimit) on another version, cut or damaged chunks, JSON that is
+// too long or too deep, and on required extensions that are not read.
 Expected<GlbFile> open_glb(std::span<const std::uint8_t> bytes, const Limits& limits);
 
 // A fault of the file, with the next step.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/import/gltf_json.h"
 
+#include <algorithm>
+
 namespace vitrine {
 namespace {
 
@@ -36,6 +38,11 @@ double real(const Json& object, std::string_view key, double otherwise) {
 std::string text(const Json& object, std::string_view key, std::string_view otherwise) {
   const Json& value = member(object, key);
   return value.is_string() ? value.get<std::string>() : std::string(otherwise);
+}
+
+bool are_numbers(const Json& array, std::size_t count) {
+  return array.is_array() && array.size() == count &&
+         std::ranges::all_of(array, [](const Json& entry) { return entry.is_number(); });
 }
 
 }  // namespace vitrine

@@ -31,15 +31,16 @@ inline constexpr std::uint64_t kAbsent = ~std::uint64_t{0};
 double real(const Json& object, std::string_view key, double otherwise);
 std::string text(const Json& object, std::string_view key, std::string_view otherwise);
 
+// Whether it is an array of `count` numbers.
+bool are_numbers(const Json& array, std::size_t count);
+
 // The numbers of an array of exactly N, or `otherwise`.
 template <std::size_t N>
 std::array<double, N> numbers(const Json& array, const std::array<double, N>& otherwise) {
-  if (!array.is_array() || array.size() != N) return otherwise;
+  if (!are_numbers(array, N)) return otherwise;
   std::array<double, N> out;
-  for (std::size_t i = 0; i < N; ++i) {
-    if (!array[i].is_number()) return otherwise;
+  for (std::size_t i = 0; i < N; ++i)
     out[i] = array[i].template get<double>();
-  }
   return out;
 }
 

@@ -2,11 +2,25 @@
 #include "codec/import/gltf_scene.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "codec/import/glb_file.h"
+#include "codec/import/raw_mesh.h"
 
 namespace vitrine {
 namespace {
+
+Expected<void> check_place(const Json& node, std::uint64_t index) {
+  constexpr std::array<std::pair<const char*, std::size_t>, 4> kParts{
+      {{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}}};
+  for (const auto& [key, count] : kParts) {
+    if (!node.contains(key) || are_numbers(member(node, key), count)) continue;
+    return bad_glb("the " + std::string(key) + " of node " + std::to_string(index) + " is not " +
+                   std::to_string(count) + " numbers");
+  }
+  return {};
+}
 
 Affine transform_of(const Json& node) {
   if (const Json& matrix = member(node, "matrix"); matrix.is_array()) {
@@ -42,10 +56,40 @@ std::vector<PlacedMesh> all_meshes(const Json& document) {
   return placed;
 }
 
+// The first scene that shows a mesh. A node met in vain is not searched again, whoever has it.
+std::uint64_t scene_with_meshes(const Json& document) {
+  const Json& nodes = member(document, "nodes");
+  const Json& scenes = member(document, "scenes");
+  std::vector<bool> seen(nodes.is_array() ? nodes.size() : 0, false);
+  std::vector<Visit> open;
+  for (std::uint64_t s = 0; s < scenes.size(); ++s) {
+    push(member(scenes[s], "nodes"), Affine{}, open);
+    while (!open.empty()) {
+      const std::uint64_t node = open.back().node;
+      open.pop_back();
+      if (node >= seen.size() || seen[node]) continue;
+      seen[node] = true;
+      if (whole(nodes[node], "mesh", kAbsent) != kAbsent) return s;
+      push(member(nodes[node], "children"), Affine{}, open);
+    }
+  }
+  return kAbsent;
+}
+
+Unexpected shows_none(std::uint64_t scene, const Json& document) {
+  const std::string fault =
+      "GLB: its default scene " + std::to_string(scene) + " shows none of the file's meshes";
+  const std::uint64_t other = scene_with_meshes(document);
+  if (other == kAbsent) return bad_input(fault + "; export the scene with them");
+  return bad_input(fault + ", but scene " + std::to_string(other) +
+                   " does; make that the default and export again");
+}
+
 }  // namespace
 
 Expected<std::vector<PlacedMesh>> placed_meshes(const Json& document) {
-  const Json& scene = element(document, "scenes", whole(document, "scene", 0));
+  const std::uint64_t number = whole(document, "scene", 0);
+  const Json& scene = element(document, "scenes", number);
   if (!scene.is_object()) return all_meshes(document);
   const Json& nodes = member(document, "nodes");
   std::vector<bool> seen(nodes.is_array() ? nodes.size() : 0, false);
@@ -59,12 +103,14 @@ Expected<std::vector<PlacedMesh>> placed_meshes(const Json& document) {
     if (seen[visit.node]) return bad_glb("node " + std::to_string(visit.node) + " has two parents");
     seen[visit.node] = true;
     const Json& node = nodes[visit.node];
+    if (auto ok = check_place(node, visit.node); !ok) return Unexpected(ok.error());
     const Affine place = visit.parent * transform_of(node);
     if (const auto mesh = whole(node, "mesh", kAbsent); mesh != kAbsent) {
       placed.push_back({mesh, place});
     }
     push(member(node, "children"), place, open);
   }
+  if (placed.empty() && !member(document, "meshes").empty()) return shows_none(number, document);
   return placed;
 }
 

@@ -16,7 +16,8 @@ struct PlacedMesh {
 
 // The meshes of the document's scene (of its first one, where it names none) in depth-first order;
 // all meshes, where they are, in a document without scenes. Fails (kBadInput) where a node does not
-// exist or is met twice, which a cycle would do too.
+// exist, is met twice, which a cycle would do too, or is not placed by numbers, and where the scene
+// shows none of the meshes there are.
 Expected<std::vector<PlacedMesh>> placed_meshes(const Json& document);
 
 }  // namespace vitrine

@@ -42,6 +42,11 @@ Unexpected bad_input(std::string message) {
   return fail(ErrorCode::kBadInput, std::move(message));
 }
 
+Unexpected no_faces(std::uint64_t points) {
+  return bad_input("the file has " + counted(points, "point") +
+                   " but no faces; Vitrine needs a surface, so mesh the points first");
+}
+
 void RawMesh::note_index(std::uint32_t index, std::uint64_t line) {
   if (index <= max_index_) return;
   max_index_ = index;
@@ -82,10 +87,7 @@ void RawMesh::add_face(std::span<const std::uint32_t> corners, std::uint64_t lin
 
 Expected<void> RawMesh::check_counts(const Limits& limits) const {
   if (positions.empty()) return bad_input("the file has no vertices; export the surface again");
-  if (triangles_.empty() && polygon_ends_.empty()) {
-    return bad_input("the file has " + counted(positions.size(), "point") +
-                     " but no faces; Vitrine needs a surface, so mesh the points first");
-  }
+  if (triangles_.empty() && polygon_ends_.empty()) return no_faces(positions.size());
   if (max_index_ >= positions.size()) {
     const std::string vertex =
         max_index_ == 0xFFFF'FFFFu

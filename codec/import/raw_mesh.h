@@ -71,4 +71,7 @@ std::uint8_t to_byte(double unit);
 
 Unexpected bad_input(std::string message);
 
+// A file of points or lines, with the next step.
+Unexpected no_faces(std::uint64_t points);
+
 }  // namespace vitrine

@@ -59,7 +59,7 @@ class GlbReader {
 
   Expected<void> read_primitive(const Json& primitive, const Affine& place) {
     const std::uint64_t mode = whole(primitive, "mode", 4);
-    if (mode < 4 || mode > 6) return ++skipped_primitives_, Expected<void>{};
+    if (mode < 4 || mode > 6) return skip(primitive), Expected<void>{};
     const Json& compression = extension(primitive, "KHR_draco_mesh_compression");
     if (!compression.is_object()) {
       const auto range = vertices_of(primitive, nullptr, kAbsent, place);
@@ -74,6 +74,13 @@ class GlbReader {
     return add_faces((*decoded)->faces.size(),
                      [&](std::uint64_t f) { return (*decoded)->faces[f]; }, *range,
                      place.mirrors());
+  }
+
+  // Points or lines.
+  void skip(const Json& primitive) {
+    ++skipped_primitives_;
+    const std::uint64_t index = whole(member(primitive, "attributes"), "POSITION", kAbsent);
+    skipped_points_ += whole(element(document_, "accessors", index), "count", 0);
   }
 
   Expected<const DracoPrimitive*> decoded_at(std::uint64_t index, const Json& primitive) {
@@ -226,6 +233,7 @@ class GlbReader {
   }
 
   Expected<RawMesh> build() {
+    if (mesh_.positions.empty() && skipped_primitives_ > 0) return no_faces(skipped_points_);
     if (!mesh_.colours.empty()) mesh_.colours.resize(mesh_.positions.size(), kWhite);
     mesh_.reserve_faces(faces_.size());
     for (const Triangle& face : faces_)
@@ -249,7 +257,7 @@ class GlbReader {
   std::vector<Triangle> faces_;
   std::map<VertexSource, Range> shared_;             // of the mesh that is being read
   std::map<std::uint64_t, DracoPrimitive> decoded_;  // by buffer view
-  std::uint64_t skipped_primitives_ = 0;
+  std::uint64_t skipped_primitives_ = 0, skipped_points_ = 0;
   bool has_factors_ = false;
 };
 

@@ -6,6 +6,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using vitrine::testing::bytes_of;
 using vitrine::testing::expect_first_dropped;
@@ -127,10 +128,55 @@ TEST(ReadGlb, RefusesByName) {
   EXPECT_THAT(refusal(glb("{}", "")), HasSubstr("no vertices"));
   EXPECT_THAT(refusal(glb("[[[", "")), HasSubstr("not JSON"));
   EXPECT_THAT(refusal(glb(std::string(100'000, '['), "")), HasSubstr("nested too deeply"));
-  EXPECT_THAT(refusal(plain("").substr(0, 40)), HasSubstr("claims"));
   std::string sparse = plain("");
   sparse.replace(sparse.find("\"count\":3"), 9, "\"sparse\":3");
   EXPECT_THAT(refusal(sparse), ::testing::Not(::testing::IsEmpty()));
+}
+
+TEST(ReadGlb, AFileThatIsCutIsToBeCopiedAgain) {
+  for (const std::size_t size : {8, 40}) {
+    EXPECT_THAT(refusal(plain("").substr(0, size)), EndsWith("; it is cut short, copy it again"));
+  }
+}
+
+TEST(ReadGlb, PointsAndLinesAreCountedWhereThereIsNothingElse) {
+  GlbBuilder builder;
+  for (const int mode : {0, 3}) {
+    const auto points = builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
+    builder.mesh({{"mode", mode}, {"attributes", {{"POSITION", points}}}});
+  }
+  EXPECT_THAT(refusal(builder.file()), HasSubstr("has 6 points but no faces"));
+}
+
+TEST(ReadGlb, ADefaultSceneWithoutMeshesIsNamed) {
+  const std::string nodes = R"(,"nodes":[{"children":[1]},{},{"children":[3]},{"mesh":0}])";
+  const std::string alone = plain(nodes + R"(,"scenes":[{"nodes":[0]}])");
+  EXPECT_THAT(refusal(alone), HasSubstr("scene 0 shows none of the file's meshes; export"));
+  const std::string roots = R"(,"scenes":[{"nodes":[2]},{},{"nodes":[0]}])";
+  EXPECT_THAT(refusal(plain(nodes + roots + R"(,"scene":1)")),
+              HasSubstr("scene 1 shows none of the file's meshes, but scene 0 does; make that"));
+  EXPECT_EQ(read_text(plain(nodes + roots)).mesh.faces.size(), 1u);
+}
+
+TEST(ReadGlb, ANodeThatIsNotPlacedByNumbersIsNamed) {
+  for (const std::string fault :
+       {R"("translation":[1,2])", R"("translation":[1,"2",3])", R"("rotation":"x")", R"("scale":2)",
+        R"("matrix":[1,0,0,1])", R"("matrix":{})"}) {
+    const std::string key = fault.substr(1, fault.find('"', 1) - 1);
+    EXPECT_THAT(
+        refusal(plain(R"(,"scenes":[{"nodes":[1]}],"nodes":[{},{"mesh":0,)" + fault + "}]")),
+        HasSubstr("the " + key + " of node 1 is not "));
+  }
+}
+
+TEST(ReadGlb, AnotherVersionOfGltfIsRefused) {
+  const auto with = [](const std::string& asset) { return plain(R"(,"asset":)" + asset); };
+  EXPECT_THAT(refusal(with(R"({"version":"1.0"})")), HasSubstr("glTF version '1.0' is not read"));
+  EXPECT_THAT(refusal(with(R"({"version":"20.0"})")), HasSubstr("'20.0'"));
+  EXPECT_THAT(refusal(with(R"({"version":2.0})")), HasSubstr("''"));
+  EXPECT_THAT(refusal(with(R"({"version":"2.1","minVersion":"2.1"})")), HasSubstr("'2.1'"));
+  read_text(with(R"({"version":"2.1","minVersion":"2.0"})"));
+  read_text(with(R"({"version":"2.7"})"));
 }
 
 TEST(ReadGlb, RefusesAnAccessorBeyondTheBuffer) {
