@@ -33,8 +33,7 @@ TEST(Seams, AnObjWithoutNormalsOrTexturesIsClosed) {
   EXPECT_EQ(result.mesh.positions.size(), 4u);
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 2, 1}, Triangle{0, 1, 3},
                                              Triangle{1, 2, 3}, Triangle{0, 3, 2}));
-  EXPECT_THAT(result.repairs,
-              ElementsAre("4 repeated vertices welded along matching borders"));
+  EXPECT_THAT(result.repairs, ElementsAre("4 repeated vertices welded along matching borders"));
 }
 
 TEST(Seams, OffAndPlyFollowTheSameRule) {
@@ -60,8 +59,7 @@ TEST(Seams, ASlitInASheetIsClosed) {
       "f 1 2 5\nf 6 3 5\nf 3 4 5\nf 4 1 5\n");
   EXPECT_EQ(result.boundary_edges, 4u);
   EXPECT_EQ(result.mesh.positions.size(), 5u);
-  EXPECT_THAT(result.repairs,
-              ElementsAre("1 repeated vertex welded along matching borders"));
+  EXPECT_THAT(result.repairs, ElementsAre("1 repeated vertex welded along matching borders"));
 }
 
 TEST(Seams, ASideThatRunsTheWrongWayIsWeldedAndTurned) {
