@@ -111,7 +111,7 @@ Outcome check_outputs(const Arguments& arguments) {
 }
 
 // Of the time that a build with a report takes, the build itself.
-constexpr double kBuilt = 0.2;
+constexpr double kBuilt = 0.25;
 
 // Reports from `from` to `to` of the whole what the work reports from 0 to 1.
 ProgressReport part_of(const ProgressReport& whole, double from, double to) {

@@ -69,6 +69,8 @@ Expected<std::vector<LevelPicture>> draw_levels(std::span<const std::uint8_t> pm
   return pictures;
 }
 
+constexpr double kDrawn = 0.1;  // of the report's time, what comes before its single files
+
 Expected<TriangleMesh> read_original(std::span<const std::uint8_t> input,
                                      const ReadOptions& reading) {
   auto imported = read_mesh(input, reading);
@@ -91,9 +93,9 @@ Expected<std::string> build_report(std::string_view name, std::span<const std::u
   if (!pictures) return tl::unexpected(pictures.error());
   auto manifest = parse_header(built.file);
   if (!manifest) return tl::unexpected(manifest.error());
-  show(0.2);
+  show(kDrawn);
   auto files = single_files(*original, manifest->levels.front().faces, manifest->lattice.bits,
-                            [&](double done) { show(0.2 + 0.8 * done); });
+                            [&](double done) { show(std::lerp(kDrawn, 1, done)); });
   return write_page({.name = std::string(name),
                      .input_bytes = input.size(),
                      .size = box_size(*original),

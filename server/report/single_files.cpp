@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "codec/export/write_drc.h"
@@ -16,6 +17,7 @@ namespace {
 constexpr int kTargets = 14;
 constexpr int kFewestBits = 8;
 constexpr MeasureOptions kMeasure{.samples = 20'000};
+constexpr double kSampling = 180'000;  // the time it takes, in faces to code; of the progress
 
 class Simplifier {
  public:
@@ -71,6 +73,16 @@ void add_files(const TriangleMesh& mesh, const TriangleBvh& original, int most_b
   }
 }
 
+// From `fewest` to `most`, evenly on a logarithmic scale.
+std::vector<double> face_counts(std::size_t fewest, std::size_t most) {
+  const auto all = static_cast<double>(most);
+  std::vector<double> counts;
+  counts.reserve(kTargets);
+  for (int i = 0; i < kTargets; ++i)
+    counts.push_back(all * std::pow(static_cast<double>(fewest) / all, 1 - i / (kTargets - 1.0)));
+  return counts;
+}
+
 // Those that no smaller file is as good as.
 std::vector<SingleFile> best_of(std::vector<SingleFile> files) {
   std::ranges::sort(files, {}, [](const SingleFile& f) { return std::pair(f.bytes, f.rms_error); });
@@ -87,13 +99,15 @@ std::vector<SingleFile> single_files(const TriangleMesh& original, std::size_t f
                                      int most_bits, const std::function<void(double)>& progress) {
   const TriangleBvh surface(original);
   const Simplifier simplifier(original);
-  const auto all = static_cast<double>(original.faces.size());
+  const std::vector<double> targets = face_counts(fewest, original.faces.size());
+  const double work = std::accumulate(targets.begin(), targets.end(), kTargets * kSampling);
+  double done = 0;
   std::vector<SingleFile> files;
-  for (int i = 0; i < kTargets; ++i) {
-    progress(static_cast<double>(i) / kTargets);
-    const double share = std::pow(static_cast<double>(fewest) / all, 1 - i / (kTargets - 1.0));
-    const TriangleMesh mesh = simplifier.simplify(static_cast<std::size_t>(std::ceil(share * all)));
+  for (const double faces : targets) {
+    progress(done / work);
+    const TriangleMesh mesh = simplifier.simplify(static_cast<std::size_t>(std::ceil(faces)));
     if (!mesh.faces.empty()) add_files(mesh, surface, most_bits, files);
+    done += kSampling + faces;
   }
   return best_of(std::move(files));
 }
