@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/import/data_uri.h"
 
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <limits>
+
 namespace vitrine {
 namespace {
 
-constexpr std::string_view kDigits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
+// OpenSSL takes padding for zeros, wherever it is, and leaves those zeros in.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
-  for (int i = 0; i < 2 && text.ends_with('='); ++i)
-    text.remove_suffix(1);
-  if (text.size() % 4 == 1) return std::nullopt;
-  std::vector<std::uint8_t> out;
-  out.reserve(text.size() / 4 * 3 + 2);
-  std::uint32_t bits = 0;
-  int count = 0;  // of the bits that no byte has yet
-  for (const char c : text) {
-    const std::size_t digit = kDigits.find(c);
-    if (digit == kDigits.npos) return std::nullopt;
-    bits = bits << 6 | static_cast<std::uint32_t>(digit);
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    out.push_back(static_cast<std::uint8_t>(bits >> count));
-  }
+  const std::size_t digits = std::min(text.find('='), text.size());
+  const std::size_t padding = text.size() - digits;
+  if (padding > 2 || text.find_first_not_of('=', digits) != text.npos ||
+      text.size() > std::numeric_limits<int>::max())
+    return std::nullopt;
+  std::vector<std::uint8_t> out(text.size() / 4 * 3);
+  const int size = EVP_DecodeBlock(out.data(), reinterpret_cast<const unsigned char*>(text.data()),
+                                   static_cast<int>(text.size()));
+  if (size < static_cast<int>(padding)) return std::nullopt;
+  out.resize(static_cast<std::size_t>(size) - padding);
   return out;
 }
 

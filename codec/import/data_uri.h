@@ -13,8 +13,8 @@ inline bool is_data_uri(std::string_view uri) {
   return uri.starts_with("data:");
 }
 
-// The bytes of a data: URI in base64 (RFC 4648, with or without padding), fewer than it has
-// characters; nothing where it is another.
+// The bytes of a data: URI in base64 (RFC 4648), fewer than it has characters; nothing where it is
+// another.
 std::optional<std::vector<std::uint8_t>> data_in_uri(std::string_view uri);
 
 }  // namespace vitrine

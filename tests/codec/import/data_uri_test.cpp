@@ -21,7 +21,6 @@ TEST(DataUri, Base64IsThatOfRfc4648) {
                                                          {"Zm9vYg==", "foob"},
                                                          {"Zm9vYmE=", "fooba"},
                                                          {"Zm9vYmFy", "foobar"},
-                                                         {"Zm8", "fo"},
                                                          {"+/+/", "\xFB\xFF\xBF"}};
   for (const auto& [text, bytes] : vectors)
     EXPECT_EQ(read("data:image/png;base64," + text), bytes) << text;
@@ -30,8 +29,8 @@ TEST(DataUri, Base64IsThatOfRfc4648) {
 TEST(DataUri, AnythingElseIsNothing) {
   for (const std::string uri :
        {"", "data:", "data:,Zm9v", "skin.png", "x;base64,Zm9v", "data:;base64,Z",
-        "data:;base64,Z===", "data:;base64,Zm=v", "data:;base64,Zm-_", "data:;base64,Zm 9v",
-        "data:;base64,\xFF\xFF"}) {
+        "data:;base64,Zm8", "data:;base64,Z===", "data:;base64,Zm=v", "data:;base64,Zm-_",
+        "data:;base64,Zm 9v", "data:;base64,\xFF\xFF"}) {
     EXPECT_EQ(read(uri), "nothing") << uri;
   }
 }
