@@ -5,6 +5,7 @@ import { copyFile, mkdir, rm } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { meshFormats } from "./mesh_formats.mjs";
 
 const root = dirname(fileURLToPath(import.meta.url));
 const dist = join(root, "dist");
@@ -13,7 +14,7 @@ if (!wasm) throw new Error("name the decoder: node build.mjs progressive-mesh.wa
 
 const common = { bundle: true, minify: true, target: "es2022", legalComments: "none", absWorkingDir: root, logLevel: "warning" };
 
-/** `import text from "./x?text"`: a style sheet or a worker, bundled and minified, as a string. */
+/** Handles `import text from "./x?text"`. The import is a string: the style sheet or worker x, bundled and minified. */
 const asText = {
   name: "text",
   setup({ onResolve, onLoad }) {
@@ -28,7 +29,7 @@ const asText = {
   },
 };
 
-/** three.js stays a file of its own beside the viewer. */
+/** Keeps three.js in a separate file beside the viewer. */
 const threeBeside = {
   name: "three",
   setup({ onResolve }) {
@@ -72,6 +73,7 @@ await Promise.all([
     format: "esm",
     splitting: true,
     plugins: [threeBeside],
+    define: { MESH_FORMATS: JSON.stringify(meshFormats) },
   }),
   build({ ...common, entryPoints: { site: "src/gallery/site.css", console: "src/console/console.css" }, outdir: dist }),
 ]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Levenberg-Marquardt over all pictures at once. A picture depends on the camera, the axis, its
-// placement and its slip only, so that the normal equations are summed picture by picture.
+// Levenberg-Marquardt over all pictures at once. A picture depends only on the camera, the axis,
+// its placement and its slip, so the normal equations are summed picture by picture.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,36 +10,43 @@
 
 #include "acquisition/calibration/scene.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr double kCornerNoise = 0.05;                         // pixels
-constexpr double kSlipNoise = 0.05 * std::numbers::pi / 180;  // of a stepper motor
-constexpr double kRobust = 4;                                 // standard deviations: Huber's loss
+constexpr double kCornerNoise =
+    0.05;  // Refines the calibration by the Levenberg-Marquardt method, over all pictures at once.
+           // A picture depends only on the camera, the axis, the picture's placement and its slip,
+           // so the normal equations are summed picture by picture.
+constexpr double kSlipNoise =
+    0.05 * std::numbers::pi / 180;  // radians: 0.05 degrees, the error of a stepper motor
+constexpr double kRobust = 4;       // standard deviations: beyond this, Huber's loss grows linearly
 
-// What one picture depends on, and by how much each is moved to see what that does.
-struct Part {
+// The unknowns on which one picture depends.
+struct PictureUnknowns {
   CameraModel camera;
-  TableAxis axis;
+  CameraFrameAxis axis;
   cv::Affine3d placement;
   double slip = 0;
 };
 constexpr int kCamera = 8, kPose = 6, kAxis = 4;
-constexpr int kFree = kCamera + kPose;  // with Adjust::kPlacements
+constexpr int kFree =
+    kCamera + kPose;  // number of unknowns of a picture that Adjust::kPlacements adjusts
 constexpr int kPart = kFree + kAxis + 1;
-using Move = cv::Vec<double, kPart>;
+using Deltas = cv::Vec<double, kPart>;
 constexpr std::array<double, kPart> kSteps = {
-    0.1,  0.1,  0.1,  0.1,  1e-4, 1e-3, 1e-5, 1e-5,  // fx fy cx cy k1 k2 p1 p2
-    1e-5, 1e-5, 1e-5, 1e-3, 1e-3, 1e-3,              // placement: rotation, translation
-    1e-5, 1e-5, 1e-2, 1e-2, 1e-5};  // axis: direction, point; slip;       // placement: rotation,
-                                    // translation; slip
+    // Camera: fx fy cx cy k1 k2 p1 p2.
+    0.1, 0.1, 0.1, 0.1, 1e-4, 1e-3, 1e-5, 1e-5,
+    // Placement: rotation, translation.
+    1e-5, 1e-5, 1e-5, 1e-3, 1e-3, 1e-3,
+    // Axis: direction, point. Then the slip.
+    1e-5, 1e-5, 1e-2, 1e-2, 1e-5};
 
 cv::Vec3d across(const cv::Vec3d& direction) {
   const cv::Vec3d other = std::abs(direction[0]) < 0.5 ? cv::Vec3d(1, 0, 0) : cv::Vec3d(0, 0, 1);
   return cv::normalize(direction.cross(other));
 }
 
-CameraModel moved(const CameraModel& from, const Move& by) {
+CameraModel moved(const CameraModel& from, const Deltas& by) {
   CameraModel camera = from;
   camera.matrix(0, 0) += by[0];
   camera.matrix(1, 1) += by[1];
@@ -50,25 +57,25 @@ CameraModel moved(const CameraModel& from, const Move& by) {
   return camera;
 }
 
-// A line has four degrees of freedom: two of its direction, two of a point across it.
-TableAxis moved(const TableAxis& from, const Move& by) {
+// A line has four degrees of freedom: two for its direction and two for a point on it.
+CameraFrameAxis moved(const CameraFrameAxis& from, const Deltas& by) {
   const cv::Vec3d first = across(from.direction), second = from.direction.cross(first);
   return {cv::normalize(from.direction + by[14] * first + by[15] * second),
           from.point + by[16] * first + by[17] * second};
 }
 
-cv::Affine3d moved(const cv::Affine3d& from, const Move& by) {
+cv::Affine3d moved(const cv::Affine3d& from, const Deltas& by) {
   const cv::Affine3d rotation(cv::Vec3d(by[8], by[9], by[10]));
   return cv::Affine3d(rotation.rotation() * from.rotation(),
                       from.translation() + cv::Vec3d(by[11], by[12], by[13]));
 }
 
-Part moved(const Part& from, const Move& by) {
+PictureUnknowns moved(const PictureUnknowns& from, const Deltas& by) {
   return {moved(from.camera, by), moved(from.axis, by), moved(from.placement, by),
           from.slip + by[18]};
 }
 
-std::vector<cv::Point2d> project(const Part& part, const SeenTarget& seen) {
+std::vector<cv::Point2d> project(const PictureUnknowns& part, const SeenTarget& seen) {
   const cv::Affine3d pose = turn(part.axis, seen.angle + part.slip) * part.placement;
   std::vector<cv::Point2d> image;
   cv::projectPoints(seen.on_board, pose.rvec(), pose.translation(), part.camera.matrix,
@@ -76,8 +83,8 @@ std::vector<cv::Point2d> project(const Part& part, const SeenTarget& seen) {
   return image;
 }
 
-// In standard deviations: two of each corner, then the slip.
-cv::Mat_<double> errors(const Part& part, const SeenTarget& seen) {
+// Returns the residuals in standard deviations: two for each corner, then one for the slip.
+cv::Mat_<double> errors(const PictureUnknowns& part, const SeenTarget& seen) {
   const std::vector<cv::Point2d> image = project(part, seen);
   cv::Mat_<double> all(static_cast<int>(2 * image.size() + 1), 1);
   int row = 0;
@@ -103,15 +110,15 @@ class Problem {
   Problem(std::span<const SeenTarget> seen, Adjust what)
       : seen_(seen), free_(what == Adjust::kAll ? kPart : kFree) {}
 
-  double cost(const Scene& scene) const {
+  double cost(const CalibrationScene& scene) const {
     double sum = 0;
     for (std::size_t i = 0; i < seen_.size(); ++i)
       sum += loss(errors(part(scene, i), seen_[i]));
     return sum;
   }
 
-  // Sums the normal equations A d = -g.
-  void linearise(const Scene& scene, cv::Mat_<double>& a, cv::Mat_<double>& g) const {
+  // Sums the normal equations A d = -g over all pictures.
+  void linearise(const CalibrationScene& scene, cv::Mat_<double>& a, cv::Mat_<double>& g) const {
     const int size = kCamera + kAxis + kPose * static_cast<int>(scene.placements.size()) +
                      static_cast<int>(seen_.size());
     a = cv::Mat_<double>::zeros(size, size);
@@ -120,14 +127,14 @@ class Problem {
       add(scene, i, a, g);
   }
 
-  Scene moved_by(const Scene& scene, const cv::Mat_<double>& d) const {
-    Scene to = scene;
+  CalibrationScene moved_by(const CalibrationScene& scene, const cv::Mat_<double>& d) const {
+    CalibrationScene to = scene;
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       const auto at = places(scene, i);
-      Move by;
+      Deltas by;
       for (int k = 0; k < kPart; ++k)
         by[k] = d(at[k]);
-      const Part p = moved(part(scene, i), by);
+      const PictureUnknowns p = moved(part(scene, i), by);
       to.camera = p.camera;
       to.axis = p.axis;
       to.placements[seen_[i].placement] = p.placement;
@@ -137,12 +144,12 @@ class Problem {
   }
 
  private:
-  Part part(const Scene& scene, std::size_t i) const {
+  PictureUnknowns part(const CalibrationScene& scene, std::size_t i) const {
     return {scene.camera, scene.axis, scene.placements[seen_[i].placement], scene.slips[i]};
   }
 
-  // Of what a picture depends on, among all unknowns.
-  std::array<int, kPart> places(const Scene& scene, std::size_t i) const {
+  // Returns the indices, among all unknowns, of the unknowns on which picture `i` depends.
+  std::array<int, kPart> places(const CalibrationScene& scene, std::size_t i) const {
     std::array<int, kPart> at{};
     const int poses = kCamera + kAxis;
     std::iota(at.begin(), at.begin() + kCamera, 0);
@@ -152,12 +159,13 @@ class Problem {
     return at;
   }
 
-  void add(const Scene& scene, std::size_t i, cv::Mat_<double>& a, cv::Mat_<double>& g) const {
-    const Part here = part(scene, i);
+  void add(const CalibrationScene& scene, std::size_t i, cv::Mat_<double>& a,
+           cv::Mat_<double>& g) const {
+    const PictureUnknowns here = part(scene, i);
     const cv::Mat_<double> e = errors(here, seen_[i]);
     cv::Mat_<double> jacobian(e.rows, free_);
     for (int k = 0; k < free_; ++k) {
-      Move by;
+      Deltas by;
       by[k] = kSteps[k];
       const cv::Mat_<double> more = errors(moved(here, by), seen_[i]);
       const cv::Mat_<double> less = errors(moved(here, -by), seen_[i]);
@@ -176,12 +184,14 @@ class Problem {
   }
 
   std::span<const SeenTarget> seen_;
-  int free_;  // the first of a part's that are adjusted; the others' equations stay empty
+  // Number of leading unknowns of a picture that are adjusted. The equations of the others stay
+  // empty.
+  int free_;
 };
 
 }  // namespace
 
-void adjust(Scene& scene, std::span<const SeenTarget> seen, Adjust what) {
+void adjust(CalibrationScene& scene, std::span<const SeenTarget> seen, Adjust what) {
   constexpr int kMostSteps = 100;
   constexpr double kConverged = 1e-8, kMostDamping = 1e9;
   const Problem problem(seen, what);
@@ -195,7 +205,7 @@ void adjust(Scene& scene, std::span<const SeenTarget> seen, Adjust what) {
       for (int k = 0; k < a.rows; ++k)
         damped(k, k) += damping * std::max(a(k, k), 1e-6);
       if (!cv::solve(damped, -g, d, cv::DECOMP_CHOLESKY)) continue;
-      Scene to = problem.moved_by(scene, d);
+      CalibrationScene to = problem.moved_by(scene, d);
       next = problem.cost(to);
       if (!(next < cost)) continue;
       scene = std::move(to);
@@ -207,8 +217,9 @@ void adjust(Scene& scene, std::span<const SeenTarget> seen, Adjust what) {
   }
 }
 
-double misfit(const Scene& scene, const SeenTarget& seen, std::size_t picture) {
-  const Part part{scene.camera, scene.axis, scene.placements[seen.placement], scene.slips[picture]};
+double misfit(const CalibrationScene& scene, const SeenTarget& seen, std::size_t picture) {
+  const PictureUnknowns part{scene.camera, scene.axis, scene.placements[seen.placement],
+                             scene.slips[picture]};
   const std::vector<cv::Point2d> image = project(part, seen);
   std::vector<double> distances;
   for (std::size_t i = 0; i < image.size(); ++i)
@@ -218,4 +229,4 @@ double misfit(const Scene& scene, const SeenTarget& seen, std::size_t picture) {
   return *middle;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -3,11 +3,12 @@
 
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// In (x, y, normal) the axis runs along (b, 1, tilt) through (a, 0, offset); rho runs along
-// (1, -b, 0), which is perpendicular to it, and lateral along the cross product of the two.
-TablePoint about(const Axis& axis, const PlanePoint& p) {
+// In the coordinates (x, y, normal), the axis runs along (b, 1, tilt) through (a, 0, offset). The
+// rho direction is (1, -b, 0), which is perpendicular to the axis. The lateral direction is the
+// cross product of the two.
+TablePoint about(const TurntableAxis& axis, const PlanePoint& p) {
   const double dx = p.x - axis.a, dw = -axis.offset;
   const double in_plane = 1 + axis.b * axis.b, along = in_plane + axis.tilt * axis.tilt;
   const double up = axis.b * dx + p.y;
@@ -16,4 +17,4 @@ TablePoint about(const Axis& axis, const PlanePoint& p) {
           .z = (up + axis.tilt * dw) / std::sqrt(along)};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the table's axis is, seen from the laser plane, and what a point of the plane is about it.
+// The table's axis relative to the laser plane, and the coordinates of a laser point about it.
 #pragma once
 
 #include "acquisition/calibration/plane_map.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// The axis as a line over the height y of the laser plane: x = a + b y, and at the distance offset
-// + tilt y from the plane, positive towards its normal x × y. In eq. 1 of the paper offset and tilt
-// are 0: there the axis lies in the plane.
-struct Axis {
+// The table's axis in the frame of the laser plane, as a line over the height y. At height y the
+// axis is at x = a + b y, and offset + tilt y away from the plane, positive towards the normal x ×
+// y. [WLL] eq. 1 assumes that the axis lies in the plane: offset = tilt = 0.
+struct TurntableAxis {
   double a = 0, b = 0;          // mm, mm per mm
   double offset = 0, tilt = 0;  // mm, mm per mm
-  bool clockwise = false;       // seen from above, for angles of the board that grow
+  // Whether the table turns clockwise, seen from above, as the board's angle grows.
+  bool is_clockwise = false;
 };
 
-// About the axis: z along it, upwards, from where it meets y = 0; rho perpendicular to it within
-// the laser plane, signed (the paper's reading: negative means theta + 180 degrees); lateral to
-// both, so that (rho, lateral, z) is right-handed.
+// A point in the axis's frame. z runs upwards along the axis from the axis's point at y = 0. rho is
+// perpendicular to the axis, within the laser plane, and signed: negative means theta + 180
+// degrees, as in [WLL] eq. 1. lateral is perpendicular to both, and (rho, lateral, z) is
+// right-handed.
 struct TablePoint {
   double rho = 0, lateral = 0, z = 0;  // mm
 };
 
-TablePoint about(const Axis& axis, const PlanePoint& p);
+TablePoint about(const TurntableAxis& axis, const PlanePoint& p);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

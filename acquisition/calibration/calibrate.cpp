@@ -17,7 +17,7 @@
 #include "acquisition/calibration/straight_stripe.h"
 #include "acquisition/calibration/stripe_noise.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 std::string now() {
@@ -28,7 +28,7 @@ std::string now() {
                      utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
 }
 
-bool is_of_target(const TargetView& view, const Target& target) {
+bool is_of_target(const TargetView& view, const CharucoTarget& target) {
   const int corners = (target.squares_x - 1) * (target.squares_y - 1);
   const auto known = [&](int id) { return id >= 0 && id < corners; };
   return view.ids.size() >= 6 && view.ids.size() == view.corners.size() &&
@@ -40,13 +40,13 @@ Expected<void> check_input(const CalibrationInput& input) {
   for (const TargetPicture& picture : input.pictures) {
     if (is_of_target(picture.view, input.target) && std::isfinite(picture.angle)) continue;
     return fail(ErrorCode::kBadInput,
-                "a picture holds corners that the target does not have; find them with the target "
-                "that is stated");
+                "a picture has corners that the target does not have; detect them with the same "
+                "target");
   }
   return {};
 }
 
-// Placements by any numbers become 0, 1, 2, …
+// Returns the corners that each picture shows, with the placements renumbered to 0, 1, 2, …
 std::vector<SeenTarget> seen_targets(const CalibrationInput& input) {
   std::map<int, int> placements;
   std::vector<SeenTarget> all;
@@ -55,8 +55,8 @@ std::vector<SeenTarget> seen_targets(const CalibrationInput& input) {
     SeenTarget seen{.placement = placements.try_emplace(picture.placement, next).first->second,
                     .angle = picture.angle * std::numbers::pi / 180};
     for (std::size_t i = 0; i < picture.view.ids.size(); ++i) {
-      const Pixel on = corner_on(input.target, picture.view.ids[i]);
-      seen.on_board.emplace_back(on.u, on.v, 0);
+      const TargetPoint on = corner_on(input.target, picture.view.ids[i]);
+      seen.on_board.emplace_back(on.x, on.y, 0);
       seen.in_image.emplace_back(picture.view.corners[i].u, picture.view.corners[i].v);
     }
     all.push_back(std::move(seen));
@@ -64,13 +64,14 @@ std::vector<SeenTarget> seen_targets(const CalibrationInput& input) {
   return all;
 }
 
-// Where the laser's line is on the target: rays cut with its plane, within its outline.
-std::vector<LaserPoint> on_target(const CalibrationInput& input, const Scene& scene,
+// Returns the points of the laser's line on the target: the viewing rays intersected with the
+// target's plane. Points outside the target's outline are left out.
+std::vector<LaserPoint> on_target(const CalibrationInput& input, const CalibrationScene& scene,
                                   std::span<const SeenTarget> seen) {
-  const Target& t = input.target;
+  const CharucoTarget& t = input.target;
   std::vector<LaserPoint> points;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const std::vector<Pixel>& stripe = input.pictures[i].stripe;
+    const std::vector<ImagePoint>& stripe = input.pictures[i].stripe;
     const cv::Affine3d pose = scene.pose(seen[i], i), back = pose.inv();
     const cv::Vec3d normal = pose.rotation() * cv::Vec3d(0, 0, 1);
     const std::vector<cv::Vec3d> directions = rays(scene.camera, stripe);
@@ -84,7 +85,7 @@ std::vector<LaserPoint> on_target(const CalibrationInput& input, const Scene& sc
   return points;
 }
 
-// Numbers the pictures that show the stripe 0, 1, 2, …; how many there are.
+// Numbers the pictures that show the stripe 0, 1, 2, … and returns how many there are.
 int number_poses(std::vector<LaserPoint>& points) {
   std::map<int, int> numbers;
   for (LaserPoint& p : points) {
@@ -102,6 +103,55 @@ std::vector<Point> kept(std::span<const Point> points, const std::vector<bool>& 
   return rest;
 }
 
+// Fits the light plane and the plane map to the poses that are not left out, and predicts the
+// points of the left-out poses.
+Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const LaserPoint> stripe,
+                                                     const CameraModel& camera,
+                                                     const SheetArea& area,
+                                                     const std::vector<bool>& left_out,
+                                                     int degree) {
+  const std::vector<LaserPoint> rest = kept(stripe, left_out);
+  const auto plane = fit_light_plane(rest, camera, area.width, area.height);
+  if (!plane) return tl::unexpected(plane.error());
+  const auto map =
+      PlaneMap::fit(sheet_points(rest, camera, *plane, area), degree, area.width, area.height);
+  if (!map) return tl::unexpected(map.error());
+  std::vector<HeldOutPoint> judged;
+  for (const LaserPoint& p : stripe) {
+    const auto predicted = map->at(p.in_image.u, p.in_image.v);
+    if (!left_out[p.pose] || !predicted) continue;
+    const cv::Vec3d d = p.at - plane->origin - predicted->x * plane->x - predicted->y * plane->y;
+    judged.push_back({.u = p.in_image.u,
+                      .v = p.in_image.v,
+                      .dx = plane->x.dot(d),
+                      .dy = plane->y.dot(d),
+                      .dw = plane->normal.dot(d),
+                      .pose = p.pose});
+  }
+  return judged;
+}
+
+// Does the same as above for points with known coordinates in the laser plane.
+Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const Correspondence> points,
+                                                     const SensorRegion& region,
+                                                     const std::vector<bool>& left_out,
+                                                     int degree) {
+  const auto map = PlaneMap::fit(kept(points, left_out), degree, region.width, region.height);
+  if (!map) return tl::unexpected(map.error());
+  std::vector<HeldOutPoint> judged;
+  for (const Correspondence& p : points) {
+    const auto predicted = map->at(p.u, p.v);
+    if (!left_out[p.pose] || !predicted) continue;
+    judged.push_back({.u = p.u,
+                      .v = p.v,
+                      .dx = p.at.x - predicted->x,
+                      .dy = p.at.y - predicted->y,
+                      .dw = 0,
+                      .pose = p.pose});
+  }
+  return judged;
+}
+
 Coverage coverage_of(const PlaneMap& map, std::span<const Correspondence> points,
                      const SensorRegion& region) {
   const auto range = [&](double PlanePoint::*coordinate) {
@@ -111,16 +161,21 @@ Coverage coverage_of(const PlaneMap& map, std::span<const Correspondence> points
   };
   const auto [x_low, x_high] = range(&PlanePoint::x);
   const auto [y_low, y_high] = range(&PlanePoint::y);
-  return {map.image_share(region.width, region.height), x_low, x_high, y_low, y_high};
+  return {.image_share = map.image_share(region.width, region.height),
+          .x_low = x_low,
+          .x_high = x_high,
+          .y_low = y_low,
+          .y_high = y_high};
 }
 
-// Conditions of the fits to all points, beside what cross-validation says of each degree.
+// Builds the result from the cross-validation. For each degree, adds the condition number of the
+// fit to all points.
 Expected<Calibrated> assemble(CrossValidation validation, std::span<const Correspondence> points,
                               const std::string& camera, const SensorRegion& region) {
   Calibrated result;
   for (DegreeResult& d : validation.degrees) {
     const auto map = PlaneMap::fit(points, d.degree, region.width, region.height);
-    if (!map) return tl::make_unexpected(map.error());
+    if (!map) return tl::unexpected(map.error());
     d.condition = map->condition();
     if (d.degree == validation.degree) result.calibration.map = *map;
   }
@@ -142,7 +197,8 @@ double root_mean_square(std::span<const double> values) {
   return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-void report_scene(const Scene& scene, std::span<const SeenTarget> seen, CalibrationReport& report) {
+void report_scene(const CalibrationScene& scene, std::span<const SeenTarget> seen,
+                  CalibrationReport& report) {
   std::vector<double> misfits;
   for (std::size_t i = 0; i < seen.size(); ++i)
     misfits.push_back(misfit(scene, seen[i], i));
@@ -154,40 +210,24 @@ void report_scene(const Scene& scene, std::span<const SeenTarget> seen, Calibrat
 }  // namespace
 
 Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationOptions& options) {
-  if (auto ok = check_input(input); !ok) return tl::make_unexpected(ok.error());
+  if (auto ok = check_input(input); !ok) return tl::unexpected(ok.error());
   const SensorRegion& region = input.region;
   const std::vector<SeenTarget> seen = seen_targets(input);
   const auto scene = solve_scene(seen, region.width, region.height);
-  if (!scene) return tl::make_unexpected(scene.error());
+  if (!scene) return tl::unexpected(scene.error());
   auto straight = straight_stripe(on_target(input, *scene, seen), scene->camera);
-  if (!straight) return tl::make_unexpected(straight.error());
+  if (!straight) return tl::unexpected(straight.error());
   std::vector<LaserPoint>& stripe = straight->points;
   const auto light = fit_light_plane(stripe, scene->camera, region.width, region.height);
-  if (!light) return tl::make_unexpected(light.error());
+  if (!light) return tl::unexpected(light.error());
   const int poses = number_poses(stripe);
 
   const SheetArea area{options.margin, region.width, region.height};
-  const auto validation = cross_validate(
-      poses, options.degree,
-      [&](const std::vector<bool>& left_out, int degree) -> Expected<std::vector<HeldOutPoint>> {
-        const std::vector<LaserPoint> rest = kept(std::span<const LaserPoint>(stripe), left_out);
-        const auto plane = fit_light_plane(rest, scene->camera, region.width, region.height);
-        if (!plane) return tl::make_unexpected(plane.error());
-        const auto map = PlaneMap::fit(sheet_points(rest, scene->camera, *plane, area), degree,
-                                       region.width, region.height);
-        if (!map) return tl::make_unexpected(map.error());
-        std::vector<HeldOutPoint> judged;
-        for (const LaserPoint& p : stripe) {
-          const auto predicted = map->at(p.in_image.u, p.in_image.v);
-          if (!left_out[p.pose] || !predicted) continue;
-          const cv::Vec3d d =
-              p.at - plane->origin - predicted->x * plane->x - predicted->y * plane->y;
-          judged.push_back({p.in_image.u, p.in_image.v, plane->x.dot(d), plane->y.dot(d),
-                            plane->normal.dot(d), p.pose});
-        }
-        return judged;
+  const auto validation =
+      cross_validate(poses, options.degree, [&](const std::vector<bool>& left_out, int degree) {
+        return predict_left_out(stripe, scene->camera, area, left_out, degree);
       });
-  if (!validation) return tl::make_unexpected(validation.error());
+  if (!validation) return tl::unexpected(validation.error());
   const std::vector<Correspondence> sheet = sheet_points(stripe, scene->camera, *light, area);
   auto result = assemble(*validation, sheet, input.camera, region);
   if (!result) return result;
@@ -200,7 +240,7 @@ Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationO
   return result;
 }
 
-Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Axis& axis,
+Expected<Calibrated> calibrate(std::span<const Correspondence> points, const TurntableAxis& axis,
                                const std::string& camera, const SensorRegion& region,
                                const CalibrationOptions& options) {
   std::vector<Correspondence> all(points.begin(), points.end());
@@ -209,28 +249,18 @@ Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Axi
     const int next = static_cast<int>(numbers.size());
     p.pose = numbers.try_emplace(p.pose, next).first->second;
   }
-  constexpr std::size_t kLeastPoses = 3;  // each is judged by the others
+  constexpr std::size_t kLeastPoses = 3;  // a map fitted to the other poses judges each pose
   if (numbers.size() < kLeastPoses) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("the points are of {} poses, {} are the least to judge a calibration "
-                            "by; number those measured at one time by one pose, and add others",
+                fmt::format("the points have {} different pose numbers, a calibration needs at "
+                            "least {}; number points measured together alike, and add poses",
                             numbers.size(), kLeastPoses));
   }
-  const auto validation = cross_validate(
-      static_cast<int>(numbers.size()), options.degree,
-      [&](const std::vector<bool>& left_out, int degree) -> Expected<std::vector<HeldOutPoint>> {
-        const auto rest = kept(std::span<const Correspondence>(all), left_out);
-        const auto map = PlaneMap::fit(rest, degree, region.width, region.height);
-        if (!map) return tl::make_unexpected(map.error());
-        std::vector<HeldOutPoint> judged;
-        for (const Correspondence& p : all) {
-          const auto predicted = map->at(p.u, p.v);
-          if (!left_out[p.pose] || !predicted) continue;
-          judged.push_back({p.u, p.v, p.at.x - predicted->x, p.at.y - predicted->y, 0, p.pose});
-        }
-        return judged;
-      });
-  if (!validation) return tl::make_unexpected(validation.error());
+  const auto validation = cross_validate(static_cast<int>(numbers.size()), options.degree,
+                                         [&](const std::vector<bool>& left_out, int degree) {
+                                           return predict_left_out(all, region, left_out, degree);
+                                         });
+  if (!validation) return tl::unexpected(validation.error());
   auto result = assemble(*validation, all, camera, region);
   if (!result) return result;
   result->calibration.axis = axis;
@@ -243,4 +273,4 @@ Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Axi
   return result;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

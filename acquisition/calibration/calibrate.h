@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From pictures of the target on the table to a calibration.
+// Computes a calibration from pictures of the target on the table.
 #pragma once
 
 #include <span>
@@ -9,37 +9,45 @@
 #include "acquisition/calibration/report.h"
 #include "acquisition/calibration/target.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// One position of the table: what was seen without laser, and where the laser's line was then.
+// The pictures taken at one position of the table: the target in the picture without laser, and the
+// laser's line on the target.
 struct TargetPicture {
-  int placement = 0;  // the same number: only the table moved, the target was not touched
-  double angle = 0;   // degrees, of the table, as the board counts
+  // Pictures with the same placement differ only by the table's angle: the target was not touched
+  // between them.
+  int placement = 0;
+  double angle = 0;  // degrees, as the board counts the table's angle
   TargetView view;
-  std::vector<Pixel> stripe;  // of the whole picture; empty where the laser misses the target
+  // Pixels of the whole picture. Empty if the laser misses the target.
+  std::vector<ImagePoint> stripe;
 };
 
 struct CalibrationInput {
-  std::string camera;  // serial
+  std::string camera;  // serial number
   SensorRegion region;
-  Target target;
+  CharucoTarget target;
   std::vector<TargetPicture> pictures;
 };
 
 struct CalibrationOptions {
-  int degree = 0;      // of the plane map, 2 to 5; 0: the lowest that does well on held-out poses
-  double margin = 20;  // pixels around what the stripe was seen in where the map holds, too
+  // Degree of the plane map, 2 to 5. 0 chooses the lowest degree that does well on held-out poses.
+  int degree = 0;
+  // Pixels by which the map extends beyond the points at which the stripe was seen.
+  double margin = 20;
 };
 
-// The camera stands upright. At least one placement is seen at several angles of the table, for its
-// axis; the stripe on the target should fill what an object will fill, for the map. Fails
-// (kBadInput) where the pictures do not determine the calibration, or contradict each other.
+// Computes the calibration of a camera that stands upright. To find the axis, at least one
+// placement must be seen at several angles of the table. For the map, the stripe on the target
+// should cover the space that objects will fill. Fails with kBadInput if the pictures do not
+// determine the calibration or contradict each other.
 Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationOptions& options);
 
-// For scanners that were measured by other means: the map from points that are known in the laser
-// plane. `camera` and `region` as above.
-Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Axis& axis,
+// Computes the calibration of a scanner that was measured by other means: fits the map to points
+// with known coordinates in the laser plane. `camera` and `region` have the same meaning as in
+// CalibrationInput.
+Expected<Calibrated> calibrate(std::span<const Correspondence> points, const TurntableAxis& axis,
                                const std::string& camera, const SensorRegion& region,
                                const CalibrationOptions& options);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

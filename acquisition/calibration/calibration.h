@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What turns the pixels of one camera into millimetres about the table's axis. Never changed: a new
-// one has a new number, and a scan names the one it used.
+// A calibration maps the pixels of one camera to millimetres about the table's axis. A stored
+// calibration never changes: a recalibration gets a new number, and a scan names the calibration
+// that it used.
 #pragma once
 
 #include <string>
@@ -9,21 +10,22 @@
 #include "acquisition/calibration/plane_map.h"
 #include "acquisition/frame/frame.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-struct ResidualSummary {  // mm, over held-out poses
+struct ResidualSummary {  // mm, measured on held-out poses
   double rms = 0, p95 = 0, max = 0;
 };
 
 struct Calibration {
-  int number = 0;       // 1, 2, 3, … of one scanner
-  std::string created;  // 2026-11-23T08:00:00Z
-  std::string camera;   // serial
+  int number = 0;       // 1, 2, 3, …; unique for each scanner
+  std::string created;  // UTC, such as 2026-11-23T08:00:00Z
+  std::string camera;   // serial number
   SensorRegion region;
   PlaneMap map;
-  Axis axis;
+  TurntableAxis axis;
   ResidualSummary residuals;
-  double noise = 0;  // mm: standard deviation of a stripe point across the stripe, as calibrated
+  // Standard deviation of a stripe point across the stripe, in mm, measured at calibration.
+  double noise = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 using Json = nlohmann::ordered_json;
 
@@ -18,7 +18,8 @@ constexpr int kFormat = 1;
 constexpr double kMostMm = 1e5, kMostPixels = 1e5;
 constexpr std::size_t kMostText = 256, kMostCorners = 4096;
 
-// Reads keys of one object; the first fault is kept, and what is read after it means nothing.
+// Reads the members of one JSON object. After the first fault, which it keeps, the returned values
+// are meaningless.
 class Reader {
  public:
   Reader(const Json& object, std::string& fault) : object_(object), fault_(fault) {}
@@ -51,7 +52,7 @@ class Reader {
     return text;
   }
 
-  // Pairs of numbers, count between `least` and `most`.
+  // Reads an array of number pairs. The number of pairs must lie between `least` and `most`.
   std::vector<std::pair<double, double>> pairs(const char* key, std::size_t least, std::size_t most,
                                                double bound) {
     const Json* value = find(key, &Json::is_array);
@@ -79,17 +80,17 @@ class Reader {
     return {value == nullptr ? nothing : *value, fault_};
   }
 
-  // `known`: all keys that the object may have.
+  // Reports a fault if the object has a key that is not in `known`.
   void only(std::initializer_list<std::string_view> known) {
     for (const auto& [key, value] : object_.items()) {
       if (fault_.empty() && std::ranges::find(known, key) == known.end())
-        fault_ = fmt::format("\"{}\" is not known here", key);
+        fault_ = fmt::format("unknown key \"{}\"", key);
     }
   }
 
   void wrong(const char* key) {
     if (fault_.empty())
-      fault_ = fmt::format("\"{}\" is missing, out of range or of a wrong type", key);
+      fault_ = fmt::format("\"{}\" is missing, out of range or of the wrong type", key);
   }
 
  private:
@@ -104,20 +105,20 @@ class Reader {
   std::string& fault_;
 };
 
-Json json_of(const Axis& axis) {
+Json json_of(const TurntableAxis& axis) {
   return {{"a", axis.a},
           {"b", axis.b},
           {"offset", axis.offset},
           {"tilt", axis.tilt},
-          {"clockwise", axis.clockwise}};
+          {"clockwise", axis.is_clockwise}};
 }
 
-Axis read_axis(Reader in) {
+TurntableAxis read_axis(Reader in) {
   return {.a = in.within("a", kMostMm),
           .b = in.within("b", 1),
           .offset = in.within("offset", kMostMm),
           .tilt = in.within("tilt", 1),
-          .clockwise = in.truth("clockwise")};
+          .is_clockwise = in.truth("clockwise")};
 }
 
 Json json_of(const SensorRegion& r) {
@@ -132,7 +133,8 @@ SensorRegion read_region(Reader in) {
           .height = in.integer("height", 1, kMost)};
 }
 
-// Turns left at each corner, or goes straight on by what single precision loses.
+// Returns whether the polygon turns left at each corner. A corner may be straight within single
+// precision.
 bool is_convex(std::span<const double> hull) {
   const std::size_t n = hull.size();
   for (std::size_t i = 0; i < n; i += 2) {
@@ -144,17 +146,19 @@ bool is_convex(std::span<const double> hull) {
   return true;
 }
 
-// `remedy`: what to do about a file that is none.
+// Parses a JSON object. `remedy` is the end of the error message and says what to do next.
 Expected<Json> parse_object(std::string_view text, const std::string& name,
                             std::string_view remedy) {
   Json object = Json::parse(text, nullptr, false);
   if (!object.is_discarded() && object.is_object()) return object;
-  return fail(ErrorCode::kBadInput, fmt::format("{} is no whole JSON object{}", name, remedy));
+  return fail(ErrorCode::kBadInput,
+              fmt::format("{} is not a complete JSON object{}", name, remedy));
 }
 
-constexpr std::string_view kRestore = "; restore it from a backup, or remove it and calibrate anew";
+constexpr std::string_view kRestore =
+    "; restore it from a backup, or remove it and calibrate again";
 constexpr std::string_view kStateAxis =
-    "; state a and offset (mm), b and tilt (mm per mm, -1 to 1) and clockwise (true or false)";
+    "; give a and offset (mm), b and tilt (mm per mm, -1 to 1) and clockwise (true or false)";
 
 Unexpected faulty(const std::string& name, const std::string& fault) {
   return fail(ErrorCode::kBadInput, fmt::format("{}: {}{}", name, fault, kRestore));
@@ -214,12 +218,13 @@ std::string to_json(const Calibration& c) {
 }
 
 Expected<Calibration> calibration_from_json(std::string_view text, const std::string& name) {
-  const auto object = parse_object(text, name, fmt::format(": it is damaged or cut{}", kRestore));
-  if (!object) return tl::make_unexpected(object.error());
+  const auto object =
+      parse_object(text, name, fmt::format(": it is damaged or truncated{}", kRestore));
+  if (!object) return tl::unexpected(object.error());
   std::string fault;
   Reader in(*object, fault);
   in.integer("vitrine_calibration", kFormat, kFormat);
-  if (!fault.empty()) return faulty(name, "it is no calibration that this program can read");
+  if (!fault.empty()) return faulty(name, "this program cannot read it as a calibration");
   Calibration c;
   c.number = in.integer("number", 1, std::numeric_limits<int>::max());
   c.created = in.text("created");
@@ -236,15 +241,15 @@ Expected<Calibration> calibration_from_json(std::string_view text, const std::st
   return c;
 }
 
-Expected<Axis> axis_from_json(std::string_view text, const std::string& name) {
+Expected<TurntableAxis> axis_from_json(std::string_view text, const std::string& name) {
   const auto object = parse_object(text, name, kStateAxis);
-  if (!object) return tl::make_unexpected(object.error());
+  if (!object) return tl::unexpected(object.error());
   std::string fault;
   Reader in(*object, fault);
   in.only({"a", "b", "offset", "tilt", "clockwise"});
-  const Axis axis = read_axis(in);
+  const TurntableAxis axis = read_axis(in);
   if (fault.empty()) return axis;
   return fail(ErrorCode::kBadInput, fmt::format("{}: {}{}", name, fault, kStateAxis));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

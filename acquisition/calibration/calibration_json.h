@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A calibration as JSON. Numbers keep every bit; what is read is checked against bounds.
+// Reads and writes a calibration as JSON. Numbers are written with all their bits. When read, they
+// are checked against bounds.
 #pragma once
 
 #include <string>
@@ -8,15 +9,15 @@
 #include "acquisition/calibration/calibration.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 std::string to_json(const Calibration& calibration);
 
-// `name` is what errors (kBadInput) call it by; they tell what is wrong with which key.
+// Parses a calibration. Errors (kBadInput) call the document `name` and state the faulty key.
 Expected<Calibration> calibration_from_json(std::string_view text, const std::string& name);
 
-// {"a": …, "b": …, "offset": …, "tilt": …, "clockwise": false}, as in a calibration; people write
-// it, so that what else it holds is a fault.
-Expected<Axis> axis_from_json(std::string_view text, const std::string& name);
+// Parses {"a": …, "b": …, "offset": …, "tilt": …, "clockwise": false}, as in a calibration. People
+// write this object by hand, so unknown keys are errors.
+Expected<TurntableAxis> axis_from_json(std::string_view text, const std::string& name);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -12,7 +12,7 @@
 #include "acquisition/calibration/calibration_json.h"
 #include "codec/files/atomic_file.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ std::string text_of(const SensorRegion& r) {
   return fmt::format("{}x{}+{}+{}", r.width, r.height, r.x, r.y);
 }
 
-// 0 for names that are no calibration's.
+// Returns the calibration's number, or 0 if the file name is not that of a calibration.
 int number_of(const fs::path& path) {
   const std::string stem = path.stem().string();
   int number = 0;
@@ -46,7 +46,7 @@ Expected<std::vector<int>> CalibrationStore::numbers() const {
   }
   if (error && error != std::errc::no_such_file_or_directory) {
     return fail(ErrorCode::kIo,
-                fmt::format("cannot list {}: {}; check the folder's name and rights",
+                fmt::format("cannot list {}: {}; check the folder's name and permissions",
                             folder_.string(), error.message()));
   }
   std::ranges::sort(all);
@@ -61,14 +61,14 @@ Expected<Calibration> CalibrationStore::add(Calibration calibration) const {
                                             error.message(), next_step(error.value())));
   }
   const auto taken = numbers();
-  if (!taken) return tl::make_unexpected(taken.error());
+  if (!taken) return tl::unexpected(taken.error());
   for (calibration.number = taken->empty() ? 1 : taken->back() + 1;; ++calibration.number) {
     const fs::path file = file_of(calibration.number);
     const std::string text = to_json(calibration);
     if (auto read = calibration_from_json(text, "the new calibration"); !read) return read;
     const auto created = create_file_atomically(
         file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    if (!created) return tl::make_unexpected(created.error());
+    if (!created) return tl::unexpected(created.error());
     if (*created) return calibration;
   }
 }
@@ -79,14 +79,14 @@ Expected<Calibration> CalibrationStore::load(int number) const {
   const std::uintmax_t size = fs::file_size(file, error);
   std::ifstream in(file, std::ios::binary);
   if (error || !in) {
-    return fail(
-        ErrorCode::kIo,
-        fmt::format("cannot read {}; `vitrine calibrate` makes a calibration", file.string()));
+    return fail(ErrorCode::kIo,
+                fmt::format("cannot read {}; run `vitrine calibrate` for a new calibration",
+                            file.string()));
   }
   if (size > kMostBytes) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("{} is too large for a calibration ({} bytes); remove it and calibrate "
-                            "anew",
+                            "again",
                             file.string(), size));
   }
   std::string text(static_cast<std::size_t>(size), '\0');
@@ -95,7 +95,7 @@ Expected<Calibration> CalibrationStore::load(int number) const {
   auto calibration = calibration_from_json(text, file.string());
   if (calibration && calibration->number != number) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("{} holds calibration {}: it was renamed; give it its name again",
+                fmt::format("{} contains calibration {}: the file was renamed; restore its name",
                             file.string(), calibration->number));
   }
   return calibration;
@@ -104,7 +104,7 @@ Expected<Calibration> CalibrationStore::load(int number) const {
 Expected<Calibration> CalibrationStore::for_camera(const std::string& serial,
                                                    const SensorRegion& region) const {
   const auto all = numbers();
-  if (!all) return tl::make_unexpected(all.error());
+  if (!all) return tl::unexpected(all.error());
   std::string other_region, other_camera;
   std::optional<Error> damaged;
   for (auto number = all->rbegin(); number != all->rend(); ++number) {
@@ -118,7 +118,7 @@ Expected<Calibration> CalibrationStore::for_camera(const std::string& serial,
     if (!other.empty()) continue;
     other = calibration->camera == serial ? text_of(calibration->region) : calibration->camera;
   }
-  if (damaged) return tl::make_unexpected(*damaged);
+  if (damaged) return tl::unexpected(*damaged);
   if (!other_region.empty()) {
     return fail(ErrorCode::kState,
                 fmt::format("camera {} is calibrated for the region {}, not for {}; set that "
@@ -137,4 +137,4 @@ Expected<Calibration> CalibrationStore::for_camera(const std::string& serial,
                                              folder_.string()));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calibrations as a folder of files 0001.json, 0002.json, … that are never changed.
+// Stores calibrations in a folder as files 0001.json, 0002.json, … that never change.
 #pragma once
 
 #include <filesystem>
@@ -9,24 +9,26 @@
 #include "acquisition/calibration/calibration.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 class CalibrationStore {
  public:
   explicit CalibrationStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Writes it under the next number and returns it with that; creates the folder. Two writers at a
-  // time get two numbers. Fails with kIo, or with kBadInput where it could not be read again.
+  // Writes the calibration under the next number, creating the folder if needed, and returns it
+  // with that number. Concurrent writers get different numbers. Fails with kIo, or with kBadInput
+  // if the result could not be read back.
   Expected<Calibration> add(Calibration calibration) const;
 
-  // Fails with kIo where there is none of that number, kBadInput where the file is damaged.
+  // Reads a stored calibration. Fails with kIo if no calibration has that number, and with
+  // kBadInput if the file is damaged.
   Expected<Calibration> load(int number) const;
 
-  // Ascending; none where there is no folder.
+  // Returns the numbers of all calibrations in ascending order. Empty if the folder does not exist.
   Expected<std::vector<int>> numbers() const;
 
-  // The newest whole one of that camera and region. Where there is none it fails: kBadInput naming
-  // a damaged file, or kState telling whether camera or region differ.
+  // Returns the newest undamaged calibration of that camera and region. If there is none, fails
+  // with kBadInput, naming a damaged file, or with kState, saying whether camera or region differs.
   Expected<Calibration> for_camera(const std::string& serial, const SensorRegion& region) const;
 
  private:
@@ -35,4 +37,4 @@ class CalibrationStore {
   std::filesystem::path folder_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -6,13 +6,13 @@
 #include <charconv>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr std::string_view kHeader = "u,v,x,y,pose";
 constexpr std::size_t kMostPoints = 1'000'000;
 
-// The text up to `end`, which is removed with it.
+// Removes and returns the text before `end`.
 std::string_view take(std::string_view& rest, char end) {
   const std::size_t at = rest.find(end);
   const std::string_view taken = rest.substr(0, at);
@@ -56,8 +56,8 @@ Expected<std::vector<Correspondence>> read_correspondences(std::string_view csv,
     Correspondence point;
     if (!parse(take_line(csv), point)) {
       return fail(ErrorCode::kBadInput,
-                  fmt::format("{}, line {}: expected four numbers and a whole one, with commas "
-                              "between them; correct the line",
+                  fmt::format("{}, line {}: expected four numbers and a whole number, separated "
+                              "by commas; correct the line",
                               name, number));
     }
     if (points.size() == kMostPoints) {
@@ -69,4 +69,4 @@ Expected<std::vector<Correspondence>> read_correspondences(std::string_view csv,
   return points;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

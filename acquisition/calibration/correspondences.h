@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of the laser plane that were measured by other means, as text.
+// Reads points of the laser plane, measured by other means, from CSV text.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 #include "acquisition/calibration/plane_map.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// CSV: the line "u,v,x,y,pose", then one point a line (pixels, mm, whole number). Fails (kBadInput,
-// kLimit) naming `name` and the line.
+// Reads points from CSV. The first line is "u,v,x,y,pose"; each further line is one point, with u
+// and v in pixels, x and y in mm, and an integer pose. Fails with kBadInput or kLimit, giving
+// `name` and the line.
 Expected<std::vector<Correspondence>> read_correspondences(std::string_view csv,
                                                            const std::string& name);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

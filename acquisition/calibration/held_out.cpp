@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr int kMostFolds = 10, kLeastPoses = 3;
@@ -24,17 +24,18 @@ Expected<std::vector<HeldOutPoint>> judge(int poses, int degree, const LeaveOut&
     points.insert(points.end(), judged->begin(), judged->end());
   }
   if (points.empty()) {
-    return fail(ErrorCode::kBadInput,
-                "no pose lies where the others are: nothing judges the calibration; show the "
-                "target in more poses, close to each other");
+    return fail(
+        ErrorCode::kBadInput,
+        "no pose lies within the area of the others, so the calibration cannot be judged; show the "
+        "target in more poses, close to each other");
   }
   return points;
 }
 
-// Root mean square of the points that are not far off: corners or stripes that were found where
-// there are none tell nothing about a degree.
+// Returns the root mean square of the residuals without outliers. Falsely detected corners or
+// stripes do not help to choose a degree.
 double without_strays(std::span<const HeldOutPoint> points) {
-  constexpr double kFar = 4;  // medians
+  constexpr double kFar = 4;  // times the median distance
   std::vector<double> sizes;
   for (const HeldOutPoint& p : points)
     sizes.push_back(p.size());
@@ -71,8 +72,8 @@ ResidualSummary summary_of(std::span<const HeldOutPoint> points) {
 Expected<CrossValidation> cross_validate(int poses, int degree, const LeaveOut& leave_out) {
   if (poses < kLeastPoses) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("the laser line was seen on {} poses, {} are the least to judge a "
-                            "calibration by; show the target in more poses",
+                fmt::format("the laser line was seen in {} poses, a calibration needs at least {}; "
+                            "show the target in more poses",
                             poses, kLeastPoses));
   }
   CrossValidation result;
@@ -83,7 +84,7 @@ Expected<CrossValidation> cross_validate(int poses, int degree, const LeaveOut& 
   for (int d = PlaneMap::kLeastDegree; d <= PlaneMap::kMostDegree; ++d) {
     all[d] = judge(poses, d, leave_out);
     if (!all[d]) {
-      if (d == degree) return tl::make_unexpected(all[d].error());
+      if (d == degree) return tl::unexpected(all[d].error());
       continue;
     }
     const ResidualSummary residuals = summary_of(*all[d]);
@@ -99,14 +100,15 @@ Expected<CrossValidation> cross_validate(int poses, int degree, const LeaveOut& 
     break;
   }
   if (chosen == nullptr) {
-    return degree == 0 ? tl::make_unexpected(all[PlaneMap::kLeastDegree].error())
-                       : fail(ErrorCode::kBadInput,
-                              fmt::format("a plane map of degree {} is not offered; choose 2 to 5, "
-                                          "or 0 for the best of them",
-                                          degree));
+    return degree == 0
+               ? tl::unexpected(all[PlaneMap::kLeastDegree].error())
+               : fail(ErrorCode::kBadInput,
+                      fmt::format("a plane map of degree {} is not supported; choose 2 to 5, "
+                                  "or 0 for the best of them",
+                                  degree));
   }
   result.points = *chosen;
   return result;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

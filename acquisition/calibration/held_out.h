@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cross-validation: every pose is judged once by a map that was fitted without it.
+// Cross-validation: judges each pose once by a map fitted without it.
 #pragma once
 
 #include <functional>
@@ -7,23 +7,25 @@
 
 #include "acquisition/calibration/report.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Fits a map of that degree to the poses that are not left out, and judges those that are.
+// Fits a map of that degree to the poses that are not left out, and returns the residuals of the
+// left-out poses.
 using LeaveOut = std::function<Expected<std::vector<HeldOutPoint>>(
     const std::vector<bool>& left_out, int degree)>;
 
 struct CrossValidation {
-  std::vector<DegreeResult> degrees;  // those that could be fitted, without their condition
-  int degree = 0;                     // chosen
-  std::vector<HeldOutPoint> points;   // of the chosen one
+  // All degrees that could be fitted. Condition numbers are not filled in.
+  std::vector<DegreeResult> degrees;
+  int degree = 0;                    // the chosen degree
+  std::vector<HeldOutPoint> points;  // residuals at the chosen degree
 };
 
-// `degree` 0 chooses: the lowest that is within a hundredth of the best, points that are
-// far off left aside. Fails (kBadInput) with
-// fewer than 3 poses, or where the degree cannot be fitted.
+// Judges plane maps by poses left out of the fit. If `degree` is 0, chooses the lowest degree whose
+// rms, without outliers, is within 1 % of the best. Fails with kBadInput if there are fewer than 3
+// poses or the degree cannot be fitted.
 Expected<CrossValidation> cross_validate(int poses, int degree, const LeaveOut& leave_out);
 
 ResidualSummary summary_of(std::span<const HeldOutPoint> points);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

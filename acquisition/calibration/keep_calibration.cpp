@@ -8,7 +8,7 @@
 #include "acquisition/calibration/calibration_store.h"
 #include "codec/files/atomic_file.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 Expected<void> write_text(const std::filesystem::path& file, const std::string& text) {
@@ -24,7 +24,7 @@ Expected<void> check_rms(const CalibrationReport& report) {
   return fail(ErrorCode::kBadInput,
               fmt::format("the calibration is not kept: over held-out poses its rms is {:.4g} mm, "
                           "more than {:g} % of the {:.4g} mm that it covers; check the target's "
-                          "measures, or points and their units, and calibrate anew",
+                          "dimensions, or the points and their units, and calibrate again",
                           rms, 100 * kLargestRms, size));
 }
 
@@ -40,8 +40,7 @@ std::filesystem::path residuals_file(const std::filesystem::path& folder, int nu
 
 Expected<Calibration> keep_calibration(const std::filesystem::path& folder,
                                        const Calibrated& calibrated) {
-  if (const auto good = check_rms(calibrated.report); !good)
-    return tl::make_unexpected(good.error());
+  if (const auto good = check_rms(calibrated.report); !good) return tl::unexpected(good.error());
   auto stored = CalibrationStore(folder).add(calibrated.calibration);
   if (!stored) return stored;
   const CalibrationReport& report = calibrated.report;
@@ -49,8 +48,8 @@ Expected<Calibration> keep_calibration(const std::filesystem::path& folder,
       write_text(report_file(folder, stored->number), report_json(*stored, report)).and_then([&] {
         return write_text(residuals_file(folder, stored->number), residual_plot(*stored, report));
       });
-  if (!written) return tl::make_unexpected(written.error());
+  if (!written) return tl::unexpected(written.error());
   return stored;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laser's plane in the camera's frame, and a frame within it: x to the image's right, y to its
-// top, its origin where the image's centre looks.
+// The laser plane in the camera's frame, and a frame within that plane: x points to the image's
+// right, y to its top. The origin is the point at which the optical axis meets the plane.
 #pragma once
 
 #include <span>
@@ -10,30 +10,32 @@
 #include "acquisition/calibration/scene.h"
 #include "acquisition/calibration/target.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-struct LaserPoint {  // where the laser meets the target
-  Pixel in_image;
-  cv::Vec3d at;  // mm, camera's frame
-  int pose = 0;  // of which picture
+struct LaserPoint {  // a point of the laser's line on the target
+  ImagePoint in_image;
+  cv::Vec3d at;  // mm, in the camera's frame
+  int pose = 0;  // index of the picture that shows the point
 };
 
 struct LightPlane {
   cv::Vec3d origin, x, y, normal;
 
-  cv::Vec3d within(const cv::Vec3d& at) const;  // x, y, distance
-  Axis axis(const TableAxis& table) const;
+  cv::Vec3d within(
+      const cv::Vec3d& at) const;  // returns x, y and the distance from the plane, in mm
+  TurntableAxis axis(const CameraFrameAxis& table) const;
 };
 
-// Directions from the camera, of length 1.
-std::vector<cv::Vec3d> rays(const CameraModel& camera, std::span<const Pixel> pixels);
+// Returns the unit directions from the camera through the pixels.
+std::vector<cv::Vec3d> rays(const CameraModel& camera, std::span<const ImagePoint> pixels);
 
-// Where a ray from the camera meets the plane through `origin`; NaN where it hardly does.
+// Intersects a ray from the camera with the plane through `origin`. Returns NaN if ray and plane
+// are nearly parallel.
 cv::Vec3d meet(const cv::Vec3d& ray, const cv::Vec3d& origin, const cv::Vec3d& normal);
 
-// Bears up to two fifths of the points lying elsewhere. Fails (kBadInput) where they determine no
-// plane.
+// Fits the light plane to the points. Up to two fifths of them may be outliers. Fails with
+// kBadInput if the points do not determine a plane.
 Expected<LightPlane> fit_light_plane(std::span<const LaserPoint> points, const CameraModel& camera,
                                      int width, int height);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

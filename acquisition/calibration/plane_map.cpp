@@ -8,19 +8,20 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// Beyond it, noise of a thousandth of a pixel would move the map by more than a pixel.
+// Largest accepted condition number: above this, noise of 0.001 pixel would move the map by more
+// than a pixel.
 constexpr double kWorstCondition = 1e4;
-// The hull's corners are kept in single precision while it is computed: pixels.
+// Tolerance in pixels, needed because the hull is computed in single precision.
 constexpr double kHullSlack = 1e-3;
 
 int terms_of(int degree) {
   return (degree + 1) * (degree + 2) / 2;
 }
 
-// The powers that evaluate() multiplies its terms by, in its order.
+// Writes the powers of u and v that belong to the coefficients, in the order of evaluate().
 void write_powers(double u, double v, int degree, double* row) {
   for (int j = degree; j >= 0; --j) {
     for (int i = degree - j; i >= 0; --i)
@@ -32,17 +33,16 @@ Expected<void> check_points(std::span<const Correspondence> points, int degree, 
                             int height) {
   if (degree < PlaneMap::kLeastDegree || degree > PlaneMap::kMostDegree) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("a plane map of degree {} is not offered; choose {} to {}", degree,
+                fmt::format("a plane map of degree {} is not supported; choose {} to {}", degree,
                             PlaneMap::kLeastDegree, PlaneMap::kMostDegree));
   }
   for (const Correspondence& p : points) {
     const bool inside = p.u >= -0.5 && p.u <= width - 0.5 && p.v >= -0.5 && p.v <= height - 0.5;
     if (!inside || !std::isfinite(p.at.x) || !std::isfinite(p.at.y)) {
-      return fail(
-          ErrorCode::kBadInput,
-          fmt::format("a point at pixel ({}, {}) is outside the image of {} x {}; state the "
-                      "region of the camera that the points were seen in",
-                      p.u, p.v, width, height));
+      return fail(ErrorCode::kBadInput,
+                  fmt::format("a point at pixel ({}, {}) is outside the image of {} x {}; give the "
+                              "camera's region in which the points were measured",
+                              p.u, p.v, width, height));
     }
   }
   if (points.size() < static_cast<std::size_t>(terms_of(degree))) {
@@ -71,7 +71,7 @@ std::vector<double> hull_of(std::span<const Correspondence> points) {
 Expected<PlaneMap> PlaneMap::fit(std::span<const Correspondence> points, int degree, int width,
                                  int height) {
   if (auto ok = check_points(points, degree, width, height); !ok) {
-    return tl::make_unexpected(ok.error());
+    return tl::unexpected(ok.error());
   }
   PlaneMap map;
   map.degree_ = degree;
@@ -130,7 +130,7 @@ bool PlaneMap::is_inside(double u, double v) const {
   return true;
 }
 
-// Horner's scheme in u for the factor of each power of v, and in v over these.
+// Uses Horner's scheme twice: in u for the factor of each power of v, then in v.
 PlanePoint PlaneMap::evaluate(double u, double v) const {
   PlanePoint sum;
   const Terms* term = terms_.data();
@@ -152,4 +152,4 @@ std::optional<PlanePoint> PlaneMap::at(double u, double v) const {
   return evaluate(u_.normalised(u), v_.normalised(v));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

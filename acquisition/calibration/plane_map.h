@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From image to laser plane: one polynomial a coordinate, which takes projection and distortion of
-// the lens at once (paper, eq. 1's world plane).
+// Maps image points to the laser plane by one polynomial for each coordinate. The polynomials cover
+// both projection and lens distortion. Source: [WLL] eq. 1, image to world plane.
 #pragma once
 
 #include <optional>
@@ -10,46 +10,47 @@
 #include "acquisition/frame/frame.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct PlanePoint {
-  double x = 0, y = 0;  // mm, in the laser plane; y roughly along the table's axis, upwards
+  // mm, in the laser plane. y runs upwards, roughly along the table's axis.
+  double x = 0, y = 0;
 };
 
 struct Correspondence {
-  double u = 0, v = 0;  // pixels of the region
+  double u = 0, v = 0;  // pixels, relative to the region's top left pixel
   PlanePoint at;
-  int pose = 0;  // points of one picture of the target hang together
+  int pose = 0;  // index of the picture that shows the point
 };
 
 class PlaneMap {
  public:
   static constexpr int kLeastDegree = 2, kMostDegree = 5;
 
-  // Least squares over all points, coordinates normalised to [-1, 1] over their box; `degree` 2 to
-  // 5. Fails (kBadInput) with points outside the image, with too few, or where they cover too
-  // little of it to determine the polynomial.
+  // Fits the polynomials by least squares over all points. Coordinates are normalised to [-1, 1]
+  // over the points' bounding box. `degree` is 2 to 5. Fails with kBadInput if points lie outside
+  // the image, are too few, or cover too little of the image to determine the polynomials.
   static Expected<PlaneMap> fit(std::span<const Correspondence> points, int degree, int width,
                                 int height);
 
-  // Nothing outside the convex hull of the points it was fitted to.
+  // Maps a pixel; returns nullopt outside the convex hull of the fitted points.
   std::optional<PlanePoint> at(double u, double v) const;
 
   int degree() const { return degree_; }
-  // Of the fit's normalised equations: the largest singular value over the least.
+  // The condition number of the normalised equations: the largest singular value over the smallest.
   double condition() const { return condition_; }
-  // u, v of its corners, counter-clockwise in (u, v).
+  // The hull's corners (u, v), counter-clockwise in (u, v).
   std::span<const double> hull() const { return hull_; }
-  // Of an image of that size, the part within the hull.
+  // Returns the share of an image of that size that lies within the hull.
   double image_share(int width, int height) const;
 
  private:
-  friend struct PlaneMapJson;  // keeps it in a file
+  friend struct PlaneMapJson;  // reads and writes the private members
 
   struct Terms {
     double x, y;
   };
-  struct Interval {  // [centre - half, centre + half] is [-1, 1]
+  struct Interval {  // linear map of [centre - half, centre + half] to [-1, 1]
     double centre = 0, half = 1;
     double normalised(double value) const { return (value - centre) / half; }
   };
@@ -60,9 +61,10 @@ class PlaneMap {
   int degree_ = 3;
   double condition_ = 0;
   Interval u_, v_;
-  // (degree + 1)(degree + 2) / 2 coefficients: descending powers of v, and in each those of u.
+  // (degree + 1)(degree + 2) / 2 coefficients, ordered by descending powers of v, and for equal
+  // powers of v by descending powers of u.
   std::vector<Terms> terms_;
   std::vector<double> hull_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How good a calibration is, judged on pictures of the target that it was not fitted to.
+// The quality of a calibration, measured on pictures of the target that were left out of the fit.
 #pragma once
 
 #include <string>
@@ -7,11 +7,13 @@
 
 #include "acquisition/calibration/calibration.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct HeldOutPoint {
-  double u = 0, v = 0;            // pixels
-  double dx = 0, dy = 0, dw = 0;  // mm in the laser plane and out of it: measured minus predicted
+  double u = 0, v = 0;  // pixels
+  // Residuals in mm, measured minus predicted: dx and dy in the laser plane, dw perpendicular to
+  // it.
+  double dx = 0, dy = 0, dw = 0;
   int pose = 0;
 
   double size() const;
@@ -19,23 +21,26 @@ struct HeldOutPoint {
 
 struct DegreeResult {
   int degree = 0;
-  double condition = 0;  // of the normalised equations
+  double condition = 0;  // condition number of the normalised equations
   ResidualSummary residuals;
 };
 
 struct Coverage {
-  double image_share = 0;                               // of the picture within the map's hull
-  double x_low = 0, x_high = 0, y_low = 0, y_high = 0;  // mm of the laser plane, within the hull
+  double image_share = 0;  // share of the picture within the map's hull
+  double x_low = 0, x_high = 0, y_low = 0, y_high = 0;  // mm: bounds of the hull in the laser plane
 };
 
 struct CalibrationReport {
   int pictures = 0;
-  std::size_t points = 0;     // of the stripe on the target
-  std::size_t strays = 0;     // points on the target, too, but off the stripe: left out
-  int unclear = 0;            // pictures left out: too many of their points were strays
-  double reprojection = 0;    // pixels that the target's corners are off; 0 without pictures
-  double table_error = 0;     // degrees, rms of the table's angles against the pictures
-  ResidualSummary residuals;  // as the calibration has them
+  std::size_t points = 0;  // stripe points on the target
+  std::size_t strays = 0;  // points left out: on the target, but off the stripe
+  int unclear = 0;         // pictures left out because too many of their points were strays
+  // Rms reprojection error of the target's corners, in pixels. 0 if there are no pictures.
+  double reprojection = 0;
+  // Rms difference, in degrees, between the angles that the table reports and those in the
+  // pictures.
+  double table_error = 0;
+  ResidualSummary residuals;  // same value as in the calibration
   Coverage coverage;
   std::vector<DegreeResult> degrees;
   std::vector<HeldOutPoint> held_out;
@@ -44,14 +49,14 @@ struct CalibrationReport {
 };
 
 struct Calibrated {
-  Calibration calibration;  // not numbered yet
+  Calibration calibration;  // without a number
   CalibrationReport report;
 };
 
-// One JSON object, without the single points.
+// Returns one JSON object, without the individual points.
 std::string report_json(const Calibration& calibration, const CalibrationReport& report);
 
-// A picture of the residuals over the image, as a self-contained SVG: arrows, enlarged.
+// Plots the residuals over the image as a self-contained SVG with enlarged arrows.
 std::string residual_plot(const Calibration& calibration, const CalibrationReport& report);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

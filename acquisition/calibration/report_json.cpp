@@ -3,7 +3,7 @@
 
 #include "acquisition/calibration/report.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 using Json = nlohmann::ordered_json;
 
@@ -28,7 +28,7 @@ std::string report_json(const Calibration& calibration, const CalibrationReport&
   }
   const Coverage& c = report.coverage;
   const SensorRegion& r = calibration.region;
-  const Axis& axis = calibration.axis;
+  const TurntableAxis& axis = calibration.axis;
   const Json all = {
       {"number", calibration.number},
       {"created", calibration.created},
@@ -49,11 +49,11 @@ std::string report_json(const Calibration& calibration, const CalibrationReport&
         {"b", axis.b},
         {"offset", axis.offset},
         {"tilt", axis.tilt},
-        {"clockwise", axis.clockwise}}},
+        {"clockwise", axis.is_clockwise}}},
       {"coverage",
        {{"image", c.image_share}, {"x_mm", {c.x_low, c.x_high}}, {"y_mm", {c.y_low, c.y_high}}}},
       {"degrees", degrees}};
   return all.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -7,12 +7,12 @@
 
 #include "acquisition/calibration/report.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kMostArrows = 1500;
-constexpr double kArrow = 40;  // pixels of one at the 95th percentile
-constexpr int kHueStep = 137;  // degrees between the colours of poses that follow each other
+constexpr double kArrow = 40;  // pixels: length of an arrow at the 95th percentile
+constexpr int kHueStep = 137;  // degrees of hue between consecutive poses
 
 }  // namespace
 
@@ -47,4 +47,4 @@ std::string residual_plot(const Calibration& calibration, const CalibrationRepor
   return svg;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

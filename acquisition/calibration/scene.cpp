@@ -8,16 +8,16 @@
 #include <numbers>
 #include <opencv2/calib3d.hpp>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kLeastPictures = 6;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastTurn = 5 * kDegree, kLeastSpan = 20 * kDegree;
-constexpr double kWorstMisfit = 1;  // pixel
+constexpr double kWorstMisfit = 1;  // pixels
 
-// Focal length from the views' homographies; the centre of the image stands for the principal point
-// until it is adjusted.
+// Estimates the focal length from the homographies of the views. The principal point is set to the
+// image's centre; the adjustment refines it later.
 cv::Matx33d first_camera(std::span<const SeenTarget> seen, int width, int height) {
   std::vector<std::vector<cv::Point3f>> boards;
   std::vector<std::vector<cv::Point2f>> images;
@@ -27,7 +27,7 @@ cv::Matx33d first_camera(std::span<const SeenTarget> seen, int width, int height
   }
   cv::Matx33d matrix = cv::initCameraMatrix2D(boards, images, {width, height});
   const double focal = matrix(0, 0);
-  if (!(focal > 0.3 * width && focal < 30 * width)) {  // views that are all seen from the front
+  if (!(focal > 0.3 * width && focal < 30 * width)) {  // the case if all views are frontal
     matrix(0, 0) = matrix(1, 1) = 2.5 * width;
   }
   return matrix;
@@ -40,23 +40,25 @@ cv::Affine3d first_pose(const CameraModel& camera, const SeenTarget& seen) {
   return cv::Affine3d(rotation, translation);
 }
 
-Expected<void> check_misfit(const Scene& scene, std::span<const SeenTarget> seen,
+Expected<void> check_misfit(const CalibrationScene& scene, std::span<const SeenTarget> seen,
                             const char* next_step) {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const double worst = misfit(scene, seen[i], i);
     if (worst <= kWorstMisfit) continue;
     return fail(
         ErrorCode::kBadInput,
-        fmt::format("picture {} of the target is {:.1f} pixels off what the others tell; {}", i + 1,
-                    worst, next_step));
+        fmt::format(
+            "picture {} of the target is {:.1f} pixels off the prediction from the others; {}",
+            i + 1, worst, next_step));
   }
   return {};
 }
 
-// Every picture on its own, as if the table stood at 0 in each: what cv::calibrateCamera does.
-Expected<Scene> without_axis(std::span<const SeenTarget> seen, int width, int height) {
+// Solves each picture separately by treating the table's angle as 0 in all of them, as
+// cv::calibrateCamera does.
+Expected<CalibrationScene> without_axis(std::span<const SeenTarget> seen, int width, int height) {
   std::vector<SeenTarget> single(seen.begin(), seen.end());
-  Scene scene;
+  CalibrationScene scene;
   scene.camera.matrix = first_camera(seen, width, height);
   for (std::size_t i = 0; i < single.size(); ++i) {
     single[i].placement = static_cast<int>(i);
@@ -65,19 +67,20 @@ Expected<Scene> without_axis(std::span<const SeenTarget> seen, int width, int he
     scene.slips.push_back(0);
   }
   adjust(scene, single, Adjust::kPlacements);
-  if (auto ok = check_misfit(scene, single, "check that the target is flat and stated as printed");
+  if (auto ok =
+          check_misfit(scene, single, "check that the target is flat and described as printed");
       !ok) {
-    return tl::make_unexpected(ok.error());
+    return tl::unexpected(ok.error());
   }
   return scene;
 }
 
-struct Turned {  // two pictures of one placement
+struct Turned {  // a pair of pictures of one placement, at different angles
   cv::Affine3d from, to;
   double angle;
 };
 
-std::vector<Turned> turns_of(std::span<const SeenTarget> seen, const Scene& single) {
+std::vector<Turned> turns_of(std::span<const SeenTarget> seen, const CalibrationScene& single) {
   std::vector<Turned> turns;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     for (std::size_t j = i + 1; j < seen.size(); ++j) {
@@ -99,7 +102,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Each pair's rotation tells the direction; the median of them bears wrong pairs.
+// Estimates the axis's direction from the rotation of each pair. The median tolerates wrong pairs.
 cv::Vec3d direction_of(std::span<const Turned> turns) {
   cv::Vec3d direction;
   for (int c = 0; c < 3; ++c) {
@@ -113,7 +116,7 @@ cv::Vec3d direction_of(std::span<const Turned> turns) {
   return cv::normalize(direction);
 }
 
-// The point that stays where it is under all turns, next to the target.
+// Returns the fixed point of all rotations that is nearest to the target.
 cv::Vec3d fixed_point(std::span<const Turned> turns, const cv::Vec3d& direction) {
   const int rows = 3 * static_cast<int>(turns.size());
   cv::Mat_<double> a(rows + 1, 3), b(rows + 1, 1), point;
@@ -129,8 +132,9 @@ cv::Vec3d fixed_point(std::span<const Turned> turns, const cv::Vec3d& direction)
   return {point(0), point(1), point(2)};
 }
 
-Scene joined(std::span<const SeenTarget> seen, const Scene& single, const TableAxis& axis) {
-  Scene scene{single.camera, axis, {}, std::vector<double>(seen.size(), 0)};
+CalibrationScene joined(std::span<const SeenTarget> seen, const CalibrationScene& single,
+                        const CameraFrameAxis& axis) {
+  CalibrationScene scene{single.camera, axis, {}, std::vector<double>(seen.size(), 0)};
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto placement = static_cast<std::size_t>(seen[i].placement);
     if (placement >= scene.placements.size()) scene.placements.resize(placement + 1);
@@ -141,20 +145,20 @@ Scene joined(std::span<const SeenTarget> seen, const Scene& single, const TableA
 
 }  // namespace
 
-cv::Affine3d turn(const TableAxis& axis, double angle) {
+cv::Affine3d turn(const CameraFrameAxis& axis, double angle) {
   const cv::Affine3d rotation(axis.direction * angle);
   return cv::Affine3d(rotation.rotation(), axis.point - rotation.rotation() * axis.point);
 }
 
-cv::Affine3d Scene::pose(const SeenTarget& seen, std::size_t picture) const {
+cv::Affine3d CalibrationScene::pose(const SeenTarget& seen, std::size_t picture) const {
   return turn(axis, seen.angle + slips[picture]) * placements[seen.placement];
 }
 
-Expected<Scene> solve_scene(std::span<const SeenTarget> seen, int width, int height) {
+Expected<CalibrationScene> solve_scene(std::span<const SeenTarget> seen, int width, int height) {
   if (seen.size() < kLeastPictures) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("the target was seen in {} pictures, {} are the least; show it in more "
-                            "poses",
+                fmt::format("the target was seen in {} pictures, a calibration needs at least {}; "
+                            "show it in more poses",
                             seen.size(), kLeastPictures));
   }
   const auto single = without_axis(seen, width, height);
@@ -167,15 +171,15 @@ Expected<Scene> solve_scene(std::span<const SeenTarget> seen, int width, int hei
                 "least 3 pictures of it at angles 20 degrees apart or more, without touching it");
   }
   const cv::Vec3d direction = direction_of(turns);
-  Scene scene = joined(seen, *single, {direction, fixed_point(turns, direction)});
+  CalibrationScene scene = joined(seen, *single, {direction, fixed_point(turns, direction)});
   adjust(scene, seen, Adjust::kAll);
   if (auto ok = check_misfit(scene, seen,
                              "check that the target stood still on the table while it turned, and "
-                             "that the table turned as it was told");
+                             "that the table turned to the commanded angles");
       !ok) {
-    return tl::make_unexpected(ok.error());
+    return tl::unexpected(ok.error());
   }
   return scene;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera, table and target, as pictures of the target on the turning table determine them: the
-// pictures of one placement differ by a turn about the one axis, which ties all of them together.
+// Estimates the camera, the table's axis and the target's placements from pictures of the target on
+// the turning table. Pictures of one placement differ only by a rotation about the table's axis,
+// which all pictures share.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,50 +11,55 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-struct CameraModel {  // pinhole, with OpenCV's k1, k2, p1, p2; pixels
+struct CameraModel {  // pinhole camera with OpenCV's distortion k1, k2, p1, p2; pixels
   cv::Matx33d matrix = cv::Matx33d::eye();
   cv::Vec4d distortion;
 };
 
-struct TableAxis {  // in the camera's frame, mm; growing angles turn the table right-handed about
-                    // it
+// The table's axis in the camera's frame, in mm. The table turns about it right-handed as the angle
+// grows.
+struct CameraFrameAxis {
   cv::Vec3d direction{0, 1, 0}, point;
 };
 
 struct SeenTarget {
-  int placement = 0;  // from 0, without gaps
-  double angle = 0;   // radians, of the table
+  int placement = 0;  // index of the placement, from 0, without gaps
+  double angle = 0;   // radians: angle of the table
   std::vector<cv::Point3d> on_board;
   std::vector<cv::Point2d> in_image;
 };
 
-struct Scene {
+struct CalibrationScene {
   CameraModel camera;
-  TableAxis axis;
-  std::vector<cv::Affine3d> placements;  // from target to camera, with the table at 0
-  std::vector<double> slips;  // radians, of each picture: how much further the table stood
+  CameraFrameAxis axis;
+  std::vector<cv::Affine3d>
+      placements;  // transforms from the target to the camera's frame, with the table at 0
+  // For each picture, the table's true angle minus the reported one, in radians.
+  std::vector<double> slips;
 
   cv::Affine3d pose(const SeenTarget& seen, std::size_t picture) const;
 };
 
-// By a turn about `axis`, of the camera's frame.
-cv::Affine3d turn(const TableAxis& axis, double angle);
+// Returns the rotation by `angle` radians about `axis`, in the camera's frame.
+cv::Affine3d turn(const CameraFrameAxis& axis, double angle);
 
 enum class Adjust {
-  kPlacements,  // camera and placements
-  kAll,         // axis and slips, too
+  kPlacements,  // adjusts camera and placements
+  kAll,         // also adjusts axis and slips
 };
 
-// Least squares over the corners' positions in the image, robust against single corners that are
-// off. Needs a scene that is roughly right.
-void adjust(Scene& scene, std::span<const SeenTarget> seen, Adjust what);
+// Adjusts the scene by least squares over the corners' positions in the image. The adjustment is
+// robust to single outliers. `scene` holds the start values, which must be roughly right.
+void adjust(CalibrationScene& scene, std::span<const SeenTarget> seen, Adjust what);
 
-// Pixels between corners as seen and as the scene predicts them: the median of one picture.
-double misfit(const Scene& scene, const SeenTarget& seen, std::size_t picture);
+// Returns the median distance, in pixels, between the corners seen in one picture and those that
+// the scene predicts.
+double misfit(const CalibrationScene& scene, const SeenTarget& seen, std::size_t picture);
 
-// Fails (kBadInput) where the pictures do not determine the scene or contradict each other.
-Expected<Scene> solve_scene(std::span<const SeenTarget> seen, int width, int height);
+// Estimates the whole scene from the corners. Fails with kBadInput if the pictures do not determine
+// the scene or contradict each other.
+Expected<CalibrationScene> solve_scene(std::span<const SeenTarget> seen, int width, int height);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr int kGrid = 40;  // points each way
+constexpr int kGrid = 40;  // number of points in each direction
 
 std::vector<cv::Point2f> hull_of(std::span<const LaserPoint> stripe, const SheetArea& area) {
   std::vector<cv::Point2f> points, seen, hull;
@@ -39,7 +39,7 @@ std::vector<Correspondence> sheet_points(std::span<const LaserPoint> stripe,
     const auto [top, bottom] = std::ranges::minmax(hull, {}, &cv::Point2f::y);
     return cv::Rect2f(left.x, top.y, right.x - left.x, bottom.y - top.y);
   }();
-  std::vector<Pixel> pixels;
+  std::vector<ImagePoint> pixels;
   pixels.reserve(hull.size() + (kGrid + 1) * (kGrid + 1));
   for (const cv::Point2f& corner : hull)
     pixels.push_back({corner.x, corner.y});
@@ -59,4 +59,4 @@ std::vector<Correspondence> sheet_points(std::span<const LaserPoint> stripe,
   return points;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

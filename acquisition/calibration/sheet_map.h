@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the plane map is fitted to: the laser's sheet as camera and plane predict it, evenly over
-// the part of the image where it was seen. Fitted to the single points of the stripe, it would
-// follow their noise where they are few.
+// Makes the points to which the plane map is fitted. They are points of the light plane, predicted
+// from camera and plane, and evenly spaced over the part of the image in which the stripe was seen.
+// A fit to the stripe's own points would follow their noise in regions with few points.
 #pragma once
 
 #include <span>
@@ -9,10 +9,11 @@
 
 #include "acquisition/calibration/light_plane.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct SheetArea {
-  double margin = 0;  // pixels around the hull of the stripe's points
+  // How far the points extend beyond the hull of the stripe's points, in pixels.
+  double margin = 0;
   int width = 0, height = 0;
 };
 
@@ -20,4 +21,4 @@ std::vector<Correspondence> sheet_points(std::span<const LaserPoint> stripe,
                                          const CameraModel& camera, const LightPlane& plane,
                                          const SheetArea& area);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

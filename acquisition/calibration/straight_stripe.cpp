@@ -10,20 +10,21 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr double kSigmas = 6;
 constexpr double kStripeWidth = 2.5;  // pixels
 constexpr std::size_t kLeastOnLine = 10;
 
-struct Line {
+struct ImageLine {
   cv::Point2f through, across;
 
   double distance(const cv::Point2f& p) const { return std::abs(across.dot(p - through)); }
 };
 
-// Where a camera without distortion would see the points; pixels from its principal point.
+// Returns the points that a camera without distortion would see, in pixels from the principal
+// point.
 std::vector<cv::Point2f> undistorted(std::span<const LaserPoint> points,
                                      const CameraModel& camera) {
   std::vector<cv::Point2f> straight;
@@ -35,7 +36,7 @@ std::vector<cv::Point2f> undistorted(std::span<const LaserPoint> points,
   return straight;
 }
 
-double median_distance(std::span<const cv::Point2f> points, const Line& line) {
+double median_distance(std::span<const cv::Point2f> points, const ImageLine& line) {
   std::vector<double> distances;
   distances.reserve(points.size());
   for (const cv::Point2f& p : points)
@@ -45,44 +46,45 @@ double median_distance(std::span<const cv::Point2f> points, const Line& line) {
   return *middle;
 }
 
-// Least median of squares over lines through two points; a fixed seed makes it repeatable.
-Line first_line(std::span<const cv::Point2f> points) {
+// Finds a first line through two points by least median of squares. A fixed seed makes the result
+// repeatable.
+ImageLine first_line(std::span<const cv::Point2f> points) {
   constexpr int kTrials = 100;
   std::mt19937 random(1);
-  Line best{points.front(), {1, 0}};
+  ImageLine best{points.front(), {1, 0}};
   double least = std::numeric_limits<double>::infinity();
   for (int trial = 0; trial < kTrials; ++trial) {
     const auto pick = [&] { return points[random() % points.size()]; };
     const cv::Point2f p = pick(), d = pick() - p;
     const auto length = static_cast<float>(cv::norm(d));
-    if (length < 1) continue;  // pixels: hardly a direction
-    const Line line{p, {d.y / length, -d.x / length}};
+    if (length < 1) continue;  // pixels: points this close give no reliable direction
+    const ImageLine line{p, {d.y / length, -d.x / length}};
     const double median = median_distance(points, line);
     if (median < least) least = median, best = line;
   }
   return best;
 }
 
-double reach(std::span<const cv::Point2f> points, const Line& line) {
+double reach(std::span<const cv::Point2f> points, const ImageLine& line) {
   return std::max(kSigmas * 1.4826 * median_distance(points, line), kStripeWidth);
 }
 
-// Least squares over the points near `around`.
-Line refined(std::span<const cv::Point2f> points, const Line& around) {
+// Fits a line by least squares to the points near `around`.
+ImageLine refined(std::span<const cv::Point2f> points, const ImageLine& around) {
   const double near = reach(points, around);
   std::vector<cv::Point2f> on_line;
   std::ranges::copy_if(points, std::back_inserter(on_line),
                        [&](const cv::Point2f& p) { return around.distance(p) <= near; });
-  cv::Vec4f line;  // direction, point
+  cv::Vec4f line;  // direction, then a point
   cv::fitLine(on_line, line, cv::DIST_L2, 0, 0.001, 0.001);
   return {{line[2], line[3]}, {line[1], -line[0]}};
 }
 
-// The points of one picture that are on its line; none where no line is clear.
+// Returns the points of one picture that lie on the stripe's line. Empty if no line is clear.
 std::vector<LaserPoint> on_line(std::span<const LaserPoint> picture, const CameraModel& camera) {
   if (picture.size() < kLeastOnLine) return {};
   const std::vector<cv::Point2f> points = undistorted(picture, camera);
-  const Line line = refined(points, first_line(points));
+  const ImageLine line = refined(points, first_line(points));
   const double near = reach(points, line);
   std::vector<LaserPoint> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -110,11 +112,11 @@ Expected<StraightStripe> straight_stripe(std::span<const LaserPoint> points,
     return fail(ErrorCode::kBadInput,
                 fmt::format("the laser line on the target is not one straight line in {} of {} "
                             "pictures; keep the target flat, shade it from other light and cover "
-                            "what shines beside it",
+                            "reflecting surfaces beside it",
                             result.unclear, pictures));
   }
   result.strays = points.size() - result.points.size();
   return result;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// On the flat target the laser's line is straight, once the lens' distortion is taken away. What
-// was found off it is not the laser's line: noise in a row where ink hides the line, or a
-// reflection.
+// Removes stray points from the stripe on the flat target. There the laser's line is straight once
+// the lens's distortion is corrected. Stray points come from reflections, or from noise in rows in
+// which ink hides the line.
 #pragma once
 
 #include <span>
@@ -9,20 +9,20 @@
 
 #include "acquisition/calibration/light_plane.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct StraightStripe {
-  std::vector<LaserPoint> points;  // as given but for the strays
-  std::size_t strays = 0;          // points left out
-  int unclear = 0;                 // pictures left out, whose points all count as strays
+  std::vector<LaserPoint> points;  // the input without the strays
+  std::size_t strays = 0;          // number of points left out
+  int unclear = 0;  // number of pictures left out because too many of their points were strays
 };
 
-// Leaves out what is farther from its picture's line than six standard deviations of that picture's
-// points, and farther than the stripe is wide: what is nearer is the line, moved by speckle and
-// ink, and is to be judged. Leaves out a picture wholly where fewer than 10 points or less than two
-// thirds of them are on the line. Fails (kBadInput) where that befalls more than half of the
-// pictures. `points` are in the order of their pictures.
+// Removes a point if its distance from its picture's line exceeds both the stripe's width and six
+// standard deviations of that picture's points. Nearer points belong to the line; speckle and ink
+// have shifted them. Leaves out a whole picture if fewer than 10 points, or less than two thirds of
+// its points, lie on the line. Fails with kBadInput if more than half of the pictures are left out.
+// `points` are in the order of their pictures.
 Expected<StraightStripe> straight_stripe(std::span<const LaserPoint> points,
                                          const CameraModel& camera);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -6,7 +6,7 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kLeastDifferences = 20;
@@ -22,9 +22,10 @@ double stripe_noise(std::span<const LaserPoint> stripe, const PlaneMap& map) {
   std::vector<double> deviations;
   for (const auto& [pose, points] : poses) {
     if (points.size() < kLeastDifferences) continue;
-    cv::Vec4f line;  // direction, point
+    cv::Vec4f line;  // direction, then a point
     cv::fitLine(points, line, cv::DIST_L1, 0, 0.001, 0.001);
-    if (std::abs(line[1]) < 0.1f) continue;  // a line that lies down: x tells nothing
+    if (std::abs(line[1]) < 0.1f)
+      continue;  // in a nearly horizontal line, x carries no information
     for (const cv::Point2f& p : points)
       deviations.push_back(std::abs(p.x - line[2] - (p.y - line[3]) * line[0] / line[1]));
   }
@@ -34,4 +35,4 @@ double stripe_noise(std::span<const LaserPoint> stripe, const PlaneMap& map) {
   return 1.4826 * *middle;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

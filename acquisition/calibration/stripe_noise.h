@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far single points of the stripe scatter: on the flat target it is a straight line.
+// Measures the scatter of single stripe points on the flat target, where the stripe is a straight
+// line.
 #pragma once
 
 #include <span>
@@ -7,9 +8,10 @@
 #include "acquisition/calibration/light_plane.h"
 #include "acquisition/calibration/plane_map.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// mm: the standard deviation across the stripe, from the median of the deviations in x.
+// Returns the standard deviation of a stripe point across the stripe, in mm. It is computed from
+// the median of the deviations in x.
 double stripe_noise(std::span<const LaserPoint> stripe, const PlaneMap& map);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

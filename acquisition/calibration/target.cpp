@@ -11,7 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr int kMostSquares = 64;
@@ -44,10 +44,10 @@ const Dictionary* dictionary_of(const std::string& name) {
 }
 
 Unexpected bad(const std::string& what) {
-  return fail(ErrorCode::kBadInput, what + "; state the target as it was printed");
+  return fail(ErrorCode::kBadInput, what + "; describe the target as it was printed");
 }
 
-// What about the light keeps a target from being found, as far as the picture tells.
+// Returns advice on the exposure, or an empty string if the picture's brightness is fine.
 const char* light_of(const Frame& frame) {
   const double pixels = static_cast<double>(frame.pixels.size());
   const auto saturated = std::ranges::count(frame.pixels, 255);
@@ -57,7 +57,7 @@ const char* light_of(const Frame& frame) {
                                                      : "";
 }
 
-// Corners of one row or one column do not tell how the board stands.
+// Returns whether the corners determine the board's pose. Corners of a single row or column do not.
 bool tells_pose(const std::vector<int>& ids, int columns) {
   std::set<int> rows_seen, columns_seen;
   for (int id : ids) {
@@ -67,7 +67,7 @@ bool tells_pose(const std::vector<int>& ids, int columns) {
   return ids.size() >= kLeastCorners && rows_seen.size() > 1 && columns_seen.size() > 1;
 }
 
-// Pixels between the closest corners.
+// Returns the distance, in pixels, between the two closest corners.
 double spacing(const std::vector<cv::Point2f>& corners) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -77,9 +77,9 @@ double spacing(const std::vector<cv::Point2f>& corners) {
   return least;
 }
 
-// Anew, in windows as large as the white around the markers allows: interpolateCornersCharuco()
-// looks at less, and adds half a pixel.
-void refine(const cv::Mat& image, const Target& t, std::vector<cv::Point2f>& corners) {
+// Refines the corners in windows as large as the white around the markers allows.
+// interpolateCornersCharuco() uses smaller windows, which shift corners by half a pixel.
+void refine(const cv::Mat& image, const CharucoTarget& t, std::vector<cv::Point2f>& corners) {
   constexpr int kLeastWindow = 3, kMostWindow = 12;
   const double white = spacing(corners) * (t.square_mm - t.marker_mm) / (2 * t.square_mm);
   const int half = std::clamp(static_cast<int>(white), kLeastWindow, kMostWindow);
@@ -89,11 +89,12 @@ void refine(const cv::Mat& image, const Target& t, std::vector<cv::Point2f>& cor
 
 }  // namespace
 
-Expected<void> check_target(const Target& t) {
+Expected<void> check_target(const CharucoTarget& t) {
   if (t.squares_x < 3 || t.squares_y < 3 || t.squares_x > kMostSquares ||
       t.squares_y > kMostSquares) {
-    return bad(fmt::format("a target of {} x {} squares is not offered: 3 to {} each way",
-                           t.squares_x, t.squares_y, kMostSquares));
+    return bad(
+        fmt::format("a target of {} x {} squares is not supported: 3 to {} in each direction",
+                    t.squares_x, t.squares_y, kMostSquares));
   }
   const bool sizes = std::isfinite(t.square_mm) && t.marker_mm > 0 && t.marker_mm < t.square_mm;
   if (!sizes) {
@@ -104,10 +105,10 @@ Expected<void> check_target(const Target& t) {
   }
   const Dictionary* dictionary = dictionary_of(t.dictionary);
   if (dictionary == nullptr) {
-    return bad(
-        fmt::format("the dictionary \"{}\" is unknown: DICT_4X4_50, DICT_5X5_100, DICT_6X6_250 and "
-                    "their like are known",
-                    t.dictionary));
+    return bad(fmt::format(
+        "the dictionary \"{}\" is unknown: DICT_4X4_, DICT_5X5_ and DICT_6X6_ with 50, 100, "
+        "250 or 1000 are known",
+        t.dictionary));
   }
   if (t.squares_x * t.squares_y / 2 > dictionary->markers) {
     return bad(fmt::format("{} has {} markers, too few for {} x {} squares", t.dictionary,
@@ -116,14 +117,14 @@ Expected<void> check_target(const Target& t) {
   return {};
 }
 
-Pixel corner_on(const Target& t, int id) {
+TargetPoint corner_on(const CharucoTarget& t, int id) {
   const int columns = t.squares_x - 1;
   const int column = id % columns + 1, row = id / columns + 1;
   return {column * t.square_mm, row * t.square_mm};
 }
 
-Expected<TargetView> find_target(const Frame& frame, const Target& t) {
-  if (auto ok = check_target(t); !ok) return tl::make_unexpected(ok.error());
+Expected<TargetView> find_target(const Frame& frame, const CharucoTarget& t) {
+  if (auto ok = check_target(t); !ok) return tl::unexpected(ok.error());
   const auto dictionary = cv::aruco::getPredefinedDictionary(dictionary_of(t.dictionary)->id);
   const auto board =
       cv::aruco::CharucoBoard::create(t.squares_x, t.squares_y, static_cast<float>(t.square_mm),
@@ -142,7 +143,7 @@ Expected<TargetView> find_target(const Frame& frame, const Target& t) {
         ErrorCode::kBadInput,
         fmt::format("the target is not seen: {} of {} markers and {} of {} corners found; {}place "
                     "it in view of the camera, turned less than 60 degrees from it, and check that "
-                    "its squares and dictionary are stated as printed",
+                    "its squares and dictionary are described as printed",
                     marker_ids.size(), t.squares_x * t.squares_y / 2, ids.size(),
                     (t.squares_x - 1) * (t.squares_y - 1), light_of(frame)));
   }
@@ -153,4 +154,4 @@ Expected<TargetView> find_target(const Frame& frame, const Target& t) {
   return view;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

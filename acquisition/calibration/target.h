@@ -8,32 +8,34 @@
 #include "acquisition/frame/frame.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-struct Target {
+struct CharucoTarget {
   int squares_x = 0, squares_y = 0;
-  double square_mm = 0, marker_mm = 0;  // edges
-  std::string dictionary;               // by OpenCV's names: DICT_4X4_50, …
+  double square_mm = 0, marker_mm = 0;  // edge lengths of a square and of a marker
+  std::string dictionary;               // OpenCV's name of the dictionary, such as DICT_4X4_50
 };
 
-struct Pixel {
-  double u = 0, v = 0;
+struct TargetPoint {
+  double x = 0, y = 0;  // mm from one corner of the board, along its edges
 };
 
-// The inner corners that were found; ids are theirs on the target, row after row from 0.
+// The inner corners found in a picture. `ids` are the corners' numbers on the target, counted row
+// by row from 0.
 struct TargetView {
   std::vector<int> ids;
-  std::vector<Pixel> corners;
+  std::vector<ImagePoint> corners;
 };
 
-// Whether such a target exists; the error says what is wrong with it.
-Expected<void> check_target(const Target& target);
+// Fails with kBadInput if such a target is not possible; the error says which value is wrong.
+Expected<void> check_target(const CharucoTarget& target);
 
-// Where a corner is on the target: mm from a corner of the board along its edges.
-Pixel corner_on(const Target& target, int id);
+// Returns the position of an inner corner on the target.
+TargetPoint corner_on(const CharucoTarget& target, int id);
 
-// Sub-pixel corners of the target in a picture without laser. Fails (kBadInput) where there is none
-// or too little of it to tell its pose, saying what to change.
-Expected<TargetView> find_target(const Frame& frame, const Target& target);
+// Finds the target's corners, at sub-pixel precision, in a picture taken without laser. Fails with
+// kBadInput if the picture does not show enough of the target to determine its pose; the error says
+// what to change.
+Expected<TargetView> find_target(const Frame& frame, const CharucoTarget& target);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -11,27 +11,29 @@
 
 #include "acquisition/device/camera.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// Aravis asks anew after half a second without an answer, and the camera may obey both.
+// Aravis repeats a request that is not answered within half a second, and the camera may execute
+// both.
 constexpr std::chrono::milliseconds kAskedAgain{450};
 constexpr int kBuffers = 4;
-constexpr int kLoopbackPacket = 8192;  // bytes; the path's MTU cannot be probed there
+// Bytes. The path's MTU cannot be probed on loopback.
+constexpr int kLoopbackPacket = 8192;
 
-struct Unref {
+struct AravisUnref {
   void operator()(gpointer object) const { g_object_unref(object); }
 };
 template <class T>
-using Ref = std::unique_ptr<T, Unref>;
+using AravisRef = std::unique_ptr<T, AravisUnref>;
 
-// Collects what Aravis reports; one a call.
-class Fault {
+// Holds the error that one call of Aravis reports. Each call needs its own object.
+class AravisError {
  public:
-  Fault() = default;
-  ~Fault() { g_clear_error(&error_); }
-  Fault(const Fault&) = delete;
-  Fault& operator=(const Fault&) = delete;
+  AravisError() = default;
+  ~AravisError() { g_clear_error(&error_); }
+  AravisError(const AravisError&) = delete;
+  AravisError& operator=(const AravisError&) = delete;
 
   GError** out() {
     g_clear_error(&error_);
@@ -50,7 +52,7 @@ class Fault {
 
 class AravisCamera final : public Camera {
  public:
-  AravisCamera(Ref<ArvCamera> camera, std::string name)
+  AravisCamera(AravisRef<ArvCamera> camera, std::string name)
       : camera_(std::move(camera)), name_(std::move(name)) {}
   ~AravisCamera() override;
 
@@ -62,7 +64,7 @@ class AravisCamera final : public Camera {
   Expected<Frame> capture() override;
 
  private:
-  Unexpected failed(std::string_view doing, const Fault& fault) const;
+  Unexpected failed(std::string_view doing, const AravisError& fault) const;
   Expected<void> stop();
   Expected<void> run();
   Expected<void> prepare();
@@ -71,25 +73,26 @@ class AravisCamera final : public Camera {
   Expected<void> set_gain(double decibels);
   void drain();
   Expected<void> start_afresh();
-  // One trigger; nothing where no whole frame came of it, `missing_` tells why.
+  // Triggers the camera once. Returns nullopt, with the reason in `missing_`, if no whole frame
+  // arrives.
   Expected<std::optional<Frame>> shoot();
   std::optional<Frame> frame_in(ArvBuffer& buffer);
 
   static void on_control_lost(ArvDevice*, gpointer self) {
-    static_cast<AravisCamera*>(self)->lost_ = true;
+    static_cast<AravisCamera*>(self)->is_lost_ = true;
   }
 
-  Ref<ArvCamera> camera_;
-  Ref<ArvStream> stream_;
+  AravisRef<ArvCamera> camera_;
+  AravisRef<ArvStream> stream_;
   std::string name_, missing_;
   CameraIdentity identity_;
   SensorRegion region_;
   double exposure_us_ = 0;
-  bool running_ = false;
-  std::atomic<bool> lost_{false};  // set by Aravis's heartbeat thread
+  bool is_running_ = false;
+  std::atomic<bool> is_lost_{false};  // set by Aravis's heartbeat thread
 };
 
-Unexpected AravisCamera::failed(std::string_view doing, const Fault& fault) const {
+Unexpected AravisCamera::failed(std::string_view doing, const AravisError& fault) const {
   return fail(ErrorCode::kIo,
               fmt::format("{}: cannot {}: {}; check its cable and power, and that no "
                           "other program uses it",
@@ -97,7 +100,7 @@ Unexpected AravisCamera::failed(std::string_view doing, const Fault& fault) cons
 }
 
 Expected<void> AravisCamera::start(bool loopback) {
-  Fault fault;
+  AravisError fault;
   const auto text = [&](auto get) {
     const char* value = get(camera_.get(), fault.out());
     return std::string(value != nullptr ? value : "");
@@ -116,14 +119,14 @@ Expected<void> AravisCamera::start(bool loopback) {
 }
 
 AravisCamera::~AravisCamera() {
-  Fault ignored;
+  AravisError ignored;
   g_signal_handlers_disconnect_by_data(arv_camera_get_device(camera_.get()), this);
-  if (running_ && !lost_) arv_camera_stop_acquisition(camera_.get(), ignored.out());
+  if (is_running_ && !is_lost_) arv_camera_stop_acquisition(camera_.get(), ignored.out());
 }
 
 Expected<void> AravisCamera::stop() {
-  Fault fault;
-  if (std::exchange(running_, false)) arv_camera_stop_acquisition(camera_.get(), fault.out());
+  AravisError fault;
+  if (std::exchange(is_running_, false)) arv_camera_stop_acquisition(camera_.get(), fault.out());
   stream_.reset();
   if (fault) return failed("stop", fault);
   return {};
@@ -139,7 +142,7 @@ Expected<void> AravisCamera::configure(const CameraSettings& settings) {
 }
 
 Expected<void> AravisCamera::prepare() {
-  Fault fault;
+  AravisError fault;
   arv_camera_set_pixel_format(camera_.get(), ARV_PIXEL_FORMAT_MONO_8, fault.out());
   if (fault) return failed("deliver Mono8", fault);
   arv_camera_set_acquisition_mode(camera_.get(), ARV_ACQUISITION_MODE_CONTINUOUS, fault.out());
@@ -150,10 +153,10 @@ Expected<void> AravisCamera::prepare() {
 }
 
 Expected<void> AravisCamera::set_region(SensorRegion wanted) {
-  Fault fault;
+  AravisError fault;
   int width = 0, height = 0;
   arv_camera_get_sensor_size(camera_.get(), &width, &height, fault.out());
-  if (fault) return failed("tell its size", fault);
+  if (fault) return failed("report its size", fault);
   if (wanted.width == 0 || wanted.height == 0) wanted = {0, 0, width, height};
   if (wanted.x < 0 || wanted.y < 0 || wanted.width < 1 || wanted.height < 1 ||
       wanted.width > width - wanted.x || wanted.height > height - wanted.y)
@@ -166,7 +169,7 @@ Expected<void> AravisCamera::set_region(SensorRegion wanted) {
   if (fault) return failed("read that region", fault);
   arv_camera_get_region(camera_.get(), &region_.x, &region_.y, &region_.width, &region_.height,
                         fault.out());
-  if (fault) return failed("tell its region", fault);
+  if (fault) return failed("report its region", fault);
   if (region_ != wanted)
     return fail(ErrorCode::kBadInput,
                 fmt::format("{}: region {}x{} at ({}, {}) is possible only as {}x{} at ({}, {}); "
@@ -177,10 +180,10 @@ Expected<void> AravisCamera::set_region(SensorRegion wanted) {
 }
 
 Expected<void> AravisCamera::set_exposure(double microseconds) {
-  Fault fault;
+  AravisError fault;
   double least = 0, most = 0;
   arv_camera_get_exposure_time_bounds(camera_.get(), &least, &most, fault.out());
-  if (fault) return failed("tell its exposure times", fault);
+  if (fault) return failed("report its exposure times", fault);
   if (!(microseconds >= least && microseconds <= most))
     return fail(ErrorCode::kBadInput,
                 fmt::format("{}: exposure {} us is not within {} to {} us; choose one that is",
@@ -193,16 +196,16 @@ Expected<void> AravisCamera::set_exposure(double microseconds) {
   return {};
 }
 
-// A camera without gain is good enough where none is asked for.
+// A camera without gain is acceptable if no gain is requested.
 Expected<void> AravisCamera::set_gain(double decibels) {
-  Fault fault;
+  AravisError fault;
   if (!arv_camera_is_gain_available(camera_.get(), nullptr)) {
     if (decibels == 0) return {};
-    return fail(ErrorCode::kBadInput, name_ + ": it has no gain; ask for 0 dB");
+    return fail(ErrorCode::kBadInput, name_ + ": its gain cannot be set; use 0 dB");
   }
   double least = 0, most = 0;
   arv_camera_get_gain_bounds(camera_.get(), &least, &most, fault.out());
-  if (fault) return failed("tell its gains", fault);
+  if (fault) return failed("report its gains", fault);
   if (!(decibels >= least && decibels <= most))
     return fail(ErrorCode::kBadInput,
                 fmt::format("{}: gain {} dB is not within {} to {} dB; choose one that is", name_,
@@ -215,20 +218,20 @@ Expected<void> AravisCamera::set_gain(double decibels) {
 }
 
 Expected<void> AravisCamera::run() {
-  Fault fault;
+  AravisError fault;
   const std::size_t payload = arv_camera_get_payload(camera_.get(), fault.out());
-  if (fault) return failed("tell the size of a frame", fault);
+  if (fault) return failed("report the size of a frame", fault);
   stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, fault.out()));
   if (!stream_) return failed("open a stream", fault);
   for (int i = 0; i < kBuffers; ++i)
     arv_stream_push_buffer(stream_.get(), arv_buffer_new_allocate(payload));
   arv_camera_start_acquisition(camera_.get(), fault.out());
   if (fault) return failed("start", fault);
-  running_ = true;
+  is_running_ = true;
   return {};
 }
 
-// What was exposed earlier is of no use.
+// Discards the frames of earlier exposures.
 void AravisCamera::drain() {
   while (ArvBuffer* late = arv_stream_try_pop_buffer(stream_.get()))
     arv_stream_push_buffer(stream_.get(), late);
@@ -255,59 +258,60 @@ std::optional<Frame> AravisCamera::frame_in(ArvBuffer& buffer) {
   return Frame{.width = region_.width, .height = region_.height, .pixels = {bytes, bytes + pixels}};
 }
 
-// Frames of earlier triggers may still come, and would be taken for that of a later one. A camera
-// may carry out a trigger of before when it starts, too.
+// Restarts the stream. Otherwise a frame of an earlier trigger may still arrive and be taken for
+// the frame of a later trigger. A camera may also execute an earlier trigger when it starts.
 Expected<void> AravisCamera::start_afresh() {
   if (auto stopped = stop(); !stopped) return stopped;
   if (auto started = run(); !started) return started;
-  const auto patience = static_cast<std::uint64_t>(exposure_us_ + kStrayPatience);
-  if (ArvBuffer* stray = arv_stream_timeout_pop_buffer(stream_.get(), patience))
+  const auto timeout = static_cast<std::uint64_t>(exposure_us_ + kStrayTimeout);
+  if (ArvBuffer* stray = arv_stream_timeout_pop_buffer(stream_.get(), timeout))
     arv_stream_push_buffer(stream_.get(), stray);
   return {};
 }
 
 Expected<std::optional<Frame>> AravisCamera::shoot() {
-  Fault fault;
+  AravisError fault;
   drain();
   const auto asked = std::chrono::steady_clock::now();
   arv_camera_software_trigger(camera_.get(), fault.out());
   if (fault) {
-    lost_ = true;  // it has been asked several times
+    is_lost_ = true;  // the camera answered none of the repeated requests
     return failed("trigger", fault);
   }
   if (std::chrono::steady_clock::now() - asked >= kAskedAgain) {
-    missing_ = "answers so late that it was asked twice";
-    if (auto fresh = start_afresh(); !fresh) return Unexpected(fresh.error());
+    missing_ = "answers so late that the request was repeated";
+    if (auto fresh = start_afresh(); !fresh) return tl::unexpected(fresh.error());
     return std::nullopt;
   }
-  const auto patience = static_cast<std::uint64_t>(exposure_us_ + kFramePatience);
-  ArvBuffer* buffer = arv_stream_timeout_pop_buffer(stream_.get(), patience);
+  const auto timeout = static_cast<std::uint64_t>(exposure_us_ + kFrameTimeout);
+  ArvBuffer* buffer = arv_stream_timeout_pop_buffer(stream_.get(), timeout);
   if (buffer != nullptr) {
     auto frame = frame_in(*buffer);
     arv_stream_push_buffer(stream_.get(), buffer);
     return frame;
   }
   missing_ = "no frames";
-  if (lost_) return std::nullopt;
-  if (auto fresh = start_afresh(); !fresh) return Unexpected(fresh.error());
+  if (is_lost_) return std::nullopt;
+  if (auto fresh = start_afresh(); !fresh) return tl::unexpected(fresh.error());
   return std::nullopt;
 }
 
 Expected<Frame> AravisCamera::capture() {
-  for (int i = 0; i < kFrameTries && !lost_ && running_; ++i) {
+  for (int i = 0; i < kFrameTries && !is_lost_ && is_running_; ++i) {
     auto frame = shoot();
-    if (!frame) return Unexpected(std::move(frame).error());
+    if (!frame) return tl::unexpected(std::move(frame).error());
     if (*frame) return std::move(**frame);
   }
-  if (lost_ || !running_)
-    return fail(ErrorCode::kIo, name_ + ": control of it is lost; check its cable and power");
+  if (is_lost_ || !is_running_)
+    return fail(ErrorCode::kIo, name_ + ": the connection was lost; check its cable and power");
   return fail(ErrorCode::kIo,
               fmt::format("{}: {} of {} triggers gave {}; check its cable, the network's MTU and "
                           "its load",
                           name_, kFrameTries, kFrameTries, missing_));
 }
 
-// The identifier that Aravis knows the camera with that serial number by.
+// Returns Aravis's identifier of the camera with that serial number, or nullopt if there is no such
+// camera.
 std::optional<std::string> find_by_serial(const std::string& serial) {
   arv_update_device_list();
   for (unsigned i = 0; i < arv_get_n_devices(); ++i) {
@@ -329,19 +333,18 @@ Unexpected absent(const std::string& name, const std::string& why) {
 
 Expected<std::unique_ptr<Camera>> open_camera(const CameraSelector& selector) {
   if (selector.address.empty() == selector.serial.empty())
-    return fail(ErrorCode::kBadInput,
-                "a camera is named by its address or by its serial number; give one of them");
+    return fail(ErrorCode::kBadInput, "give either the address or the serial number of the camera");
   const bool by_address = !selector.address.empty();
   const std::string name = "camera " + (by_address ? selector.address : selector.serial);
   const auto id = by_address ? std::optional(selector.address) : find_by_serial(selector.serial);
   if (!id) return absent(name, "no camera has that serial number");
-  Fault fault;
-  Ref<ArvCamera> found(arv_camera_new(id->c_str(), fault.out()));
+  AravisError fault;
+  AravisRef<ArvCamera> found(arv_camera_new(id->c_str(), fault.out()));
   if (!found) return absent(name, fault.text());
   auto camera = std::make_unique<AravisCamera>(std::move(found), name);
   if (auto started = camera->start(selector.address.starts_with("127.")); !started)
-    return Unexpected(started.error());
+    return tl::unexpected(started.error());
   return camera;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

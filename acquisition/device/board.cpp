@@ -12,7 +12,7 @@
 #include "acquisition/device/safe_board.h"
 #include "acquisition/device/usb_serial.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 int baud_of(BoardDialect dialect) {
@@ -21,14 +21,14 @@ int baud_of(BoardDialect dialect) {
 
 Expected<std::unique_ptr<Board>> open_guarded(const BoardSelector& selector,
                                               const BoardOptions& options) {
-  auto opened = open_controller(selector, options.patience);
-  if (!opened) return Unexpected(opened.error());
-  // Before anything is switched on, and of this very board.
+  auto opened = open_controller(selector, options.response_timeout);
+  if (!opened) return tl::unexpected(opened.error());
+  // The guardian starts before anything is switched on, and it guards exactly this board.
   BoardSelector this_one = selector;
   this_one.serial = opened->port->serial();
   this_one.port = opened->port->socket();
   auto guardian = Guardian::start(this_one, options.guardian);
-  if (!guardian) return Unexpected(guardian.error());
+  if (!guardian) return tl::unexpected(guardian.error());
   BoardIdentity identity{.dialect = name_of(selector.dialect), .serial = opened->port->serial()};
   return make_safe(std::move(*opened), std::move(identity), options, std::move(*guardian));
 }
@@ -39,7 +39,7 @@ Expected<BoardDialect> parse_board_dialect(const std::string& name) {
   if (name == "horus") return BoardDialect::kHorus;
   if (name == "fabscan") return BoardDialect::kFabScan;
   return fail(ErrorCode::kBadInput,
-              fmt::format("unknown dialect '{}' of a board; use horus or fabscan", name));
+              fmt::format("unknown board dialect '{}'; use horus or fabscan", name));
 }
 
 const char* name_of(BoardDialect dialect) {
@@ -47,23 +47,23 @@ const char* name_of(BoardDialect dialect) {
 }
 
 Expected<OpenedController> open_controller(const BoardSelector& selector,
-                                           std::chrono::milliseconds patience) {
+                                           std::chrono::milliseconds timeout) {
   auto port = open_usb_serial(selector, baud_of(selector.dialect));
-  if (!port) return Unexpected(std::move(port).error());
+  if (!port) return tl::unexpected(std::move(port).error());
   OpenedController opened{.port = std::move(*port), .controller = nullptr};
   opened.controller = selector.dialect == BoardDialect::kHorus
-                          ? make_horus(*opened.port, patience)
-                          : make_fabscan(*opened.port, patience, selector.steps_per_turn);
+                          ? make_horus(*opened.port, timeout)
+                          : make_fabscan(*opened.port, timeout, selector.steps_per_turn);
   return opened;
 }
 
 Expected<std::unique_ptr<Board>> open_board(const BoardSelector& selector,
                                             const BoardOptions& options) try {
   return open_guarded(selector, options);
-} catch (const std::exception& error) {  // no thread, no memory
+} catch (const std::exception& error) {  // the system has no thread or no memory left
   return fail(ErrorCode::kIo, fmt::format("{:04x}:{:04x} cannot be opened: {}; free memory and "
                                           "try again",
                                           selector.vendor, selector.product, error.what()));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controller of turntable and laser.
+// Drives the controller board of turntable and laser.
 #pragma once
 
 #include <chrono>
@@ -11,74 +11,82 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 enum class BoardDialect { kHorus, kFabScan };
 
-// "horus" or "fabscan"; fails with kBadInput on anything else.
+// Accepts "horus" or "fabscan". Fails with kBadInput on any other name.
 Expected<BoardDialect> parse_board_dialect(const std::string& name);
 const char* name_of(BoardDialect dialect);
 
-// Which board: of several with the same numbers, the one with that serial number or in that socket.
+// Selects a board by the vendor and product numbers of its USB device. The serial number or the
+// port distinguishes boards with the same numbers.
 struct BoardSelector {
   BoardDialect dialect = BoardDialect::kHorus;
-  std::uint16_t vendor = 0, product = 0;  // of the USB device
-  std::string serial;                     // empty: any
-  std::string port;                       // as in "1-2.4": bus, then the sockets; empty: any
-  int steps_per_turn = 3200;              // motor steps (FabScan only; Horus boards know theirs)
+  std::uint16_t vendor = 0, product = 0;
+  std::string serial;  // serial number of the USB device; empty: any
+  std::string port;    // bus, then hub ports, such as "1-2.4"; empty: any
+  // Motor steps in one revolution. Used for FabScan only; Horus boards report the number
+  // themselves.
+  int steps_per_turn = 3200;
 };
 
 inline constexpr std::chrono::milliseconds kWatchdog{10'000};
 
 struct BoardOptions {
   std::chrono::milliseconds watchdog = kWatchdog;
-  std::chrono::milliseconds patience{2'000};  // for an answer, beyond the time a motion takes
-  // The program that switches the board off when this process dies; empty: `vitrine-guardian`
-  // beside the running program.
+  // How long to wait for an answer, in addition to the duration of a motion.
+  std::chrono::milliseconds response_timeout{2'000};
+  // The program that switches the board off if this process dies. Empty: `vitrine-guardian` in the
+  // folder of the running program.
   std::filesystem::path guardian;
 };
 
 struct BoardIdentity {
-  std::string dialect, firmware, serial;  // "horus" or "fabscan"; the banner; of the USB device
+  // "horus" or "fabscan"; the banner that the board sent; the serial number of its USB device.
+  std::string dialect, firmware, serial;
 };
 
-// Laser and motor are off when it has been opened, and go off whenever it is closed, a call fails,
-// no call comes for the watchdog's time, or this process dies. Every call but emergency_stop() is
-// made by one thread at a time. An error (kIo) means that the board is to be closed (by destroying
-// this) and opened anew.
+// An open controller board. Laser and motor are off after opening. The board switches them off
+// again if it is closed, a call fails, no call arrives within the watchdog's time, or this process
+// dies. Only one thread at a time may call, except for emergency_stop(). After an error (kIo),
+// close the board by destroying this object and open it again.
 class Board {
  public:
   virtual ~Board() = default;
 
   virtual const BoardIdentity& identity() const = 0;
 
-  // Where the table stands, in degrees, to the nearest motor step, as set_position() said and
-  // turn_to() went on, also by an earlier process. Nothing where the board cannot know: it has been
-  // restarted or stopped in an emergency since, or it is of a kind that does not count (FabScan:
-  // known to the process alone that said it).
+  // Returns the table's angle in degrees, to the nearest motor step. The angle is the last
+  // set_position() plus all later motions, even those of an earlier process. Returns nullopt if the
+  // board cannot know the angle: after a restart or an emergency stop, or if the board does not
+  // count steps. A FabScan board does not count steps, so the angle is known only in the process
+  // that set it.
   virtual Expected<std::optional<double>> position() = 0;
-  // States that the table stands at `degrees` now. It stands there afterwards, too, but may have
-  // turned to 0 and back: a Horus board's counter can be set at 0 alone.
+  // Declares that the table stands at `degrees` now. The table ends where it stood, but it may turn
+  // to 0 and back, because a Horus board can reset its counter only at 0.
   virtual Expected<void> set_position(double degrees) = 0;
-  // Returns when the motion is complete. `degrees` may exceed a turn. Where position() is nothing,
-  // they count from where the board was started.
+  // Turns the table to an angle and returns when the motion is complete. `degrees` may exceed a
+  // revolution. If position() is nullopt, degrees count from the angle at which the board was
+  // started.
   virtual Expected<void> turn_to(double degrees) = 0;
 
   virtual Expected<void> laser(bool on) = 0;
 
-  // Laser and motor off; the table may be moved by hand. The watchdog rests, too, until the next
-  // call.
+  // Switches laser and motor off, so that the table can be turned by hand. The watchdog pauses
+  // until the next call.
   virtual Expected<void> rest() = 0;
 
-  // Laser and motor off at once, from any thread, in the middle of a motion too. Calls in progress
-  // and all later ones fail with kState until the board is opened anew.
+  // Switches laser and motor off at once, even during a motion. Callable from any thread. Calls in
+  // progress and all later calls fail with kState until the board is opened again.
   virtual void emergency_stop() noexcept = 0;
 };
 
-// Fails with kIo where the board is absent, not accessible or held by another program for more than
-// five seconds, and with kBadInput where it is not unique or does not speak that dialect. An
-// Arduino restarts when it is opened for the first time after it was plugged in, and only then.
+// Finds and opens a board. Fails with kIo if the board is absent, not accessible, or held by
+// another program for more than five seconds. Fails with kBadInput if several boards match or the
+// board does not speak the dialect. An Arduino restarts only the first time it is opened after
+// being plugged in.
 Expected<std::unique_ptr<Board>> open_board(const BoardSelector& selector,
                                             const BoardOptions& options = {});
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -8,57 +8,61 @@
 #include "acquisition/frame/frame.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct CameraIdentity {
   std::string vendor, model, serial;
 };
 
 struct CameraSettings {
-  double exposure_us = 5000;  // > 0
+  double exposure_us = 5000;  // exposure time in microseconds, > 0
   double gain_db = 0;
-  SensorRegion region;  // width or height 0: the whole sensor
+  SensorRegion region;  // the whole sensor if width or height is 0
 
   bool operator==(const CameraSettings&) const = default;
 };
 
-// How often capture() asks for a frame, how long it waits for each beyond the exposure, and, before
-// it asks anew, for one that is under way; microseconds.
+// kFrameTries is the number of times that capture() requests a frame. The timeouts, in
+// microseconds, are added to the exposure: kFrameTimeout for a requested frame, kStrayTimeout for a
+// frame still in progress before a new request.
 inline constexpr int kFrameTries = 3;
-inline constexpr double kFramePatience = 500'000, kStrayPatience = 100'000;
+inline constexpr double kFrameTimeout = 500'000, kStrayTimeout = 100'000;
 
-// Microseconds, with a camera that answers.
+// Returns the longest time, in microseconds, that capture() takes if the camera responds.
 constexpr double longest_capture(double exposure_us) {
-  return kFrameTries * (exposure_us + kFramePatience + exposure_us + kStrayPatience);
+  return kFrameTries * (exposure_us + kFrameTimeout + exposure_us + kStrayTimeout);
 }
 
-// Owned and called by one thread. An error of any call (kIo) means that the camera is to be closed
-// (by destroying this) and opened anew by its serial; errors name the camera and what to check.
+// An open camera, owned and called by one thread. After any error (kIo), close the camera by
+// destroying this object and open it again by its serial number. Errors name the camera and what to
+// check.
 class Camera {
  public:
   virtual ~Camera() = default;
 
   virtual const CameraIdentity& identity() const = 0;
-  // The region that is read, never empty.
+  // The region of the sensor that is read. Never empty.
   virtual SensorRegion region() const = 0;
 
-  // Fails with kBadInput where the camera cannot do that, naming its limits.
+  // Fails with kBadInput, naming the limits, if the camera does not support the settings.
   virtual Expected<void> configure(const CameraSettings& settings) = 0;
 
-  // One software trigger, one frame of region()'s size, exposed wholly after the call began. A
-  // frame that is incomplete or does not come within the exposure plus 500 ms is asked for anew,
-  // three times in all.
+  // Sends one software trigger and returns one frame of region()'s size. The exposure of that frame
+  // began after the call. A frame that is incomplete, or does not arrive within the exposure plus
+  // 500 ms, is requested again, up to three times in all.
   virtual Expected<Frame> capture() = 0;
 };
 
-// Which camera: by IP address (GigE Vision; asks nobody else on the network) or by serial number
-// (GigE Vision on any interface, USB3 Vision). Exactly one is given.
+// Selects a camera by IP address or by serial number; exactly one must be set. An address selects a
+// GigE Vision camera without a broadcast on the network. A serial number selects a GigE Vision
+// camera on any interface, or a USB3 Vision camera.
 struct CameraSelector {
   std::string address;
   std::string serial;
 };
 
-// Fails with kIo where it is absent, not accessible or held by another program.
+// Finds and opens a camera. Fails with kIo if the camera is absent, not accessible or held by
+// another program.
 Expected<std::unique_ptr<Camera>> open_camera(const CameraSelector& selector);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board in one dialect, without what makes it safe (SafeBoard).
+// Exchanges the commands of one dialect with a board. SafeBoard adds the watchdog, the guardian
+// process and the switching off.
 #pragma once
 
 #include <chrono>
@@ -10,42 +11,45 @@
 #include "acquisition/device/board.h"
 #include "acquisition/device/serial_port.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// How long a board is asked who it is: an Arduino's boot loader takes up to two seconds.
+// kBoot is the timeout of the first greeting, which includes the two seconds that an Arduino's boot
+// loader may take. kAskAgain is the interval at which the greeting is repeated.
 inline constexpr std::chrono::milliseconds kBoot{5'000}, kAskAgain{700};
-// After which it has said all that it had to say.
+// If the board is silent for this long, its output counts as complete.
 inline constexpr std::chrono::milliseconds kQuiet{50};
 
 class Controller {
  public:
   virtual ~Controller() = default;
 
-  // To be called first: who it is. Fails with kBadInput where it is of another kind.
+  // Identifies the board and returns its banner. Must be called first. Fails with kBadInput if the
+  // board does not speak the dialect.
   virtual Expected<std::string> greet() = 0;
 
-  // As of Board.
+  // These functions have the same contracts as in Board.
   virtual Expected<std::optional<double>> position() = 0;
   virtual Expected<void> set_position(double degrees) = 0;
   virtual Expected<void> turn_to(double degrees) = 0;
   virtual Expected<void> laser(bool on) = 0;
 
-  // Laser and motor off, confirmed. Possible without greet(), too.
+  // Switches laser and motor off and waits for the board's confirmation. Also works before greet().
   virtual Expected<void> switch_off() = 0;
-  // Laser and motor off at once, not confirmed, whatever it is at. From any thread.
+  // Switches laser and motor off at once, whatever the board is doing, without confirmation.
+  // Callable from any thread.
   virtual void halt() noexcept = 0;
 };
 
-std::unique_ptr<Controller> make_horus(SerialPort& port, std::chrono::milliseconds patience);
-std::unique_ptr<Controller> make_fabscan(SerialPort& port, std::chrono::milliseconds patience,
+std::unique_ptr<Controller> make_horus(SerialPort& port, std::chrono::milliseconds timeout);
+std::unique_ptr<Controller> make_fabscan(SerialPort& port, std::chrono::milliseconds timeout,
                                          int steps_per_turn);
 
 struct OpenedController {
   std::unique_ptr<SerialPort> port;
-  std::unique_ptr<Controller> controller;  // speaks through `port`
+  std::unique_ptr<Controller> controller;  // communicates through `port`
 };
-// Not greeted.
+// Opens the port and returns a controller for it. The caller must call greet() next.
 Expected<OpenedController> open_controller(const BoardSelector& selector,
-                                           std::chrono::milliseconds patience);
+                                           std::chrono::milliseconds timeout);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/device/conversation.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 Expected<void> Conversation::say(std::string_view line) {
   return port_.write(std::string(line) + '\n');
@@ -9,24 +9,24 @@ Expected<void> Conversation::say(std::string_view line) {
 
 Expected<std::optional<std::string>> Conversation::hear(SerialPort::Clock::time_point deadline) {
   while (true) {
-    if (auto line = reader_.next()) return line;
     if (SerialPort::Clock::now() >= deadline) return std::nullopt;
+    if (auto line = reader_.next()) return line;
     const Expected<std::string> bytes = port_.read(deadline);
-    if (!bytes) return Unexpected(bytes.error());
+    if (!bytes) return tl::unexpected(bytes.error());
     if (bytes->empty()) return std::nullopt;
     reader_.feed(*bytes);
   }
 }
 
 Expected<void> Conversation::ignore_all(std::chrono::milliseconds quiet) {
-  constexpr int kMostReads = 100;  // a board that never falls silent is found out by what it says
+  constexpr int kMostReads = 100;  // bound for a board that never stops sending
   for (int i = 0; i < kMostReads; ++i) {
     const Expected<std::string> bytes = port_.read(SerialPort::Clock::now() + quiet);
-    if (!bytes) return Unexpected(bytes.error());
+    if (!bytes) return tl::unexpected(bytes.error());
     if (bytes->empty()) break;
   }
   reader_.clear();
   return {};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

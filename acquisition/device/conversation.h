@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines to a controller and its lines back, each within a time.
+// Exchanges lines with a controller, each within a timeout.
 #pragma once
 
 #include <optional>
@@ -8,18 +8,19 @@
 #include "acquisition/device/line_reader.h"
 #include "acquisition/device/serial_port.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 class Conversation {
  public:
   Conversation(SerialPort& port, char prompt) : port_(port), reader_(prompt) {}
 
   SerialPort& port() { return port_; }
-  Expected<void> say(std::string_view line);  // without its line feed
-  // The next line; nothing where none has come until `deadline`, or the board has not stopped
-  // talking by then.
+  Expected<void> say(std::string_view line);  // `line` excludes the line feed
+  // Returns the next line, or nullopt once `deadline` has passed. It then returns nullopt even if a
+  // line has arrived, because this process may have been suspended and another process may have
+  // used the board since.
   Expected<std::optional<std::string>> hear(SerialPort::Clock::time_point deadline);
-  // Forgets what was said until nothing has come for `quiet`.
+  // Discards input until the board has been silent for `quiet`.
   Expected<void> ignore_all(std::chrono::milliseconds quiet);
 
  private:
@@ -27,4 +28,4 @@ class Conversation {
   LineReader reader_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -5,7 +5,7 @@
 
 #include <cctype>
 
-namespace vitrine::fabscan {
+namespace vitrine::acquisition::fabscan {
 
 std::string turn(int steps) {
   return fmt::format("G02 T{} F200", steps);
@@ -16,4 +16,4 @@ bool is_version(const std::string& line) {
   return digits < line.size() && std::isdigit(static_cast<unsigned char>(line[digits])) != 0;
 }
 
-}  // namespace vitrine::fabscan
+}  // namespace vitrine::acquisition::fabscan

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The language of FabScanPi firmware: lines that end with a line feed alone at 57600 baud, echoed,
-// and answered by lines and at last the prompt `>`, a motion when it is complete. It neither counts
-// nor can a motion be halted, but its laser and motor are off when the board has been restarted.
+// The protocol of the FabScanPi firmware: 57600 baud. Lines end with a single line feed, and the
+// board echoes them. The board answers with lines and then the prompt `>`; if the command was a
+// motion, the answer comes after its end. The board does not count steps and cannot halt a motion.
+// A restart switches laser and motor off.
 #pragma once
 
 #include <string>
 
-namespace vitrine::fabscan {
+namespace vitrine::acquisition::fabscan {
 
 inline constexpr int kBaud = 57600;
 inline constexpr char kPrompt = '>';
-inline constexpr char kAskVersion[] = "M200";  // "v.20160506"
+inline constexpr char kAskVersion[] = "M200";  // the answer is "v.20160506"
 inline constexpr char kMotorOn[] = "M17", kMotorOff[] = "M18";
 inline constexpr char kLaserOn[] = "M21", kLaserOff[] = "M22", kOtherLaserOff[] = "M20";
 
-// The firmware counts in 16 bits, four times over: a longer motion is made of several.
+// Longer motions are split, because the firmware multiplies the steps by four and counts in 16
+// bits.
 inline constexpr int kMostSteps = 8000;
-inline constexpr int kStepsPerSecond = 500;  // slower than it is, for deadlines
+// A lower bound of the real speed. Deadlines are computed from it.
+inline constexpr int kStepsPerSecond = 500;
 
-// A relative motion of at most kMostSteps either way.
+// Returns the command for a relative motion of at most kMostSteps, in either direction.
 std::string turn(int steps);
 
-// Of a line that answers kAskVersion.
+// Returns whether the line is a valid answer to kAskVersion.
 bool is_version(const std::string& line);
 
-}  // namespace vitrine::fabscan
+}  // namespace vitrine::acquisition::fabscan

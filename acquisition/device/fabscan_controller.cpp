@@ -9,17 +9,17 @@
 #include "acquisition/device/conversation.h"
 #include "acquisition/device/fabscan.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using std::chrono::milliseconds;
 
 class FabScanController final : public Controller {
  public:
-  FabScanController(SerialPort& port, milliseconds patience, int steps_per_turn)
+  FabScanController(SerialPort& port, milliseconds timeout, int steps_per_turn)
       : talk_(port, fabscan::kPrompt),
         name_(port.name()),
-        patience_(patience),
+        timeout_(timeout),
         steps_per_degree_(steps_per_turn / 360.0) {}
 
   Expected<std::string> greet() override;
@@ -31,36 +31,37 @@ class FabScanController final : public Controller {
   void halt() noexcept override { (void)talk_.port().restart_controller(); }
 
  private:
-  // The line of the answer before the prompt; empty where there is none.
-  Expected<std::string> command(const std::string& line, milliseconds patience);
+  // Sends a command and returns the last line of the answer before the prompt. Empty if the answer
+  // has no line.
+  Expected<std::string> command(const std::string& line, milliseconds timeout);
   Expected<void> obey(const std::string& line);
   Expected<void> step(long steps);
   long step_at(double degrees) const { return std::lround(degrees * steps_per_degree_); }
 
   Conversation talk_;
   std::string name_;
-  milliseconds patience_;
+  milliseconds timeout_;
   double steps_per_degree_;
-  long steps_ = 0;  // from 0 degrees; an angle between two is that of the nearer one
-  bool known_ = false, motor_ = false;
+  long steps_ = 0;  // motor steps from 0 degrees; angles are rounded to the nearest step
+  bool is_known_ = false, is_motor_on_ = false;
 };
 
-Expected<std::string> FabScanController::command(const std::string& line, milliseconds patience) {
-  if (auto said = talk_.say(line); !said) return Unexpected(said.error());
+Expected<std::string> FabScanController::command(const std::string& line, milliseconds timeout) {
+  if (auto said = talk_.say(line); !said) return tl::unexpected(said.error());
   std::string answer;
-  bool echoed = false;
-  const auto deadline = SerialPort::Clock::now() + patience;
+  bool is_echoed = false;
+  const auto deadline = SerialPort::Clock::now() + timeout;
   while (true) {
     const auto heard = talk_.hear(deadline);
-    if (!heard) return Unexpected(heard.error());
+    if (!heard) return tl::unexpected(heard.error());
     if (!*heard)
       return fail(ErrorCode::kIo, fmt::format("{} does not answer '{}' in time; check the motor's "
                                               "power and that the table turns freely",
                                               name_, line));
-    if (**heard == std::string(1, fabscan::kPrompt) && echoed) return answer;
+    if (**heard == std::string(1, fabscan::kPrompt) && is_echoed) return answer;
     if (**heard == line)
-      echoed = true;
-    else if (echoed)
+      is_echoed = true;
+    else if (is_echoed)
       answer = **heard;
     else
       return fail(
@@ -70,50 +71,50 @@ Expected<std::string> FabScanController::command(const std::string& line, millis
 }
 
 Expected<void> FabScanController::obey(const std::string& line) {
-  return command(line, patience_).map([](const std::string&) {});
+  return command(line, timeout_).map([](const std::string&) {});
 }
 
-// Asked again and again, because an Arduino that has just been plugged in starts first.
+// Repeats the query, because an Arduino that has just been plugged in is still starting up.
 Expected<std::string> FabScanController::greet() {
   std::string heard;
   for (milliseconds asked{0}; asked < kBoot; asked += kAskAgain) {
-    if (auto ignored = talk_.ignore_all(kQuiet); !ignored) return Unexpected(ignored.error());
+    if (auto ignored = talk_.ignore_all(kQuiet); !ignored) return tl::unexpected(ignored.error());
     const auto version = command(fabscan::kAskVersion, kAskAgain);
     if (version && fabscan::is_version(*version)) return "FabScan " + *version;
     if (!version && version.error().code == ErrorCode::kState) return version;
     heard = version ? *version : version.error().message;
   }
   return fail(ErrorCode::kBadInput,
-              fmt::format("{} is no FabScan board ({}); check vendor, product "
+              fmt::format("{} is not a FabScan board ({}); check vendor, product "
                           "and dialect",
                           name_, heard));
 }
 
 Expected<std::optional<double>> FabScanController::position() {
-  if (!known_) return std::nullopt;
+  if (!is_known_) return std::nullopt;
   return static_cast<double>(steps_) / steps_per_degree_;
 }
 
-// The same motor step that a turn to there ends at, so that going on from there adds up to what one
-// run would have made.
+// Rounds to the motor step at which a motion to that angle ends. So a resumed scan gives the same
+// result as an uninterrupted scan.
 Expected<void> FabScanController::set_position(double degrees) {
   steps_ = step_at(degrees);
-  known_ = true;
+  is_known_ = true;
   return {};
 }
 
 Expected<void> FabScanController::step(long steps) {
-  const auto patience = patience_ + milliseconds(1000 * std::abs(steps) / fabscan::kStepsPerSecond);
-  auto done = command(fabscan::turn(static_cast<int>(steps)), patience);
-  if (!done) return Unexpected(done.error());
+  const auto timeout = timeout_ + milliseconds(1000 * std::abs(steps) / fabscan::kStepsPerSecond);
+  auto done = command(fabscan::turn(static_cast<int>(steps)), timeout);
+  if (!done) return tl::unexpected(done.error());
   steps_ += steps;
   return {};
 }
 
 Expected<void> FabScanController::turn_to(double degrees) {
-  if (!motor_) {
+  if (!is_motor_on_) {
     if (auto on = obey(fabscan::kMotorOn); !on) return on;
-    motor_ = true;
+    is_motor_on_ = true;
   }
   const long target = step_at(degrees);
   while (steps_ != target) {
@@ -128,7 +129,7 @@ Expected<void> FabScanController::laser(bool on) {
 }
 
 Expected<void> FabScanController::switch_off() {
-  motor_ = false;
+  is_motor_on_ = false;
   for (const char* line : {fabscan::kLaserOff, fabscan::kOtherLaserOff, fabscan::kMotorOff})
     if (auto done = obey(line); !done) return done;
   return {};
@@ -136,9 +137,9 @@ Expected<void> FabScanController::switch_off() {
 
 }  // namespace
 
-std::unique_ptr<Controller> make_fabscan(SerialPort& port, milliseconds patience,
+std::unique_ptr<Controller> make_fabscan(SerialPort& port, milliseconds timeout,
                                          int steps_per_turn) {
-  return std::make_unique<FabScanController>(port, patience, steps_per_turn);
+  return std::make_unique<FabScanController>(port, timeout, steps_per_turn);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

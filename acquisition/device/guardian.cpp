@@ -22,7 +22,7 @@
 
 extern char** environ;
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr char kDismissed = 'd';
@@ -37,9 +37,11 @@ std::vector<std::string> words_for(const BoardSelector& selector, const std::str
 }
 
 Expected<BoardSelector> selector_from(int argc, char** argv) {
-  if (argc != 6) return fail(ErrorCode::kBadInput, "vitrine-guardian is started by vitrine alone");
+  if (argc != 6)
+    return fail(ErrorCode::kBadInput,
+                "vitrine-guardian is a part of vitrine; do not start it by hand");
   const auto dialect = parse_board_dialect(argv[1]);
-  if (!dialect) return Unexpected(dialect.error());
+  if (!dialect) return tl::unexpected(dialect.error());
   return BoardSelector{.dialect = *dialect,
                        .vendor = static_cast<std::uint16_t>(std::atoi(argv[2])),
                        .product = static_cast<std::uint16_t>(std::atoi(argv[3])),
@@ -49,12 +51,12 @@ Expected<BoardSelector> selector_from(int argc, char** argv) {
 
 Unexpected cannot_start(const std::string& program, const std::string& why) {
   return fail(ErrorCode::kIo,
-              fmt::format("cannot start {}: {}; install it beside vitrine, lasers are not safe "
-                          "without it",
+              fmt::format("cannot start {}: {}; install it beside vitrine: without it, a laser may "
+                          "stay on",
                           program, why));
 }
 
-// Returns once the guardian is on its own (guard()).
+// Starts the guardian program. Returns once the guardian has detached itself (see guard()).
 Expected<void> spawn(std::vector<std::string> words, int input) {
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
@@ -77,8 +79,8 @@ Expected<void> spawn(std::vector<std::string> words, int input) {
   return {};
 }
 
-// The kernel may need a moment to take the board from a process that died, and its user to plug it
-// in again.
+// Retries for a while: the kernel may need a moment to release the board of a dead process, and the
+// user may still have to plug the board in again.
 bool switch_off(const BoardSelector& selector) {
   constexpr int kAttempts = 20;
   std::string why;
@@ -95,7 +97,7 @@ bool switch_off(const BoardSelector& selector) {
   return false;
 }
 
-// Whether the other end said so before it closed.
+// Returns whether the guarded process sent the dismissal before it closed the socket.
 bool dismissed() {
   char byte = 0;
   ssize_t count = 0;
@@ -116,15 +118,15 @@ Expected<Guardian> Guardian::start(const BoardSelector& selector,
                                    const std::filesystem::path& program) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    return fail(ErrorCode::kIo, fmt::format("no socket to a guardian process: {}; raise the limit "
-                                            "of open files",
+    return fail(ErrorCode::kIo, fmt::format("cannot create a socket for the guardian process: {}; "
+                                            "raise the limit of open files",
                                             std::generic_category().message(errno)));
   const auto path = program.empty() ? beside_this_program() : program;
   const auto started = spawn(words_for(selector, path.string()), ends[0]);
   ::close(ends[0]);
   if (started) return Guardian(ends[1]);
   ::close(ends[1]);
-  return Unexpected(started.error());
+  return tl::unexpected(started.error());
 }
 
 Guardian::~Guardian() {
@@ -152,12 +154,12 @@ int guard(int argc, char** argv) {
     fmt::print(stderr, "{}\n", selector.error().message);
     return 2;
   }
-  // Nobody's child: the process guarded may live on without asking how it ended.
+  // The parent exits, so the guardian is detached and the guarded process need not reap it.
   if (const pid_t child = ::fork(); child != 0) return child < 0 ? 1 : 0;
-  ::setsid();  // the terminal's and the service's signals are meant for the process guarded
+  ::setsid();  // signals of the terminal or the service must not reach the guardian
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE})
     ::signal(signal, SIG_IGN);
   return dismissed() || switch_off(*selector) ? 0 : 1;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

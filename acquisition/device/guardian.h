@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process that outlives this one by the moment it takes to switch the board off: Horus and
-// FabScan firmware know no watchdog, so after a SIGKILL nothing else would.
+// Starts a guardian process, which switches the board off if this process dies. The Horus and
+// FabScan firmware have no watchdog, so nothing else would switch the board off after a SIGKILL.
 #pragma once
 
 #include <utility>
 
 #include "acquisition/device/board.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// The guardian waits at the end of a socket and holds nothing else. Where the socket is closed
-// without its having been dismissed, by the end of this process or of this object, it opens the
-// board and switches it off; nobody waits for that.
+// A running guardian process. The guardian waits at the other end of a socket and holds no other
+// resource. If the socket closes before dismiss() is called, the guardian opens the board and
+// switches it off. The socket closes when this process ends or this object is destroyed. No caller
+// waits for the guardian.
 class Guardian {
  public:
   static Expected<Guardian> start(const BoardSelector& selector,
@@ -21,10 +22,10 @@ class Guardian {
   Guardian& operator=(Guardian&&) = delete;
   ~Guardian();
 
-  // Not where it has died.
+  // Returns false if the guardian process has died.
   bool is_there() const;
 
-  // It ends without touching the board, before this returns.
+  // Ends the guardian process without touching the board. Returns after the process has ended.
   void dismiss();
 
  private:
@@ -33,7 +34,7 @@ class Guardian {
   int socket_ = -1;
 };
 
-// What the guardian's program does: waits on standard input; returns its exit code.
+// The main function of the guardian program, which waits on standard input. Returns the exit code.
 int guard(int argc, char** argv);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

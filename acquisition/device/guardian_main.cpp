@@ -2,5 +2,5 @@
 #include "acquisition/device/guardian.h"
 
 int main(int argc, char** argv) {
-  return vitrine::guard(argc, argv);
+  return vitrine::acquisition::guard(argc, argv);
 }

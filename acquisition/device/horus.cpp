@@ -9,12 +9,10 @@
 #include <cmath>
 #include <optional>
 
-namespace vitrine::horus {
+namespace vitrine::acquisition::horus {
 namespace {
 
-using Kind = Reply::Kind;
-
-// The finite number right after the first `name`.
+// Returns the finite number that follows the first `name` in `text`.
 std::optional<double> number_after(std::string_view text, std::string_view name) {
   const std::size_t at = text.find(name);
   if (at == std::string_view::npos) return std::nullopt;
@@ -28,14 +26,14 @@ std::optional<double> number_after(std::string_view text, std::string_view name)
 Reply parse_brackets(std::string_view line) {
   const std::string text(line);
   if (line.find("unlock") != std::string_view::npos && line.find('$') != std::string_view::npos)
-    return {.kind = Kind::kAlarm, .text = text};
+    return {.kind = ReplyKind::kAlarm, .text = text};
   if (line.starts_with("[G")) {
-    if (const auto feed = number_after(line, " F")) return {Kind::kModes, text, *feed};
+    if (const auto feed = number_after(line, " F")) return {ReplyKind::kModes, text, *feed};
   }
   const std::size_t end = line.find(':');
   if (std::isdigit(static_cast<unsigned char>(line[1])) != 0 && end != std::string_view::npos)
-    return {.kind = Kind::kVersion, .text = text.substr(1, end - 1)};
-  return {.kind = Kind::kRemark, .text = text};
+    return {.kind = ReplyKind::kVersion, .text = text.substr(1, end - 1)};
+  return {.kind = ReplyKind::kRemark, .text = text};
 }
 
 }  // namespace
@@ -57,16 +55,16 @@ std::string laser(int which, bool on) {
 
 Reply parse(std::string_view line) {
   const std::string text(line);
-  if (line == "ok") return {.kind = Kind::kOk};
-  if (line.starts_with("error:")) return {.kind = Kind::kRefusal, .text = text};
-  if (line.starts_with("ALARM:")) return {.kind = Kind::kAlarm, .text = text};
+  if (line == "ok") return {.kind = ReplyKind::kOk};
+  if (line.starts_with("error:")) return {.kind = ReplyKind::kRefusal, .text = text};
+  if (line.starts_with("ALARM:")) return {.kind = ReplyKind::kAlarm, .text = text};
   if (line.ends_with("['$' for help]"))
-    return {.kind = Kind::kBanner, .text = text.substr(0, text.find(" ['"))};
+    return {.kind = ReplyKind::kBanner, .text = text.substr(0, text.find(" ['"))};
   if (line.starts_with('[') && line.ends_with(']')) return parse_brackets(line);
   if (line.starts_with('<') && line.ends_with('>')) {
-    if (const auto at = number_after(line, "MPos:")) return {Kind::kStatus, text, *at};
+    if (const auto at = number_after(line, "MPos:")) return {ReplyKind::kStatus, text, *at};
   }
-  return {.kind = Kind::kUnknown, .text = text};
+  return {.kind = ReplyKind::kUnknown, .text = text};
 }
 
-}  // namespace vitrine::horus
+}  // namespace vitrine::acquisition::horus

@@ -1,54 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
-// The language of Horus firmware (a Grbl): lines of G-code at 115200 baud, each answered by lines
-// and at last `ok`, a motion when it is complete.
+// The protocol of the Horus firmware (based on Grbl): lines of G-code at 115200 baud. The board
+// answers each line with lines and then `ok`. If the line was a motion, the answer comes after its
+// end.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-namespace vitrine::horus {
+namespace vitrine::acquisition::horus {
 
 inline constexpr int kBaud = 115200;
-inline constexpr char kReset = 0x18;     // obeyed at once: halts, laser and motor off, then banner
-inline constexpr char kAskStatus = '?';  // answered at once, without `ok`
-inline constexpr char kAskModes[] = "$G";  // answered by the feed rate, among others
+// Takes effect at once: halts the motion, switches laser and motor off, then sends the banner.
+inline constexpr char kReset = 0x18;
+inline constexpr char kAskStatus = '?';    // the board answers at once, without `ok`
+inline constexpr char kAskModes[] = "$G";  // asks for the modes, which include the feed rate
 inline constexpr char kAskVersion[] = "$I";
-inline constexpr char kUnlock[] = "$X";  // after a reset amid a motion
+inline constexpr char kUnlock[] = "$X";  // needed after a reset during a motion
 inline constexpr char kZeroHere[] = "G50";
 inline constexpr char kMotorOn[] = "M17", kMotorOff[] = "M18";
 
-// The feed rate is all that a restart forgets and a program can both set and ask for. So it says
-// whether the counter means something: moves are made at one of two speeds, in degrees a second.
+// Motions run at one of two speeds, in degrees per second. The speed tells whether the step counter
+// is valid, because the feed rate is the only value that a program can set and query and that a
+// restart clears.
 inline constexpr int kCountedSpeed = 200, kUncountedSpeed = 100;
-// Degrees a second: a table may turn slower than it is asked to, yet hardly as slow as this.
+// Degrees per second: a lower bound of the speed of a slow table.
 inline constexpr int kSlowestSpeed = 10;
-// Seconds in which a motion by so many degrees is over: up to a turn, as a scan needs, that of the
-// slowest table; of more turns twice what they should take, or a stalled motor were waited for for
-// an hour.
+// Returns the timeout, in seconds, of a motion by `degrees`. Up to one revolution, as in a scan,
+// the timeout allows for the slowest table. For longer motions it is twice the expected time, so
+// that a stalled motor is noticed within an hour.
 double longest(double degrees, int speed);
 
 std::string turn(double degrees, int speed);
 std::string speed(int degrees_per_second);
-std::string laser(int which, bool on);  // 1 or 2
+std::string laser(int which, bool on);  // `which`: 1 or 2
+
+enum class ReplyKind {
+  kOk,
+  kRefusal,  // text: the reason
+  kBanner,   // text: name and version
+  kVersion,  // text: the version
+  kModes,    // value: the feed rate in degrees per minute; 0 since the last restart
+  kStatus,   // value: the table's angle in degrees
+  kAlarm,    // the board is locked or stopped
+  kRemark,
+  kUnknown,
+};
 
 struct Reply {
-  enum class Kind {
-    kOk,
-    kRefusal,  // text: why
-    kBanner,   // text: name and version
-    kVersion,  // text: the version
-    kModes,    // value: the feed rate, degrees a minute; 0 since the last restart
-    kStatus,   // value: where it stands, degrees
-    kAlarm,    // locked or stopped
-    kRemark,
-    kUnknown,
-  };
-  Kind kind = Kind::kUnknown;
+  ReplyKind kind = ReplyKind::kUnknown;
   std::string text;
   double value = 0;
 };
 
-// Of one line without its end; never fails.
+// Parses one line without its line feed. Never fails.
 Reply parse(std::string_view line);
 
-}  // namespace vitrine::horus
+}  // namespace vitrine::acquisition::horus

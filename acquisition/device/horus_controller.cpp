@@ -8,42 +8,43 @@
 #include "acquisition/device/conversation.h"
 #include "acquisition/device/horus.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-using Kind = horus::Reply::Kind;
+using horus::ReplyKind;
 using std::chrono::milliseconds;
 
 class HorusController final : public Controller {
  public:
-  HorusController(SerialPort& port, milliseconds patience)
-      : talk_(port, '\n'), name_(port.name()), patience_(patience) {}
+  HorusController(SerialPort& port, milliseconds timeout)
+      : talk_(port, '\n'), name_(port.name()), timeout_(timeout) {}
 
   Expected<std::string> greet() override;
   Expected<std::optional<double>> position() override;
   Expected<void> set_position(double degrees) override;
   Expected<void> turn_to(double degrees) override;
-  Expected<void> laser(bool on) override { return command(horus::laser(1, on), patience_); }
+  Expected<void> laser(bool on) override { return command(horus::laser(1, on), timeout_); }
   Expected<void> switch_off() override;
   void halt() noexcept override;
 
  private:
-  // Waits for a reply of that kind, past remarks and confirmations.
-  Expected<std::optional<horus::Reply>> await(Kind kind, milliseconds patience);
+  // Waits for a reply of that kind and skips all remarks and confirmations before it. Returns
+  // nullopt after `timeout`.
+  Expected<std::optional<horus::Reply>> await(ReplyKind kind, milliseconds timeout);
   Expected<std::optional<horus::Reply>> ask_modes();
   Expected<std::string> ask_version();
   Expected<std::string> restart();
-  Expected<void> command(const std::string& line, milliseconds patience);
+  Expected<void> command(const std::string& line, milliseconds timeout);
   Expected<double> counter();
   Expected<void> turn(double degrees, int speed);
   Unexpected no_answer(std::string_view line) const;
   Unexpected refused(std::string_view line, const horus::Reply& reply) const;
 
   Conversation talk_;
-  std::string name_, heard_;  // heard_: the last line that is no Horus board's
-  milliseconds patience_;
-  bool counted_ = false;  // whether the board's counter means something
-  bool motor_ = false;
+  std::string name_, heard_;  // heard_: the last line that cannot come from a Horus board
+  milliseconds timeout_;
+  bool is_counted_ = false;  // whether the board's counter is valid
+  bool is_motor_on_ = false;
 };
 
 Unexpected HorusController::no_answer(std::string_view line) const {
@@ -55,154 +56,157 @@ Unexpected HorusController::no_answer(std::string_view line) const {
 
 Unexpected HorusController::refused(std::string_view line, const horus::Reply& reply) const {
   switch (reply.kind) {
-    case Kind::kBanner:
+    case ReplyKind::kBanner:
       return fail(ErrorCode::kIo, name_ + " has restarted; check its power supply and its cable");
-    case Kind::kAlarm:
-      return fail(
-          ErrorCode::kIo,
-          fmt::format("{} stopped with '{}'; see that the table turns freely", name_, reply.text));
-    case Kind::kRefusal:
+    case ReplyKind::kAlarm:
+      return fail(ErrorCode::kIo,
+                  fmt::format("{} stopped with '{}'; check that the table turns freely", name_,
+                              reply.text));
+    case ReplyKind::kRefusal:
       return fail(ErrorCode::kIo,
                   fmt::format("{} refuses '{}' with '{}'; check its firmware's version", name_,
                               line, reply.text));
     default:
       return fail(ErrorCode::kIo,
-                  fmt::format("{} answers '{}' with what Horus firmware does not say; check its "
-                              "cable and its firmware",
+                  fmt::format("{} gives an answer to '{}' that Horus firmware does not give; check "
+                              "its cable and its firmware",
                               name_, line));
   }
 }
 
-Expected<void> HorusController::command(const std::string& line, milliseconds patience) {
+Expected<void> HorusController::command(const std::string& line, milliseconds timeout) {
   if (auto said = talk_.say(line); !said) return said;
-  const auto deadline = SerialPort::Clock::now() + patience;
+  const auto deadline = SerialPort::Clock::now() + timeout;
   while (true) {
     const auto heard = talk_.hear(deadline);
-    if (!heard) return Unexpected(heard.error());
+    if (!heard) return tl::unexpected(heard.error());
     if (!*heard) return no_answer(line);
     const horus::Reply reply = horus::parse(**heard);
-    if (reply.kind == Kind::kOk) return {};
-    if (reply.kind != Kind::kRemark && reply.kind != Kind::kModes && reply.kind != Kind::kVersion)
+    if (reply.kind == ReplyKind::kOk) return {};
+    if (reply.kind != ReplyKind::kRemark && reply.kind != ReplyKind::kModes &&
+        reply.kind != ReplyKind::kVersion)
       return refused(line, reply);
   }
 }
 
-Expected<std::optional<horus::Reply>> HorusController::await(Kind kind, milliseconds patience) {
-  const auto deadline = SerialPort::Clock::now() + patience;
+Expected<std::optional<horus::Reply>> HorusController::await(ReplyKind kind, milliseconds timeout) {
+  const auto deadline = SerialPort::Clock::now() + timeout;
   while (true) {
     const auto heard = talk_.hear(deadline);
-    if (!heard) return Unexpected(heard.error());
+    if (!heard) return tl::unexpected(heard.error());
     if (!*heard) return std::nullopt;
     horus::Reply reply = horus::parse(**heard);
     if (reply.kind == kind) return reply;
-    if (reply.kind == Kind::kUnknown) heard_ = **heard;
+    if (reply.kind == ReplyKind::kUnknown) heard_ = **heard;
   }
 }
 
-// Asked again and again, because an Arduino that has just been plugged in starts first, and a
-// motion that an earlier process began is completed first.
+// Repeats the query until the board answers. An Arduino that has just been plugged in is still
+// starting up, and a motion that an earlier process started must end first.
 Expected<std::optional<horus::Reply>> HorusController::ask_modes() {
   for (milliseconds asked{0}; asked < kBoot; asked += kAskAgain) {
     if (auto said = talk_.say(std::string("\n") + horus::kAskModes); !said)
-      return Unexpected(said.error());
-    auto modes = await(Kind::kModes, kAskAgain);
+      return tl::unexpected(said.error());
+    auto modes = await(ReplyKind::kModes, kAskAgain);
     if (!modes || *modes) return modes;
   }
   return std::nullopt;
 }
 
-// What the banner says, of a board that is not to say it; without the version where it does not
-// know the question.
+// Returns the text of the banner without restarting the board. If the board does not know the
+// version query, the text has no version.
 Expected<std::string> HorusController::ask_version() {
-  if (auto said = talk_.say(horus::kAskVersion); !said) return Unexpected(said.error());
-  const auto version = await(Kind::kVersion, kAskAgain);
-  if (!version) return Unexpected(version.error());
+  if (auto said = talk_.say(horus::kAskVersion); !said) return tl::unexpected(said.error());
+  const auto version = await(ReplyKind::kVersion, kAskAgain);
+  if (!version) return tl::unexpected(version.error());
   return *version ? "Horus " + (*version)->text : "Horus";
 }
 
 Expected<std::string> HorusController::restart() {
-  if (auto sent = talk_.port().write({&horus::kReset, 1}); !sent) return Unexpected(sent.error());
-  const auto banner = await(Kind::kBanner, patience_);
-  if (!banner) return Unexpected(banner.error());
+  if (auto sent = talk_.port().write({&horus::kReset, 1}); !sent)
+    return tl::unexpected(sent.error());
+  const auto banner = await(ReplyKind::kBanner, timeout_);
+  if (!banner) return tl::unexpected(banner.error());
   if (*banner && (*banner)->text.starts_with("Horus ")) return (*banner)->text;
   const std::string said = *banner ? (*banner)->text : heard_;
   if (said.empty())
     return fail(ErrorCode::kIo, name_ + " does not answer; check its power and its firmware");
   return fail(ErrorCode::kBadInput,
-              fmt::format("{} is no Horus board, it says '{}'; check vendor, product and dialect",
+              fmt::format("{} is not a Horus board, it answers '{}'; check vendor, product and "
+                          "dialect",
                           name_, said == LineReader::kGarbage ? "(unreadable)" : said));
 }
 
-// A board that holds a position is not restarted: that would forget it.
+// A board that holds a position is not restarted, because a restart would clear the position.
 Expected<std::string> HorusController::greet() {
   const auto modes = ask_modes();
-  if (!modes) return Unexpected(modes.error());
-  counted_ = *modes && (*modes)->value == horus::kCountedSpeed * 60;
-  const Expected<std::string> firmware = counted_ ? ask_version() : restart();
+  if (!modes) return tl::unexpected(modes.error());
+  is_counted_ = *modes && (*modes)->value == horus::kCountedSpeed * 60;
+  const Expected<std::string> firmware = is_counted_ ? ask_version() : restart();
   if (!firmware) return firmware;
-  if (auto ignored = talk_.ignore_all(kQuiet); !ignored) return Unexpected(ignored.error());
-  if (auto unlocked = command(horus::kUnlock, patience_); !unlocked)
-    return Unexpected(unlocked.error());
+  if (auto ignored = talk_.ignore_all(kQuiet); !ignored) return tl::unexpected(ignored.error());
+  if (auto unlocked = command(horus::kUnlock, timeout_); !unlocked)
+    return tl::unexpected(unlocked.error());
   return firmware;
 }
 
 Expected<double> HorusController::counter() {
   if (auto said = talk_.port().write({&horus::kAskStatus, 1}); !said)
-    return Unexpected(said.error());
-  const auto deadline = SerialPort::Clock::now() + patience_;
+    return tl::unexpected(said.error());
+  const auto deadline = SerialPort::Clock::now() + timeout_;
   while (true) {
     const auto heard = talk_.hear(deadline);
-    if (!heard) return Unexpected(heard.error());
+    if (!heard) return tl::unexpected(heard.error());
     if (!*heard) return no_answer("?");
     const horus::Reply reply = horus::parse(**heard);
-    if (reply.kind == Kind::kStatus) return reply.value;
-    if (reply.kind != Kind::kRemark) return refused("?", reply);
+    if (reply.kind == ReplyKind::kStatus) return reply.value;
+    if (reply.kind != ReplyKind::kRemark) return refused("?", reply);
   }
 }
 
 Expected<std::optional<double>> HorusController::position() {
   const Expected<double> at = counter();
-  if (!at) return Unexpected(at.error());
-  return counted_ ? std::optional(*at) : std::nullopt;
+  if (!at) return tl::unexpected(at.error());
+  return is_counted_ ? std::optional(*at) : std::nullopt;
 }
 
 Expected<void> HorusController::turn(double degrees, int speed) {
   const Expected<double> from = counter();
-  if (!from) return Unexpected(from.error());
-  if (!motor_) {
-    if (auto on = command(horus::kMotorOn, patience_); !on) return on;
-    motor_ = true;
+  if (!from) return tl::unexpected(from.error());
+  if (!is_motor_on_) {
+    if (auto on = command(horus::kMotorOn, timeout_); !on) return on;
+    is_motor_on_ = true;
   }
   const double seconds = horus::longest(degrees - *from, speed);
   return command(horus::turn(degrees, speed),
-                 patience_ + milliseconds(static_cast<std::int64_t>(1000 * seconds)));
+                 timeout_ + milliseconds(static_cast<std::int64_t>(1000 * seconds)));
 }
 
-// The counter can be set at 0 alone, so the table goes there first. It moves at the uncounted speed
-// until all is true.
+// The counter can be reset only at 0, so the table moves there first. It moves at the speed that
+// marks the counter as invalid, until the procedure is complete.
 Expected<void> HorusController::set_position(double degrees) {
   if (degrees != 0) {
     const Expected<double> at = counter();
-    if (!at) return Unexpected(at.error());
-    counted_ = false;
+    if (!at) return tl::unexpected(at.error());
+    is_counted_ = false;
     if (auto turned = turn(*at - degrees, horus::kUncountedSpeed); !turned) return turned;
   }
-  if (auto zero = command(horus::kZeroHere, patience_); !zero) return zero;
+  if (auto zero = command(horus::kZeroHere, timeout_); !zero) return zero;
   const auto counted = degrees != 0 ? turn(degrees, horus::kCountedSpeed)
-                                    : command(horus::speed(horus::kCountedSpeed), patience_);
-  counted_ = counted.has_value();
+                                    : command(horus::speed(horus::kCountedSpeed), timeout_);
+  is_counted_ = counted.has_value();
   return counted;
 }
 
 Expected<void> HorusController::turn_to(double degrees) {
-  return turn(degrees, counted_ ? horus::kCountedSpeed : horus::kUncountedSpeed);
+  return turn(degrees, is_counted_ ? horus::kCountedSpeed : horus::kUncountedSpeed);
 }
 
 Expected<void> HorusController::switch_off() {
-  motor_ = false;
+  is_motor_on_ = false;
   for (const std::string& line :
        {horus::laser(1, false), horus::laser(2, false), std::string(horus::kMotorOff)})
-    if (auto done = command(line, patience_); !done) return done;
+    if (auto done = command(line, timeout_); !done) return done;
   return {};
 }
 
@@ -212,8 +216,8 @@ void HorusController::halt() noexcept {
 
 }  // namespace
 
-std::unique_ptr<Controller> make_horus(SerialPort& port, milliseconds patience) {
-  return std::make_unique<HorusController>(port, patience);
+std::unique_ptr<Controller> make_horus(SerialPort& port, milliseconds timeout) {
+  return std::make_unique<HorusController>(port, timeout);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 void LineReader::feed(std::string_view bytes) {
   for (const char byte : bytes) {
@@ -13,7 +13,7 @@ void LineReader::feed(std::string_view bytes) {
       continue;
     }
     if (byte < ' ' || byte > '~' || line_.size() == kLongest)
-      garbage_ = true;
+      is_garbage_ = true;
     else
       line_ += byte;
     if (byte == prompt_ && line_.size() == 1) end_line();
@@ -21,13 +21,13 @@ void LineReader::feed(std::string_view bytes) {
 }
 
 void LineReader::end_line() {
-  if (garbage_)
+  if (is_garbage_)
     lines_.emplace_back(kGarbage);
   else if (!line_.empty())
     lines_.push_back(line_);
   if (lines_.size() > kMostLines) lines_.pop_front();
   line_.clear();
-  garbage_ = false;
+  is_garbage_ = false;
 }
 
 std::optional<std::string> LineReader::next() {
@@ -40,7 +40,7 @@ std::optional<std::string> LineReader::next() {
 void LineReader::clear() {
   line_.clear();
   lines_.clear();
-  garbage_ = false;
+  is_garbage_ = false;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cuts what a controller sends into lines, whatever it sends.
+// Splits arbitrary bytes from a controller into lines.
 #pragma once
 
 #include <deque>
@@ -7,11 +7,11 @@
 #include <string>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Lines end with a line feed; carriage returns and empty lines are dropped. A `prompt` at the start
-// of a line is a line of its own. A line of more than kLongest bytes, or with bytes that are not
-// printable ASCII, is handed out as kGarbage.
+// Splits received bytes into lines. Lines end with a line feed. Carriage returns and empty lines
+// are dropped. A `prompt` at the start of a line is a line of its own. A line that is longer than
+// kLongest bytes, or has bytes other than printable ASCII, is returned as kGarbage.
 class LineReader {
  public:
   static constexpr std::size_t kLongest = 128, kMostLines = 1024;
@@ -27,9 +27,9 @@ class LineReader {
   void end_line();
 
   char prompt_;
-  bool garbage_ = false;
+  bool is_garbage_ = false;
   std::string line_;
-  std::deque<std::string> lines_;  // the oldest are dropped above kMostLines
+  std::deque<std::string> lines_;  // at most kMostLines; the oldest lines are dropped
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -22,7 +22,7 @@ class SafeBoard final : public Board {
         port_(std::move(opened.port)),
         controller_(std::move(opened.controller)),
         identity_(std::move(identity)),
-        patience_(watchdog) {}
+        watchdog_timeout_(watchdog) {}
   ~SafeBoard() override;
 
   Expected<void> start();
@@ -36,7 +36,8 @@ class SafeBoard final : public Board {
   void emergency_stop() noexcept override;
 
  private:
-  // Runs `call` unless the board has failed, switches off where it fails, and feeds the watchdog.
+  // Runs `call` and feeds the watchdog. Switches laser and motor off if `call` fails. Does not run
+  // `call` if the board has failed before.
   template <class Call>
   auto guarded(Call call) -> decltype(call());
   template <class T>
@@ -45,19 +46,19 @@ class SafeBoard final : public Board {
   void lose_guardian();
   void watch();
 
-  Guardian guardian_;  // ends last
+  Guardian guardian_;  // destroyed last
   std::unique_ptr<SerialPort> port_;
   std::unique_ptr<Controller> controller_;
   BoardIdentity identity_;
-  std::chrono::milliseconds patience_;
-  std::atomic<bool> stopped_{false};
+  std::chrono::milliseconds watchdog_timeout_;
+  std::atomic<bool> is_stopped_{false};
 
-  std::mutex mutex_;  // what follows, and controller_ but for halt()
+  std::mutex mutex_;  // guards the members below, and also controller_, except for halt()
   std::condition_variable closing_soon_;
-  bool is_off_ = false;  // as the board confirmed when it was switched off last
+  bool is_off_ = false;  // the board confirmed the last switch-off
   std::optional<Error> failure_;
   Clock::time_point last_call_ = Clock::now();
-  bool resting_ = true, closing_ = false;
+  bool is_resting_ = true, is_closing_ = false;
   std::thread watchdog_;
 };
 
@@ -65,8 +66,9 @@ Expected<void> SafeBoard::start() {
   auto firmware = controller_->greet();
   if (!firmware) {
     if (firmware.error().code == ErrorCode::kIo) switch_off();
-    guardian_.dismiss();  // nothing has been switched on, and it would be in the next try's way
-    return Unexpected(std::move(firmware).error());
+    // Nothing has been switched on, and the guardian would disturb the next attempt.
+    guardian_.dismiss();
+    return tl::unexpected(std::move(firmware).error());
   }
   identity_.firmware = *firmware;
   if (auto off = controller_->switch_off(); !off) {
@@ -86,16 +88,16 @@ void SafeBoard::switch_off() {
 void SafeBoard::lose_guardian() {
   switch_off();
   failure_ = Error{ErrorCode::kIo, port_->name() +
-                                       " was switched off, the process that guards its laser has "
-                                       "ended; open the scanner anew to go on"};
+                                       " was switched off because the process that guards its "
+                                       "laser has ended; open the scanner again to continue"};
 }
 
 template <class T>
 Expected<T> SafeBoard::judged(Expected<T> result) {
-  if (stopped_) {
-    controller_->halt();  // the call may have switched something on since emergency_stop() halted
+  if (is_stopped_) {
+    controller_->halt();  // `call` may have switched something on after emergency_stop()
     return fail(ErrorCode::kState,
-                port_->name() + " was stopped in an emergency; open the scanner anew to go on");
+                port_->name() + " was stopped in an emergency; open the scanner again to continue");
   }
   if (!result && !failure_) {
     failure_ = result.error();
@@ -108,10 +110,10 @@ template <class Call>
 auto SafeBoard::guarded(Call call) -> decltype(call()) {
   const std::lock_guard lock(mutex_);
   if (!failure_ && !guardian_.is_there()) lose_guardian();
-  if (failure_) return judged(decltype(call())(Unexpected(*failure_)));
-  auto result = judged(stopped_ ? decltype(call())() : call());
+  if (failure_) return judged(decltype(call())(tl::unexpected(*failure_)));
+  auto result = judged(is_stopped_ ? decltype(call())() : call());
   last_call_ = Clock::now();
-  resting_ = false;
+  is_resting_ = false;
   return result;
 }
 
@@ -134,31 +136,32 @@ Expected<void> SafeBoard::laser(bool on) {
 Expected<void> SafeBoard::rest() {
   auto off = guarded([this] { return controller_->switch_off(); });
   const std::lock_guard lock(mutex_);
-  resting_ = true;
+  is_resting_ = true;
   return off;
 }
 
 void SafeBoard::emergency_stop() noexcept {
-  stopped_ = true;
+  is_stopped_ = true;
   controller_->halt();
   port_->cancel();
 }
 
-// A caller that is silent is taken for stuck; what it believes of laser and table is no longer
-// true.
+// A caller that makes no call within the watchdog's time counts as stuck. Later calls fail, because
+// the caller's knowledge of laser and table is no longer valid.
 void SafeBoard::watch() {
   std::unique_lock lock(mutex_);
-  while (!closing_) {
-    const bool idle = resting_ || failure_ || stopped_;
-    const auto deadline = last_call_ + patience_;
+  while (!is_closing_) {
+    const bool idle = is_resting_ || failure_ || is_stopped_;
+    const auto deadline = last_call_ + watchdog_timeout_;
     if (!idle && Clock::now() >= deadline) {
       switch_off();
-      failure_ = Error{ErrorCode::kIo,
-                       fmt::format("{} was switched off, no call came for {} ms; open the scanner "
-                                   "anew to go on",
-                                   port_->name(), patience_.count())};
+      failure_ =
+          Error{ErrorCode::kIo,
+                fmt::format("{} was switched off because no call came for {} ms; open the scanner "
+                            "again to continue",
+                            port_->name(), watchdog_timeout_.count())};
     } else if (idle) {
-      closing_soon_.wait_for(lock, patience_);
+      closing_soon_.wait_for(lock, watchdog_timeout_);
     } else {
       closing_soon_.wait_until(lock, deadline);
     }
@@ -169,14 +172,14 @@ SafeBoard::~SafeBoard() {
   if (watchdog_.joinable()) {
     {
       const std::lock_guard lock(mutex_);
-      closing_ = true;
+      is_closing_ = true;
       closing_soon_.notify_all();
     }
     watchdog_.join();
-    if (!stopped_ && !failure_) switch_off();
+    if (!is_stopped_ && !failure_) switch_off();
   }
-  // Else it does what it would do if this process died.
-  if (is_off_ && !stopped_) guardian_.dismiss();
+  // If the board is not confirmed off, the guardian acts as if this process had died.
+  if (is_off_ && !is_stopped_) guardian_.dismiss();
 }
 
 }  // namespace
@@ -185,8 +188,8 @@ Expected<std::unique_ptr<Board>> make_safe(OpenedController opened, BoardIdentit
                                            const BoardOptions& options, Guardian guardian) {
   auto board = std::make_unique<SafeBoard>(std::move(opened), std::move(identity), options.watchdog,
                                            std::move(guardian));
-  if (auto started = board->start(); !started) return Unexpected(started.error());
+  if (auto started = board->start(); !started) return tl::unexpected(started.error());
   return board;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

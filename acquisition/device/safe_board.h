@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What makes a controller a Board: laser and motor go off on every way out.
+// Makes a Board from a controller. The Board switches laser and motor off however its use ends.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,11 @@
 #include "acquisition/device/controller.h"
 #include "acquisition/device/guardian.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Greets the board and switches it off first.
+// Greets the board, and switches laser and motor off before returning. Fails for the same reasons
+// as open_board().
 Expected<std::unique_ptr<Board>> make_safe(OpenedController opened, BoardIdentity identity,
                                            const BoardOptions& options, Guardian guardian);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -4,29 +4,41 @@
 #include <algorithm>
 #include <array>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr std::uint8_t kVendorOut = 0x40, kClassInterfaceOut = 0x21;
+ControlRequest vendor_request(std::uint8_t request, std::uint32_t value, std::uint32_t index) {
+  return {.type = 0x40,  // a vendor request to the device
+          .request = request,
+          .value = static_cast<std::uint16_t>(value),
+          .index = static_cast<std::uint16_t>(index)};
+}
 
-// FT232R: 3 MHz over a divisor in eighths, which are coded in bits 14 and 15 (and the index).
+ControlRequest class_request(std::uint8_t request, std::uint16_t value, std::uint8_t interface) {
+  return {.type = 0x21,  // a CDC-ACM request to the interface
+          .request = request,
+          .value = value,
+          .index = interface};
+}
+
+// Returns the baud rate request of the FT232R, which divides 3 MHz by a multiple of 1/8. The
+// eighths are coded in bits 14 and 15, and in the index.
 ControlRequest ftdi_baud(int baud) {
   constexpr std::array<std::uint32_t, 8> kEighths = {0, 3, 2, 4, 1, 5, 6, 7};
   const std::uint32_t eighths = (24'000'000u + static_cast<std::uint32_t>(baud) / 2) / baud;
   const std::uint32_t divisor = eighths >> 3 | kEighths[eighths & 7] << 14;
-  return {kVendorOut, 3, static_cast<std::uint16_t>(divisor),
-          static_cast<std::uint16_t>(divisor >> 16)};
+  return vendor_request(3, divisor, divisor >> 16);
 }
 
 std::vector<ControlRequest> ftdi_set_up(int baud) {
-  return {{kVendorOut, 0, 0, 0},   // reset
-          ftdi_baud(baud),         //
-          {kVendorOut, 4, 8, 0},   // 8 bits, no parity, 1 stop bit
-          {kVendorOut, 2, 0, 0},   // no flow control
-          {kVendorOut, 9, 1, 0}};  // latency: 1 ms
+  return {vendor_request(0, 0, 0),   // reset
+          ftdi_baud(baud),           //
+          vendor_request(4, 8, 0),   // 8 data bits, no parity, 1 stop bit
+          vendor_request(2, 0, 0),   // no flow control
+          vendor_request(9, 1, 0)};  // latency: 1 ms
 }
 
-// CH340 and CH341: a counter up to 2^16 behind a prescaler of 8^(3 - p).
+// Returns the divisor of CH340 and CH341: a counter up to 2^16 after a prescaler of 8^(3 - p).
 std::uint16_t ch34x_divisor(int baud) {
   std::uint32_t factor = 1'532'620'800u / static_cast<std::uint32_t>(baud);
   std::uint32_t prescaler = 3;
@@ -37,18 +49,19 @@ std::uint16_t ch34x_divisor(int baud) {
 }
 
 std::vector<ControlRequest> ch34x_set_up(int baud) {
-  return {{kVendorOut, 0xa1, 0, 0},                         // start the serial line
-          {kVendorOut, 0x9a, 0x1312, ch34x_divisor(baud)},  // divisor and prescaler
-          {kVendorOut, 0x9a, 0x2518, 0x00c3}};              // both ways, 8 bits, 1 stop bit
+  return {
+      vendor_request(0xa1, 0, 0),                         // starts the serial line
+      vendor_request(0x9a, 0x1312, ch34x_divisor(baud)),  // sets divisor and prescaler
+      vendor_request(0x9a, 0x2518, 0x00c3)};  // enables both directions; 8 data bits, 1 stop bit
 }
 
 std::vector<ControlRequest> cdc_set_up(int baud, std::uint8_t interface) {
   const auto rate = static_cast<std::uint32_t>(baud);
-  std::vector<std::uint8_t> coding;
-  for (int shift = 0; shift < 32; shift += 8)
-    coding.push_back(static_cast<std::uint8_t>(rate >> shift));
-  coding.insert(coding.end(), {0, 0, 8});  // 1 stop bit, no parity, 8 bits
-  return {{kClassInterfaceOut, 0x20, 0, interface, coding}};
+  const auto byte = [rate](int shift) { return static_cast<std::uint8_t>(rate >> shift); };
+  ControlRequest line_coding = class_request(0x20, 0, interface);
+  line_coding.data = {byte(0), byte(8), byte(16), byte(24),
+                      0,       0,       8};  // 1 stop bit, no parity, 8 data bits
+  return {line_coding};
 }
 
 }  // namespace
@@ -76,18 +89,18 @@ std::vector<ControlRequest> set_up(SerialChip chip, int baud, std::uint8_t inter
 ControlRequest modem_lines(SerialChip chip, bool up, std::uint8_t interface) {
   switch (chip) {
     case SerialChip::kFtdi:
-      return {kVendorOut, 1, static_cast<std::uint16_t>(up ? 0x0303 : 0x0300), 0};
+      return vendor_request(1, up ? 0x0303 : 0x0300, 0);
     case SerialChip::kCh34x:
-      return {kVendorOut, 0xa4, static_cast<std::uint16_t>(up ? ~0x60 : ~0), 0};
+      return vendor_request(0xa4, up ? ~0x60u : ~0u, 0);
     case SerialChip::kCdcAcm:
       break;
   }
-  return {kClassInterfaceOut, 0x22, static_cast<std::uint16_t>(up ? 3 : 0), interface};
+  return class_request(0x22, up ? 3 : 0, interface);
 }
 
 void append_payload(SerialChip chip, std::span<const std::uint8_t> transfer,
                     std::size_t packet_size, std::vector<std::uint8_t>& out) {
-  constexpr std::size_t kFtdiStatus = 2;  // modem and line state ahead of each packet
+  constexpr std::size_t kFtdiStatus = 2;  // bytes of modem and line state before each packet
   const std::size_t skip = chip == SerialChip::kFtdi ? kFtdiStatus : 0;
   for (std::size_t at = 0; at < transfer.size(); at += packet_size) {
     const auto packet = transfer.subspan(at, std::min(packet_size, transfer.size() - at));
@@ -95,4 +108,4 @@ void append_payload(SerialChip chip, std::span<const std::uint8_t> transfer,
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a USB device is used as a serial line: the control requests that set it up, and what of its
-// packets is payload. 8 data bits, no parity, 1 stop bit, no flow control.
+// Operates a USB device as a serial line: the control requests that configure the chip, and the
+// payload of its packets. The line has 8 data bits, no parity, 1 stop bit and no flow control.
+// Source: [CDC-ACM].
 #pragma once
 
 #include <cstdint>
@@ -8,29 +9,32 @@
 #include <span>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 enum class SerialChip { kCdcAcm, kFtdi, kCh34x };
 
 struct ControlRequest {
-  std::uint8_t type = 0, request = 0;  // bmRequestType, bRequest; host to device
+  std::uint8_t type = 0, request = 0;  // bmRequestType and bRequest; direction: host to device
   std::uint16_t value = 0, index = 0;
   std::vector<std::uint8_t> data = {};
 
   bool operator==(const ControlRequest&) const = default;
 };
 
-// By vendor and product; any other device that has CDC-ACM's interfaces is taken for one.
+// Recognises the serial chip by vendor and product. Any other device with CDC-ACM interfaces counts
+// as CDC-ACM.
 std::optional<SerialChip> chip_by_id(std::uint16_t vendor, std::uint16_t product);
 
-// `interface` is CDC-ACM's control interface, 0 elsewhere.
+// Returns the requests that configure the chip. `interface` is the control interface of CDC-ACM,
+// and 0 for other chips.
 std::vector<ControlRequest> set_up(SerialChip chip, int baud, std::uint8_t interface);
 
-// DTR and RTS. Arduinos restart when DTR rises.
+// Returns the request that sets DTR and RTS. Arduinos restart on a rising DTR.
 ControlRequest modem_lines(SerialChip chip, bool up, std::uint8_t interface);
 
-// Appends the payload of one IN transfer, which consists of packets of at most `packet_size` bytes.
+// Appends the payload of one IN transfer to `out`. The transfer consists of packets of at most
+// `packet_size` bytes.
 void append_payload(SerialChip chip, std::span<const std::uint8_t> transfer,
                     std::size_t packet_size, std::vector<std::uint8_t>& out);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

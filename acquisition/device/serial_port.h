@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A serial line to a controller, whatever carries it.
+// A serial line to a controller, independent of its transport.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 class SerialPort {
  public:
@@ -16,21 +16,24 @@ class SerialPort {
 
   virtual ~SerialPort() = default;
 
-  // "USB board 2341:0043", for messages; its serial number; and its socket, "1-2.4". The latter two
-  // are empty where it has none.
+  // The name for messages, such as "USB board 2341:0043"; the serial number; the USB port, such as
+  // "1-2.4". Serial number and port are empty if the device has none.
   virtual const std::string& name() const = 0;
   virtual const std::string& serial() const = 0;
   virtual const std::string& socket() const = 0;
 
-  // From any thread.
+  // Callable from any thread.
   virtual Expected<void> write(std::string_view bytes) = 0;
-  // What has come since the last read(); waits for something, at most until `deadline`, and is
-  // empty then. By one thread at a time.
+  // Returns the bytes received since the last read(). If there are none, waits for at least one
+  // byte until `deadline`, and returns an empty string after that. One thread at a time may call
+  // it.
   virtual Expected<std::string> read(Clock::time_point deadline) = 0;
-  // A read() in progress and all later ones fail with kState. From any thread.
+  // Makes a read() in progress and all later read() calls fail with kState. Callable from any
+  // thread.
   virtual void cancel() noexcept = 0;
-  // Restarts the controller behind the line, if it listens to DTR as Arduinos do. From any thread.
+  // Toggles DTR, which restarts the controller if it reacts to DTR as Arduinos do. Callable from
+  // any thread.
   virtual Expected<void> restart_controller() = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

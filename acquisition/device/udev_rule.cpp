@@ -5,7 +5,7 @@
 
 #include "acquisition/device/serial_chip.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 bool has_udev_rule(std::uint16_t vendor, std::uint16_t product) {
   constexpr std::uint16_t kArduino = 0x2341, kArduinoToo = 0x2a03;
@@ -22,4 +22,4 @@ std::string udev_rule(std::uint16_t vendor, std::uint16_t product) {
       vendor, product);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may use a board, as deploy/60-vitrine.rules has it.
+// The udev rule that lets users open a board, as in deploy/60-vitrine.rules.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Whether the file has a line for boards with these numbers.
+// Returns whether the udev rules file has a line for boards with these numbers.
 bool has_udev_rule(std::uint16_t vendor, std::uint16_t product);
 
-// The line that it would need.
+// Returns the line that the udev rules file would need for such boards.
 std::string udev_rule(std::uint16_t vendor, std::uint16_t product);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

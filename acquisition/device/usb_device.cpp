@@ -11,7 +11,7 @@
 
 #include "acquisition/device/udev_rule.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 class DeviceList {
@@ -34,7 +34,7 @@ class DeviceList {
   ssize_t count_ = 0;
 };
 
-// "1-2.4": bus, then the sockets on the way.
+// Returns the port of a device, such as "1-2.4": the bus, then the hub ports on the path.
 std::string port_of(libusb_device* device) {
   std::array<std::uint8_t, 7> sockets{};
   const int count = libusb_get_port_numbers(device, sockets.data(), sockets.size());
@@ -65,9 +65,9 @@ std::string serial_of(libusb_device_handle* handle) {
 Expected<UsbDevice> open_one(libusb_device* device, const BoardSelector& selector) {
   libusb_device_handle* handle = nullptr;
   const int code = libusb_open(device, &handle);
-  if (code == LIBUSB_ERROR_ACCESS) return Unexpected(no_access(selector));
+  if (code == LIBUSB_ERROR_ACCESS) return tl::unexpected(no_access(selector));
   if (code != LIBUSB_SUCCESS)
-    return Unexpected(usb_error(usb_name(selector), "cannot be opened", code));
+    return tl::unexpected(usb_error(usb_name(selector), "cannot be opened", code));
   UsbHandle owned(handle);
   return UsbDevice{
       .handle = std::move(owned), .serial = serial_of(handle), .port = port_of(device)};
@@ -88,7 +88,7 @@ class ConfigDescriptor {
   ConfigDescriptor(const ConfigDescriptor&) = delete;
   ConfigDescriptor& operator=(const ConfigDescriptor&) = delete;
 
-  // The first setting of each interface.
+  // Returns the first alternate setting of each interface.
   std::vector<const libusb_interface_descriptor*> interfaces() const {
     std::vector<const libusb_interface_descriptor*> all;
     for (int i = 0; config_ != nullptr && i < config_->bNumInterfaces; ++i)
@@ -101,7 +101,8 @@ class ConfigDescriptor {
   libusb_config_descriptor* config_ = nullptr;
 };
 
-// Whether it has a bulk endpoint each way, which `line` then names.
+// Returns whether the interface has a bulk endpoint in each direction. Stores the endpoints in
+// `line`.
 bool take_endpoints(const libusb_interface_descriptor& interface, SerialEndpoints& line) {
   line.in = line.out = 0;
   for (int i = 0; i < interface.bNumEndpoints; ++i) {
@@ -127,7 +128,7 @@ int cdc_control_interface(const ConfigDescriptor& config) {
 Expected<UsbContext> open_usb() {
   libusb_context* context = nullptr;
   if (const int code = libusb_init(&context); code != LIBUSB_SUCCESS)
-    return Unexpected(usb_error("USB", "cannot be used", code));
+    return tl::unexpected(usb_error("USB", "cannot be used", code));
   return UsbContext(context);
 }
 
@@ -136,12 +137,12 @@ std::string usb_name(const BoardSelector& selector) {
 }
 
 Error no_access(const BoardSelector& selector) {
-  const std::string cause = usb_name(selector) + " may not be used by this user; ";
+  const std::string cause = usb_name(selector) + ": permission denied; ";
   if (has_udev_rule(selector.vendor, selector.product))
-    return {ErrorCode::kIo, cause + "install deploy/60-vitrine.rules and plug the board in anew"};
+    return {ErrorCode::kIo, cause + "install deploy/60-vitrine.rules and plug the board in again"};
   return {ErrorCode::kIo,
           fmt::format("{}add this line to deploy/60-vitrine.rules, install that and plug the board "
-                      "in anew: {}",
+                      "in again: {}",
                       cause, udev_rule(selector.vendor, selector.product))};
 }
 
@@ -153,7 +154,7 @@ Error usb_error(const std::string& name, const char* doing, int code) {
     case LIBUSB_ERROR_BUSY:
       return {ErrorCode::kIo, name + " is in use; end the other program that uses the board"};
     default:
-      return {ErrorCode::kIo, fmt::format("{} {} ({}); check its cable, or plug it in anew", name,
+      return {ErrorCode::kIo, fmt::format("{} {} ({}); check its cable, or plug it in again", name,
                                           doing, libusb_error_name(code))};
   }
 }
@@ -169,7 +170,7 @@ Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
   const auto count = std::ranges::count_if(candidates, could_be);
   if (count > 1)
     return fail(ErrorCode::kBadInput,
-                fmt::format("there are {} of {}; name one by its serial number or port", count,
+                fmt::format("{} devices match {}; select one by its serial number or port", count,
                             wanted(selector)));
   const auto found = std::ranges::find_if(candidates, is_meant);
   if (found != candidates.end()) return std::move(*found);
@@ -198,8 +199,8 @@ Expected<SerialEndpoints> find_serial_line(libusb_device* device, const BoardSel
   }
   return fail(ErrorCode::kUnsupported,
               usb_name(selector) +
-                  " is no serial line of a known kind (CDC-ACM, FTDI, CH34x); "
+                  " has no supported serial interface (CDC-ACM, FTDI, CH34x); "
                   "check vendor and product");
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

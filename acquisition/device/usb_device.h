@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finding and owning one USB device.
+// Finds, opens and owns one USB device.
 #pragma once
 
 #include <libusb.h>
@@ -11,7 +11,7 @@
 #include "acquisition/device/board.h"
 #include "acquisition/device/serial_chip.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct UsbContextDeleter {
   void operator()(libusb_context* context) const { libusb_exit(context); }
@@ -25,33 +25,33 @@ using UsbHandle = std::unique_ptr<libusb_device_handle, UsbHandleDeleter>;
 
 Expected<UsbContext> open_usb();
 
-// "USB board 2341:0043".
+// Returns a name for messages, such as "USB board 2341:0043".
 std::string usb_name(const BoardSelector& selector);
-// That this user may not open it, and what lets them.
+// Returns the error that this user may not open the device, with the remedy.
 Error no_access(const BoardSelector& selector);
-// Any other fault in words with the next step.
+// Returns an error for any other failure of libusb, with the next step.
 Error usb_error(const std::string& name, const char* doing, int code);
 
 struct UsbDevice {
   UsbHandle handle;
-  std::string serial;  // empty where it has none
-  std::string port;    // as of BoardSelector
+  std::string serial;  // empty if the device has none
+  std::string port;    // same format as in BoardSelector
 };
 
-// The device that `selector` means, of all with its numbers and port. One that could not be opened
-// has a serial number that nobody knows; where the one meant is not among the others, it is the
-// fault.
+// choose() picks the candidate that `selector` selects; open_usb_device() also lists the devices.
+// The serial number of a device that cannot be opened is unknown. If no other device matches, the
+// error names the device that could not be opened.
 Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
                            const BoardSelector& selector);
 Expected<UsbDevice> open_usb_device(libusb_context* context, const BoardSelector& selector);
 
-// Where a device's serial line is.
+// The endpoints of a device's serial line.
 struct SerialEndpoints {
   SerialChip chip = SerialChip::kCdcAcm;
-  int control_interface = -1, data_interface = 0;  // the former for CDC-ACM only
+  int control_interface = -1, data_interface = 0;  // control_interface is used by CDC-ACM only
   std::uint8_t in = 0, out = 0;
-  std::size_t packet_size = 0;  // of `in`, never 0
+  std::size_t packet_size = 0;  // packet size of the endpoint `in`, never 0
 };
 Expected<SerialEndpoints> find_serial_line(libusb_device* device, const BoardSelector& selector);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -12,17 +12,18 @@
 #include "acquisition/device/usb_device.h"
 #include "acquisition/device/usb_transfer.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kMostUnread = 1 << 20;
-constexpr std::chrono::seconds kClaimPatience{5};
+constexpr std::chrono::seconds kClaimTimeout{5};
 
 struct TransferDeleter {
   void operator()(libusb_transfer* transfer) const { libusb_free_transfer(transfer); }
 };
 
-// A thread of its own handles libusb's events; two IN transfers are always under way.
+// A serial line over USB. One thread handles libusb's events, and two IN transfers are always
+// pending.
 class UsbSerial final : public SerialPort {
  public:
   UsbSerial(std::string name, UsbContext context, UsbDevice device, SerialEndpoints line)
@@ -48,7 +49,7 @@ class UsbSerial final : public SerialPort {
   struct Incoming {
     std::unique_ptr<libusb_transfer, TransferDeleter> transfer;
     std::array<std::uint8_t, 512> bytes{};
-    bool pending = false;
+    bool is_pending = false;
   };
 
   std::uint8_t control_index() const {
@@ -76,14 +77,14 @@ class UsbSerial final : public SerialPort {
   std::vector<int> claimed_;
   std::array<Incoming, 2> incoming_;
   libusb_hotplug_callback_handle hotplug_ = 0;
-  bool watching_ = false;
+  bool is_watching_ = false;
   std::thread events_;
-  std::atomic<bool> done_{false};
+  std::atomic<bool> is_done_{false};
 
-  std::mutex mutex_;  // what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::vector<std::uint8_t> unread_;
-  bool closing_ = false, gone_ = false, cancelled_ = false;
+  bool is_closing_ = false, is_gone_ = false, is_cancelled_ = false;
 };
 
 Expected<void> UsbSerial::start(int baud) {
@@ -97,9 +98,10 @@ Expected<void> UsbSerial::start(int baud) {
   return listen();
 }
 
-// What held it may be about to let go: the guardian of a process that has just died.
+// Retries for a while, because the current holder may soon release the device: it may be the
+// guardian of a process that has just died.
 Expected<void> UsbSerial::claim() {
-  const auto deadline = Clock::now() + kClaimPatience;
+  const auto deadline = Clock::now() + kClaimTimeout;
   for (const int interface : {line_.control_interface, line_.data_interface}) {
     if (interface < 0) continue;
     int code = libusb_claim_interface(handle_.get(), interface);
@@ -107,7 +109,7 @@ Expected<void> UsbSerial::claim() {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       code = libusb_claim_interface(handle_.get(), interface);
     }
-    if (code != LIBUSB_SUCCESS) return Unexpected(usb_error(name_, "cannot be claimed", code));
+    if (code != LIBUSB_SUCCESS) return tl::unexpected(usb_error(name_, "cannot be claimed", code));
     claimed_.push_back(interface);
   }
   return {};
@@ -115,7 +117,8 @@ Expected<void> UsbSerial::claim() {
 
 Expected<void> UsbSerial::send(const ControlRequest& request) {
   const int code = send_control(handle_.get(), request);
-  if (code != LIBUSB_SUCCESS) return Unexpected(usb_error(name_, "refuses to be set up", code));
+  if (code != LIBUSB_SUCCESS)
+    return tl::unexpected(usb_error(name_, "rejects its configuration", code));
   return {};
 }
 
@@ -123,10 +126,10 @@ void UsbSerial::watch_for_unplugging() {
   libusb_device* device = libusb_get_device(handle_.get());
   libusb_device_descriptor descriptor{};
   libusb_get_device_descriptor(device, &descriptor);
-  watching_ = libusb_hotplug_register_callback(context_.get(), LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT, 0,
-                                               descriptor.idVendor, descriptor.idProduct,
-                                               LIBUSB_HOTPLUG_MATCH_ANY, &on_unplugged, this,
-                                               &hotplug_) == LIBUSB_SUCCESS;
+  is_watching_ = libusb_hotplug_register_callback(context_.get(), LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT,
+                                                  0, descriptor.idVendor, descriptor.idProduct,
+                                                  LIBUSB_HOTPLUG_MATCH_ANY, &on_unplugged, this,
+                                                  &hotplug_) == LIBUSB_SUCCESS;
 }
 
 int LIBUSB_CALL UsbSerial::on_unplugged(libusb_context*, libusb_device* device,
@@ -138,11 +141,12 @@ int LIBUSB_CALL UsbSerial::on_unplugged(libusb_context*, libusb_device* device,
 
 void UsbSerial::mark_gone() {
   const std::lock_guard lock(mutex_);
-  gone_ = true;
+  is_gone_ = true;
   changed_.notify_all();
 }
 
-// All transfers are there before the first is on its way: on_transfer() looks through them.
+// Allocates all transfers before submitting the first, because on_transfer() iterates over all of
+// them.
 Expected<void> UsbSerial::listen() {
   for (Incoming& incoming : incoming_) {
     incoming.transfer.reset(libusb_alloc_transfer(0));
@@ -154,8 +158,8 @@ Expected<void> UsbSerial::listen() {
   for (Incoming& incoming : incoming_) {
     const std::lock_guard lock(mutex_);
     const int code = libusb_submit_transfer(incoming.transfer.get());
-    if (code != LIBUSB_SUCCESS) return Unexpected(usb_error(name_, "cannot be read", code));
-    incoming.pending = true;
+    if (code != LIBUSB_SUCCESS) return tl::unexpected(usb_error(name_, "cannot be read", code));
+    incoming.is_pending = true;
   }
   return {};
 }
@@ -171,33 +175,35 @@ void UsbSerial::arrived(Incoming& incoming) {
   const std::lock_guard lock(mutex_);
   const auto length = static_cast<std::size_t>(std::max(0, transfer.actual_length));
   append_payload(line_.chip, std::span(incoming.bytes).first(length), line_.packet_size, unread_);
-  if (unread_.size() > kMostUnread) unread_.clear();  // nobody reads what is no answer
+  if (unread_.size() > kMostUnread) unread_.clear();  // so many bytes cannot be an answer
   const bool usable = transfer.status == LIBUSB_TRANSFER_COMPLETED;
-  incoming.pending =
-      usable && !closing_ && libusb_submit_transfer(incoming.transfer.get()) == LIBUSB_SUCCESS;
-  if (!incoming.pending && !closing_) gone_ = true;
+  incoming.is_pending =
+      usable && !is_closing_ && libusb_submit_transfer(incoming.transfer.get()) == LIBUSB_SUCCESS;
+  if (!incoming.is_pending && !is_closing_) is_gone_ = true;
   changed_.notify_all();
 }
 
 void UsbSerial::handle_events() {
-  while (!done_) {
-    timeval patience{.tv_sec = 1, .tv_usec = 0};
-    libusb_handle_events_timeout_completed(context_.get(), &patience, nullptr);
+  while (!is_done_) {
+    timeval timeout{.tv_sec = 1, .tv_usec = 0};
+    libusb_handle_events_timeout_completed(context_.get(), &timeout, nullptr);
   }
 }
 
 Expected<void> UsbSerial::write(std::string_view bytes) {
   const int code = send_bulk(handle_.get(), line_.out, bytes);
-  if (code != LIBUSB_SUCCESS) return Unexpected(usb_error(name_, "takes no bytes", code));
+  if (code != LIBUSB_SUCCESS) return tl::unexpected(usb_error(name_, "does not accept data", code));
   return {};
 }
 
 Expected<std::string> UsbSerial::read(Clock::time_point deadline) {
   std::unique_lock lock(mutex_);
-  changed_.wait_until(lock, deadline, [this] { return cancelled_ || gone_ || !unread_.empty(); });
-  if (cancelled_)
-    return fail(ErrorCode::kState, name_ + " was stopped; open the scanner anew to go on");
-  if (gone_ && unread_.empty()) return Unexpected(usb_error(name_, "", LIBUSB_ERROR_NO_DEVICE));
+  changed_.wait_until(lock, deadline,
+                      [this] { return is_cancelled_ || is_gone_ || !unread_.empty(); });
+  if (is_cancelled_)
+    return fail(ErrorCode::kState, name_ + " was stopped; open the scanner again to continue");
+  if (is_gone_ && unread_.empty())
+    return tl::unexpected(usb_error(name_, "", LIBUSB_ERROR_NO_DEVICE));
   const std::string bytes(unread_.begin(), unread_.end());
   unread_.clear();
   return bytes;
@@ -205,7 +211,7 @@ Expected<std::string> UsbSerial::read(Clock::time_point deadline) {
 
 void UsbSerial::cancel() noexcept {
   const std::lock_guard lock(mutex_);
-  cancelled_ = true;
+  is_cancelled_ = true;
   changed_.notify_all();
 }
 
@@ -216,26 +222,26 @@ Expected<void> UsbSerial::restart_controller() {
 
 bool UsbSerial::anything_pending() {
   for (const Incoming& incoming : incoming_)
-    if (incoming.pending) return true;
+    if (incoming.is_pending) return true;
   return false;
 }
 
 void UsbSerial::stop_listening() {
   std::unique_lock lock(mutex_);
-  closing_ = true;
+  is_closing_ = true;
   for (Incoming& incoming : incoming_)
-    if (incoming.pending) libusb_cancel_transfer(incoming.transfer.get());
+    if (incoming.is_pending) libusb_cancel_transfer(incoming.transfer.get());
   changed_.wait(lock, [this] { return !anything_pending(); });
 }
 
 UsbSerial::~UsbSerial() {
   if (events_.joinable()) {
     stop_listening();
-    if (watching_) libusb_hotplug_deregister_callback(context_.get(), hotplug_);
-    done_ = true;
+    if (is_watching_) libusb_hotplug_deregister_callback(context_.get(), hotplug_);
+    is_done_ = true;
     libusb_interrupt_event_handler(context_.get());
     events_.join();
-  } else if (watching_) {
+  } else if (is_watching_) {
     libusb_hotplug_deregister_callback(context_.get(), hotplug_);
   }
   for (const int interface : claimed_)
@@ -246,15 +252,15 @@ UsbSerial::~UsbSerial() {
 
 Expected<std::unique_ptr<SerialPort>> open_usb_serial(const BoardSelector& selector, int baud) {
   auto context = open_usb();
-  if (!context) return Unexpected(std::move(context).error());
+  if (!context) return tl::unexpected(std::move(context).error());
   auto device = open_usb_device(context->get(), selector);
-  if (!device) return Unexpected(std::move(device).error());
+  if (!device) return tl::unexpected(std::move(device).error());
   const auto line = find_serial_line(libusb_get_device(device->handle.get()), selector);
-  if (!line) return Unexpected(line.error());
+  if (!line) return tl::unexpected(line.error());
   auto port = std::make_unique<UsbSerial>(usb_name(selector), std::move(*context),
                                           std::move(*device), *line);
-  if (auto started = port->start(baud); !started) return Unexpected(started.error());
+  if (auto started = port->start(baud); !started) return tl::unexpected(started.error());
   return port;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -7,11 +7,11 @@
 #include "acquisition/device/board.h"
 #include "acquisition/device/serial_port.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Finds the device, takes it from the kernel's driver and sets the line up. DTR is raised and left
-// up when the port is closed, so that a later opening is no edge to an Arduino. Errors as of
-// open_board().
+// Finds the device, detaches the kernel's driver and configures the line. DTR is raised and stays
+// raised after closing, so that an Arduino does not restart when it is opened again. Fails for the
+// same reasons as open_board().
 Expected<std::unique_ptr<SerialPort>> open_usb_serial(const BoardSelector& selector, int baud);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

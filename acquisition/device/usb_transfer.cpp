@@ -5,10 +5,10 @@
 #include <mutex>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr unsigned kDeadline = 1000;  // ms; then libusb cancels the transfer
+constexpr unsigned kDeadline = 1000;  // milliseconds; after that, libusb cancels the transfer
 
 class Outgoing {
  public:
@@ -17,23 +17,24 @@ class Outgoing {
   Outgoing(const Outgoing&) = delete;
   Outgoing& operator=(const Outgoing&) = delete;
 
-  libusb_transfer* transfer() { return transfer_; }  // null: no memory
+  libusb_transfer* transfer() { return transfer_; }  // null if out of memory
   int carry_out();
 
   static void LIBUSB_CALL on_complete(libusb_transfer* transfer);
 
  private:
   libusb_transfer* const transfer_;
-  std::mutex mutex_;  // what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  bool complete_ = false;
+  bool is_complete_ = false;
 };
 
-// Notifies under the mutex: this is gone as soon as the waiting thread can lock it.
+// Notifies while holding the mutex, because the waiting thread destroys this object as soon as it
+// can lock the mutex.
 void LIBUSB_CALL Outgoing::on_complete(libusb_transfer* transfer) {
   auto* self = static_cast<Outgoing*>(transfer->user_data);
   const std::lock_guard lock(self->mutex_);
-  self->complete_ = true;
+  self->is_complete_ = true;
   self->changed_.notify_all();
 }
 
@@ -56,7 +57,7 @@ int Outgoing::carry_out() {
   const int code = libusb_submit_transfer(transfer_);
   if (code != LIBUSB_SUCCESS) return code;
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return complete_; });
+  changed_.wait(lock, [this] { return is_complete_; });
   return code_of(transfer_->status);
 }
 
@@ -84,4 +85,4 @@ int send_control(libusb_device_handle* device, const ControlRequest& request) {
   return outgoing.carry_out();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sending to a USB device while another thread handles libusb's events. libusb's own waiting calls
-// are not for that: they free what the other thread may still be using.
+// Sends to a USB device while another thread handles libusb's events. libusb's synchronous calls
+// are not used, because they free memory that the other thread may still use.
 #pragma once
 
 #include <libusb.h>
@@ -10,11 +10,11 @@
 
 #include "acquisition/device/serial_chip.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Both return when the transfer is complete or has been cancelled after a second, with
-// LIBUSB_SUCCESS or libusb's code of what went wrong.
+// Both functions return when the transfer is complete or, after one second, cancelled. They return
+// LIBUSB_SUCCESS or libusb's error code.
 int send_bulk(libusb_device_handle* device, std::uint8_t endpoint, std::string_view bytes);
 int send_control(libusb_device_handle* device, const ControlRequest& request);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the camera delivers. Pixel coordinates: u to the right, v down, whole numbers at the centres
-// of pixels, (0, 0) that of the top left one.
+// A picture of the camera, and positions in it. In pixel coordinates, u points to the right and v
+// down. Pixel centres are integers, and (0, 0) is the top left pixel.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Monochrome, 8 bits a pixel, row after row without gaps: pixels.size() == width * height.
+// A monochrome picture with 8 bits for each pixel, row by row without gaps: pixels.size() == width
+// * height.
 struct Frame {
-  int width = 0, height = 0;  // pixels, of the region that was read
+  int width = 0, height = 0;  // pixels of the region that was read
   std::vector<std::uint8_t> pixels;
 
   std::span<const std::uint8_t> row(int v) const {
@@ -21,11 +22,16 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
-// The part of the sensor that is read. A calibration belongs to one region of one camera.
+// A position in a picture, to fractions of a pixel.
+struct ImagePoint {
+  double u = 0, v = 0;  // pixels
+};
+
+// The part of the sensor that is read. A calibration is valid for one region of one camera.
 struct SensorRegion {
   int x = 0, y = 0, width = 0, height = 0;  // pixels of the sensor
 
   bool operator==(const SensorRegion&) const = default;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -6,19 +6,21 @@
 #include <queue>
 #include <tuple>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kNone = ~std::size_t{0};
-// Joining two windows that lie on one line but for noise adds squares of chi-square distribution
-// with two degrees of freedom: 95 % are below this.
+// Merging two windows on a common line costs only squared noise, which has a chi-square
+// distribution with two degrees of freedom. 95 % of that distribution lie below this value.
 constexpr double kInsignificant = 6;
 
 struct Join {
-  double cost;                          // mm², beyond noise
-  std::size_t length;                   // of both, points
-  std::size_t left;                     // the window on the left, named by its first point
-  std::size_t right_count, left_count;  // as they were: a join of windows that changed is void
+  double cost;         // mm², in excess of the noise
+  std::size_t length;  // number of points in both windows
+  std::size_t left;    // index of the left window's first point
+  // The windows' point counts when the merge was proposed. The merge is void if a count has changed
+  // since then.
+  std::size_t right_count, left_count;
 
   bool operator>(const Join& o) const {
     return std::tie(cost, length, left) > std::tie(o.cost, o.length, o.left);
@@ -69,7 +71,11 @@ class Windows {
     const double added =
         (a.line + b.line).squares_across() - a.line.squares_across() - b.line.squares_across();
     const double noise = kInsignificant * limits_.noise * limits_.noise;
-    joins_.push({std::max(0., added - noise), a.count + b.count, left, b.count, a.count});
+    joins_.push({.cost = std::max(0., added - noise),
+                 .length = a.count + b.count,
+                 .left = left,
+                 .right_count = b.count,
+                 .left_count = a.count});
   }
 
   void merge(std::size_t left) {
@@ -86,8 +92,10 @@ class Windows {
   std::span<const ProfilePoint> points_;
   WindowLimits limits_;
   std::size_t count_;
-  std::vector<Window> windows_;      // at its first point each; count 0 where joined
-  std::vector<std::size_t> before_;  // the window on the left
+  // Each window is stored at the index of its first point. A window that was merged into another
+  // has count 0.
+  std::vector<Window> windows_;
+  std::vector<std::size_t> before_;  // first point of the preceding window
   std::priority_queue<Join, std::vector<Join>, std::greater<>> joins_;
 };
 
@@ -99,4 +107,4 @@ std::vector<Window> adaptive_windows(std::span<const ProfilePoint> points,
   return Windows(points, limits).take();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

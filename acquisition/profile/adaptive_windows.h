@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cuts a profile into windows that are short where it bends.
+// Divides a profile into windows that are short where the profile bends.
 #pragma once
 
 #include <span>
@@ -8,21 +8,23 @@
 #include "acquisition/profile/line_fit.h"
 #include "acquisition/profile/profile.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct Window {
   std::size_t first = 0, count = 1;  // points
-  LineFit line;                      // z over rho
+  LineFit line;                      // fits z as a function of rho
 };
 
 struct WindowLimits {
-  std::size_t windows = 1;  // join until there are no more than these
-  std::size_t longest = 1;  // points
-  double noise = 0;         // mm
+  // Windows are merged until at most this many are left.
+  std::size_t windows = 1;
+  std::size_t longest = 1;  // largest number of points in a window
+  double noise = 0;         // mm: standard deviation of the points
 };
 
-// In order, without gaps or overlaps; none crosses a kApart.
+// Returns the windows in ascending order, without gaps or overlaps. No window extends across a
+// point flagged kApart.
 std::vector<Window> adaptive_windows(std::span<const ProfilePoint> points,
                                      const WindowLimits& limits);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 struct Flat {
@@ -18,21 +18,22 @@ double dot(const Flat& a, const Flat& b) {
   return a.rho * b.rho + a.z * b.z;
 }
 
-// Of unit length and across `along`; zero where that is.
+// Returns the unit normal of `along`, or zero if `along` is zero.
 Flat across(const Flat& along) {
   const double length = std::hypot(along.rho, along.z);
   return length > 0 ? Flat{-along.z / length, along.rho / length} : Flat{};
 }
 
-// One row of the normal equations, of which only the diagonal and one neighbour are not zero.
-struct Row {
-  double own = 2;   // a corner counts as two points that it is right for: where few are, it stays
-  double next = 0;  // with the corner after it
+// One row of the tridiagonal normal equations.
+struct EquationRow {
+  // The diagonal element. Two virtual points keep a corner in place if it has few real points.
+  double own = 2;
+  double next = 0;  // coupling with the next corner
   double right = 0;
 };
 
-// Thomas' algorithm.
-std::vector<double> solve(std::vector<Row> rows) {
+// Solves a tridiagonal system by Thomas' algorithm.
+std::vector<double> solve(std::vector<EquationRow> rows) {
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double share = rows[i - 1].next / rows[i - 1].own;
     rows[i].own -= share * rows[i - 1].next;
@@ -48,15 +49,15 @@ std::vector<double> solve(std::vector<Row> rows) {
 
 }  // namespace
 
-void fit_polyline(std::span<const ProfilePoint> points, std::span<Corner> corners) {
+void fit_polyline(std::span<const ProfilePoint> points, std::span<PolylineVertex> corners) {
   if (corners.size() < 2) return;
   std::vector<Flat> normals;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Corner& before = corners[i > 0 ? i - 1 : 0];
-    const Corner& after = corners[std::min(i + 1, corners.size() - 1)];
+    const PolylineVertex& before = corners[i > 0 ? i - 1 : 0];
+    const PolylineVertex& after = corners[std::min(i + 1, corners.size() - 1)];
     normals.push_back(across(after.point.at - before.point.at));
   }
-  std::vector<Row> rows(corners.size());
+  std::vector<EquationRow> rows(corners.size());
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const TablePoint& from = corners[i].point.at;
     const Flat along = corners[i + 1].point.at - from, normal = across(along);
@@ -79,4 +80,4 @@ void fit_polyline(std::span<const ProfilePoint> points, std::span<Corner> corner
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

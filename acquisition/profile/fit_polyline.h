@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves the corners of a polyline so that it lies in the middle of the points it stands for.
+// Moves the corners of a polyline so that it fits the points it approximates.
 #pragma once
 
 #include <span>
@@ -7,16 +7,17 @@
 
 #include "acquisition/profile/profile.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-struct Corner {
+struct PolylineVertex {
   ProfilePoint point;
-  double index = 0;  // of the points: where along them it is, ascending
+  // The corner's position along the points: a fractional index, ascending.
+  double index = 0;
 };
 
-// Each corner moves across the polyline, in the plane of rho and z, so that the sum of the squared
-// distances of the points from it is least: a chord between means of what is bent lies on its inner
-// side. O(points).
-void fit_polyline(std::span<const ProfilePoint> points, std::span<Corner> corners);
+// Moves each corner perpendicular to the polyline, in the plane of rho and z, so that the sum of
+// squared distances to the points is least. Without this correction, a polyline through means lies
+// on the inner side of each bend. O(points).
+void fit_polyline(std::span<const ProfilePoint> points, std::span<PolylineVertex> corners);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

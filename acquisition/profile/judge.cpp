@@ -9,23 +9,27 @@
 #include <numeric>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr double kLeastRows = 2;  // a frame, on the average
+constexpr double kLeastRows = 2;  // average number of rows in a frame
 constexpr double kMostSaturated = .8, kMostDoubled = .5;
-constexpr double kMostFull = .05;   // a stripe is a hundredth of a picture, a lamp in view no more
-constexpr int kFullLevel = 254;     // grey levels, as where a stripe is saturated
+// Largest accepted share of full pixels. A stripe covers a hundredth of a picture, and so does a
+// lamp in view.
+constexpr double kMostFull = .05;
+constexpr int kFullLevel = 254;     // grey level at which a stripe counts as saturated
 constexpr double kLeastHeight = 1;  // mm
-constexpr double kStrays = .02;     // of the points, at either end
-constexpr double kMostShift = 10;   // pixels from row to row
+constexpr double kStrays = .02;     // share of the points left out at either end
+constexpr double kMostShift = 10;   // pixels between adjacent rows
 
-// Noise stands out in a row here and there, and nowhere in two rows side by side.
+// Returns whether two points belong to a line. Noise exceeds the threshold in single rows, but not
+// in two adjacent rows.
 bool is_line(const StripePoint& a, const StripePoint& b) {
   return b.row == a.row + 1 && std::abs(b.u - a.u) <= kMostShift;
 }
 
-// The first point of each row, flagged kDouble where a second follows, be it as strong or not.
+// Returns the first point of each row. A point is flagged kDouble if a second point follows in its
+// row, whatever the strength of the second.
 std::vector<StripePoint> one_a_row(std::span<const StripePoint> stripe) {
   std::vector<StripePoint> first;
   for (const StripePoint& point : stripe) {
@@ -37,7 +41,7 @@ std::vector<StripePoint> one_a_row(std::span<const StripePoint> stripe) {
   return first;
 }
 
-// From the least to the largest of what is left of them without the strays on either side; mm.
+// Returns the range of the heights, in mm, after leaving out the strays at either end.
 double extent(std::vector<double>& heights) {
   std::ranges::sort(heights);
   const auto strays = static_cast<std::size_t>(kStrays * static_cast<double>(heights.size()));
@@ -68,8 +72,12 @@ StripeCount count_full(const Frame& picture) {
 }
 
 StripeCount operator+(const StripeCount& a, const StripeCount& b) {
-  return {a.frames + b.frames,   a.rows + b.rows,     a.saturated + b.saturated,
-          a.doubled + b.doubled, a.pixels + b.pixels, a.full + b.full};
+  return {.frames = a.frames + b.frames,
+          .rows = a.rows + b.rows,
+          .saturated = a.saturated + b.saturated,
+          .doubled = a.doubled + b.doubled,
+          .pixels = a.pixels + b.pixels,
+          .full = a.full + b.full};
 }
 
 StripeCount sum(std::span<const StripeCount> counts) {
@@ -100,7 +108,7 @@ Expected<void> judge(const StripeCount& scan) {
   if (!shows_stripe(scan))
     return fail(ErrorCode::kBadInput,
                 fmt::format("no stripe: {} rows of {} pictures show the laser; put an object on "
-                            "the table, check that the laser is on, raise the exposure",
+                            "the table, check that the laser is on, and raise the exposure",
                             scan.rows, scan.frames));
   if (static_cast<double>(scan.saturated) > kMostSaturated * rows)
     return fail(ErrorCode::kBadInput,
@@ -109,8 +117,8 @@ Expected<void> judge(const StripeCount& scan) {
                             scan.saturated, scan.rows));
   if (static_cast<double>(scan.doubled) > kMostDoubled * rows)
     return fail(ErrorCode::kBadInput,
-                fmt::format("two stripes: {} of {} rows show the laser twice; cover what reflects "
-                            "it, switch the other laser off",
+                fmt::format("two stripes: {} of {} rows show the laser twice; cover reflecting "
+                            "surfaces, and switch the other laser off",
                             scan.doubled, scan.rows));
   return {};
 }
@@ -134,4 +142,4 @@ Expected<void> judge(std::span<const Profile> scan) {
   return {};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a scan shows what a scan has to show; if not, what the operator should do.
+// Decides whether a scan shows an object and a usable stripe. If not, the error says what the
+// operator should do.
 #pragma once
 
 #include <cstdint>
@@ -9,42 +10,45 @@
 #include "acquisition/profile/stripe.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Of one frame, or summed up over many.
+// Counts for one frame, or their sum over many frames.
 struct StripeCount {
-  std::uint64_t frames = 0, rows = 0;  // rows with a stripe that the next one continues
+  std::uint64_t frames = 0,
+                rows = 0;  // `rows`: number of rows with a stripe that continues in the next row
   std::uint64_t saturated = 0, doubled = 0;
-  std::uint64_t pixels = 0, full = 0;  // of the pictures, with and without laser; full: see below
+  // `pixels` counts the pixels of all pictures, with and without laser. `full` counts those at the
+  // end of the camera's range.
+  std::uint64_t pixels = 0, full = 0;
 
   bool operator==(const StripeCount&) const = default;
 };
 
 StripeCount count(std::span<const StripePoint> stripe);
-// The pixels of a picture alone, and those of them at the end of the camera's range. Where the
-// picture without laser is full, the one with it shows no stripe, be the laser as bright as it may.
+// Counts the pixels of a picture, and those at the end of the camera's range. A picture that is
+// full even without laser cannot show the stripe.
 StripeCount count_full(const Frame& picture);
 StripeCount operator+(const StripeCount& a, const StripeCount& b);
 StripeCount sum(std::span<const StripeCount> counts);
 
-// 0..1: of all rows of the pictures those without a stripe, of the others those that are saturated,
-// and those that show two.
+// Shares from 0 to 1. `empty` is the share of rows without a stripe. `saturated` and `doubled` are
+// shares of the rows with a stripe: saturated rows, and rows with two stripes.
 struct RowShares {
   double empty = 0, saturated = 0, doubled = 0;
 };
-// `height`: of a picture, pixels.
+// `height` is the height of a picture, in pixels.
 RowShares shares(const StripeCount& scan, int height);
 
-// Whether there is something to measure.
+// Returns whether the scan shows a stripe that can be measured.
 bool shows_stripe(const StripeCount& scan);
 
-// Fails (kBadInput) where the pictures are full ("over-exposed"), where hardly a frame shows a
-// stripe ("no stripe"), where most of it is at the end of the camera's range ("all saturated") or
-// where most rows show two lines ("two stripes").
+// Judges the counts of a scan. Fails with kBadInput if the pictures are full ("over-exposed"),
+// hardly any frame shows a stripe ("no stripe"), most of the stripe is at the end of the camera's
+// range ("all saturated"), or most rows show two stripes ("two stripes").
 Expected<void> judge(const StripeCount& scan);
 
-// Fails (kBadInput) where all that the laser met lies at one height but for a few strays: the table
-// itself ("empty turntable"), or nothing.
+// Judges the profiles of a scan. Fails with kBadInput ("empty turntable") if all points but a few
+// outliers lie at one height, as on the bare table.
 Expected<void> judge(std::span<const Profile> scan);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line through points by least squares, from their sums: points are added, fits are merged.
+// Fits a line to points by least squares. The fit keeps only running sums, so points can be added
+// and fits merged.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 class LineFit {
  public:
@@ -27,17 +28,17 @@ class LineFit {
     return spread > 0 ? (xy_ - x_ * y_ / n_) / spread : 0;
   }
   double at(double x) const { return y_ / n_ + slope() * (x - x_ / n_); }
-  // Sum of the squared distances in y.
+  // Returns the sum of squared distances between points and line, measured along y.
   double squares() const {
     return std::max(0., yy_ - y_ * y_ / n_ - slope() * (xy_ - x_ * y_ / n_));
   }
-  // Sum of the squared distances from the line that makes this sum least: the smaller eigenvalue of
-  // the scatter.
+  // Returns the least sum of squared perpendicular distances that a line can have from the points.
+  // It is the smaller eigenvalue of the scatter matrix.
   double squares_across() const {
     const auto [a, b, c] = scatter();
     return std::max(0., (a + c) / 2 - std::hypot((a - c) / 2, b));
   }
-  // (x, y) moved onto that line.
+  // Projects (x, y) onto the line with the least sum of squared perpendicular distances.
   std::pair<double, double> onto(double x, double y) const {
     const auto [a, b, c] = scatter();
     const double turn = std::atan2(2 * b, a - c) / 2, along_x = std::cos(turn),
@@ -45,8 +46,9 @@ class LineFit {
     const double along = (x - x_ / n_) * along_x + (y - y_ / n_) * along_y;
     return {x_ / n_ + along * along_x, y_ / n_ + along * along_y};
   }
-  // Whether at least three points scatter about the line no more than 95 % of such sets do whose
-  // points all are on a line but for noise of standard deviation `noise`.
+  // Returns whether there are three points or more and a line fits them all: squares() does not
+  // exceed its 95th percentile (approximate) for points on a line with noise of standard deviation
+  // `noise`.
   bool is_within(double noise) const {
     if (n_ < 3) return false;
     return squares() <= noise * noise * (n_ - 2) * (1 + 2.5 / std::sqrt(n_ - 2));
@@ -60,4 +62,4 @@ class LineFit {
   double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

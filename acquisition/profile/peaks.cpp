@@ -7,21 +7,22 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr int kSampledRows = 16;    // of which one is looked at for the noise
-constexpr double kLeastNoise = .7;  // grey levels: what rounding leaves at least
-constexpr int kBlock = 64;          // bytes that are compared at once
+constexpr int kSampledRows = 16;    // every 16th row is used to estimate the noise
+constexpr double kLeastNoise = .7;  // grey levels: rounding alone causes this much noise
+constexpr int kBlock = 64;          // number of bytes compared at once
 
 struct Background {
-  int level = 0;      // grey levels, of the smoothed difference
-  int threshold = 0;  // above it
+  int level = 0;      // grey level of the smoothed difference's background
+  int threshold = 0;  // grey levels above `level` that a peak must exceed
 };
 
 const cv::Mat borrow(const Frame& frame) {
-  return cv::Mat(frame.height, frame.width, CV_8UC1,
-                 const_cast<std::uint8_t*>(frame.pixels.data()));  // cv::Mat knows no const data
+  return cv::Mat(
+      frame.height, frame.width, CV_8UC1,
+      const_cast<std::uint8_t*>(frame.pixels.data()));  // cv::Mat has no constructor for const data
 }
 
 cv::Mat smoothed_difference(const Frame& lit, const Frame& dark, double width) {
@@ -32,8 +33,9 @@ cv::Mat smoothed_difference(const Frame& lit, const Frame& dark, double width) {
   return smooth;
 }
 
-// Median and the distance to the 84th percentile, which is one standard deviation of noise: the
-// stripe is a small part of the picture and moves neither.
+// Returns the median of the smoothed picture, and the threshold for peaks. The noise's standard
+// deviation is the distance from the median to the 84th percentile. The stripe covers too little of
+// the picture to affect either value.
 Background background(const cv::Mat& smooth, double contrast) {
   std::array<std::size_t, 256> histogram{};
   std::size_t total = 0;
@@ -56,7 +58,8 @@ Background background(const cv::Mat& smooth, double contrast) {
   return {level, static_cast<int>(std::ceil(contrast * noise))};
 }
 
-// Blocks of constant size: compilers turn them into byte-wise instructions.
+// Returns the largest of `count` values. Works in blocks of constant size, which compilers
+// vectorise.
 int largest(const std::uint8_t* from, int count) {
   std::array<std::uint8_t, kBlock> top{};
   int u = 0;
@@ -72,7 +75,7 @@ int largest(const std::uint8_t* from, int count) {
   return best;
 }
 
-// The middle of the plateau that starts at the first of the largest values.
+// Returns the peak at the middle of the plateau that starts at the first maximum.
 Peak top_of(const std::uint8_t* row, int from, int to) {
   if (to <= from) return {};
   const int value = largest(row + from, to - from);
@@ -104,7 +107,8 @@ RowPeaks peaks_of(const std::uint8_t* row, int width, int apart, const Backgroun
              right = top_of(row, first.u + apart + 1, width);
   const Peak& second = left.strength > right.strength ? left : right;
   if (!shows(second)) return found;
-  // What falls off from the first peak without a valley is its flank, not another peak.
+  // If the row falls from the first peak without a valley, the slope is the first peak's flank and
+  // not another peak.
   const int valley = least_between(row, first, second);
   if (4 * valley >= 3 * second.strength) return found;
   add(second);
@@ -127,4 +131,4 @@ std::vector<RowPeaks> find_peaks(const Frame& lit, const Frame& dark,
   return peaks;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates for the stripe: up to two peaks a row, to the pixel.
+// Finds candidates for the stripe: up to two peaks for each row, at pixel precision.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include "acquisition/frame/frame.h"
 #include "acquisition/profile/stripe.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct Peak {
   int u = 0;         // pixels
@@ -16,13 +16,14 @@ struct Peak {
 };
 
 struct RowPeaks {
-  int count = 0;  // 0 to 2, the stronger first
+  int count = 0;  // 0 to 2; the stronger peak comes first
   std::array<Peak, 2> peaks;
-  int valley = 0;  // of two: the least strength between them
+  int valley = 0;  // if there are two peaks: the least strength between them
 };
 
-// One entry a row. The background and the noise are measured in the difference itself, so that no
-// threshold is to be set for a camera. Both frames are of one size.
+// Finds the peaks of each row and returns one entry for each row. Background and noise are
+// estimated from the difference of the two frames, so no threshold depends on the camera. Both
+// frames must have the same size.
 std::vector<RowPeaks> find_peaks(const Frame& lit, const Frame& dark, const StripeOptions& options);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

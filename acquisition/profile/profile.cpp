@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 Vec3 position(const Profile& profile, const ProfilePoint& point) {
   const double theta = profile.theta * std::numbers::pi / 180;
@@ -13,4 +13,4 @@ Vec3 position(const Profile& profile, const ProfilePoint& point) {
   return {rho * c + lateral * s, lateral * c - rho * s, z};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

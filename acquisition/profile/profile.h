@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one position of the table shows: points where the laser plane cuts the object.
+// A profile: the points where the laser plane cuts the object, at one position of the table.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,31 @@
 #include "acquisition/calibration/axis.h"
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 enum PointFlag : std::uint8_t {
   kSaturated = 1,  // the stripe's peak is at the end of the camera's range
-  kDouble = 2,     // another peak in the row is about as strong
-  kFilled = 4,     // no measurement: between two ends of a gap
-  kApart = 8,      // the surface does not continue from the point before it in the profile
-  kSecond = 16,    // another surface that the row shows besides that of the point before it
+  kDouble = 2,     // another peak in the row has similar strength
+  kFilled = 4,     // interpolated across a gap, not measured
+  kApart = 8,      // the surface does not continue from the preceding point of the profile
+  kSecond = 16,    // belongs to a second surface in the same row
 };
 
 struct ProfilePoint {
   TablePoint at;
-  int row = 0;  // of the image, ascending within a profile; up to two points have the same
+  int row = 0;  // image row, ascending within a profile; at most two points share a row
   std::uint8_t flags = 0;
 };
 
 struct Profile {
-  double theta = 0;  // degrees by which the table has turned the object, counter-clockwise seen
-                     // from above, in [0, 360)
+  // Angle in degrees by which the table has turned the object, in [0, 360), counter-clockwise seen
+  // from above.
+  double theta = 0;
   std::vector<ProfilePoint> points;
 };
 
-// In the frame of the object: z along the axis, mm; (rho, lateral, z) turned back by theta about z.
+// Returns the point's position in mm in the object's frame, whose z runs along the axis: (rho,
+// lateral, z) rotated back by theta about z.
 Vec3 position(const Profile& profile, const ProfilePoint& point);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -3,10 +3,11 @@
 
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// In [0, 360): less than nothing by a rounding error is nothing, though 360 added to it is 360.
+// Wraps an angle to [0, 360). A negative rounding error becomes 0, because adding 360 to it would
+// give 360.
 double whole_turn(double degrees) {
   const double rest = std::fmod(degrees, 360), turned = rest < 0 ? rest + 360 : rest;
   return turned < 360 ? turned : 0;
@@ -16,7 +17,7 @@ double whole_turn(double degrees) {
 
 Profile profile_of(std::span<const StripePoint> stripe, const Calibration& calibration,
                    double angle) {
-  Profile profile{whole_turn(calibration.axis.clockwise ? -angle : angle), {}};
+  Profile profile{whole_turn(calibration.axis.is_clockwise ? -angle : angle), {}};
   profile.points.reserve(stripe.size());
   for (const StripePoint& point : stripe) {
     if (const auto at = calibration.map.at(point.u, point.row))
@@ -25,4 +26,4 @@ Profile profile_of(std::span<const StripePoint> stripe, const Calibration& calib
   return profile;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the stripe in the image to the profile about the table's axis (paper, eq. 1-2).
+// Converts the stripe in an image to a profile about the table's axis. Source: [WLL] eq. 1 and 2.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 #include "acquisition/profile/profile.h"
 #include "acquisition/profile/stripe.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// `angle`: degrees that the board has turned the table. The sense in which it turns is told by the
-// calibrated axis and goes into Profile::theta, where angles grow counter-clockwise seen from
-// above; nobody after this needs to know. Points outside the calibrated region are left out.
+// `angle` is the angle, in degrees, by which the board has turned the table. Profile::theta always
+// grows counter-clockwise, seen from above; the calibrated axis defines the table's sense of
+// rotation. Points outside the calibrated region are left out.
 Profile profile_of(std::span<const StripePoint> stripe, const Calibration& calibration,
                    double angle);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

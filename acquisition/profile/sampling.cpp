@@ -8,7 +8,7 @@
 #include "acquisition/profile/adaptive_windows.h"
 #include "acquisition/profile/fit_polyline.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using Points = std::span<const ProfilePoint>;
@@ -47,7 +47,8 @@ void for_blocks(Points points, std::size_t length, Take take) {
 }
 
 void sample_equidistantly(Points points, std::size_t length, std::vector<ProfilePoint>& kept) {
-  std::uint8_t apart = 0;  // among those left out since the last
+  // kApart if any point omitted since the last kept point has that flag.
+  std::uint8_t apart = 0;
   for_blocks(points, length, [&](Points block) {
     kept.push_back(block.front());
     kept.back().flags |= apart;
@@ -64,17 +65,17 @@ void sample_as_paper(Points points, std::size_t length, std::vector<ProfilePoint
   });
 }
 
-// The window's line at one of its points.
+// Returns a point on the window's line, at the position of the window's point `at`.
 ProfilePoint end_of(Points points, const Window& window, std::size_t at) {
   ProfilePoint end = points[at];
   end.flags = flags_of(points.subspan(window.first, window.count));
-  const TablePoint& origin = points[0].at;  // of the line's coordinates
+  const TablePoint& origin = points[0].at;  // the line's coordinates are relative to this point
   const auto [rho, z] = window.line.onto(end.at.rho - origin.rho, end.at.z - origin.z);
   end.at.rho = origin.rho + rho, end.at.z = origin.z + z;
   return end;
 }
 
-// The points of all profiles, each apart from the one before.
+// Returns the points of all profiles in one sequence, in which a flag separates the profiles.
 std::vector<ProfilePoint> chain(std::span<const Profile> profiles) {
   std::vector<ProfilePoint> points;
   for (const Profile& profile : profiles) {
@@ -85,10 +86,11 @@ std::vector<ProfilePoint> chain(std::span<const Profile> profiles) {
   return points;
 }
 
-// One profile's: its windows' means, and the ends of its parts.
+// Returns the points that represent one profile: the means of its windows and the ends of its
+// parts.
 std::vector<ProfilePoint> corners_of(Points points, std::span<const Window> windows) {
   std::vector<ProfilePoint> kept;
-  std::vector<Corner> part;
+  std::vector<PolylineVertex> part;
   for (const Window& w : windows) {
     const std::size_t last = w.first + w.count - 1;
     const bool starts = points[w.first].flags & kApart;
@@ -103,7 +105,7 @@ std::vector<ProfilePoint> corners_of(Points points, std::span<const Window> wind
     }
     if (!ends) continue;
     fit_polyline(points, part);
-    for (const Corner& corner : part)
+    for (const PolylineVertex& corner : part)
       kept.push_back(corner.point);
     part.clear();
   }
@@ -127,9 +129,10 @@ void share_points(std::span<Profile> profiles, const SamplingOptions& options) {
   }
 }
 
-// In blocks, which bounds what this takes of the heap.
+// Works in blocks, which bounds the memory used.
 void sample_adaptively(std::span<Profile> profiles, const SamplingOptions& options) {
-  constexpr std::size_t kShared = 2'000'000;  // points; a profile at least
+  constexpr std::size_t kShared =
+      2'000'000;  // largest number of points in a block, unless one profile has more
   while (!profiles.empty()) {
     std::size_t count = 1, points = profiles[0].points.size();
     while (count < profiles.size() && (points += profiles[count].points.size()) <= kShared)
@@ -169,4 +172,4 @@ void sample(std::span<Profile> profiles, const SamplingOptions& options) {
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

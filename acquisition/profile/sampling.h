@@ -1,44 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fewer points a profile (paper, section 2.3, eq. 3-4).
+// Reduces the points of profiles. Source: [WLL] section 2.3, eq. 3 and 4.
 #pragma once
 
 #include <span>
 
 #include "acquisition/profile/profile.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 enum class SamplingMethod {
-  kEquidistant,  // every L-th point, from the first
-  kPaper,        // see below
+  kEquidistant,  // keeps every L-th point, starting with the first
+  kPaper,        // averages by [WLL] eq. 3 and 4, described below
   kAdaptive,
 };
 
 struct SamplingOptions {
   SamplingMethod method = SamplingMethod::kAdaptive;
-  int window = 5;    // L in points: 5, 10, 15, 20; 1 keeps all
-  double noise = 0;  // mm: standard deviation of rho, as calibrated; only kAdaptive asks for it
+  int window = 5;  // the length L, in points: 5, 10, 15 or 20; 1 keeps all points
+  // Calibrated standard deviation of rho, in mm. Only kAdaptive uses it.
+  double noise = 0;
 };
 
-// kPaper, to the letter. Blocks of L points follow each other, the last may be shorter. Of a
-// block's n rho's (eq. 3-4)
+// kPaper follows [WLL] literally. Consecutive blocks have L points; the last block may have fewer.
+// For the n values of rho in a block (eq. 3 and 4)
 //   mean = sum rho_i / n,   s² = sum (rho_i - mean)² / (n - 1);
-// if every |rho_i - mean| <= 3 s the block becomes one point (mean rho, theta, mean z), otherwise
-// all its points stay. The largest possible |rho_i - mean| / s is (n - 1) / sqrt(n): up to L = 10
-// nothing is ever beyond 3 s, and this is plain averaging.
+// if every |rho_i - mean| <= 3 s, the block becomes one point (mean rho, theta, mean z). Otherwise
+// all its points stay. |rho_i - mean| / s is at most (n - 1) / sqrt(n). So up to L = 10 no value
+// exceeds 3 s, and kPaper is plain averaging.
 //
-// kAdaptive keeps at most as many points of all profiles as kEquidistant (and the ends of the
-// profiles' parts) and spends them on detail; profiles of more than 2,000,000 points share them by
-// blocks. Each point stands for a window of neighbours; windows differ in length, up to 2 L points.
-// Starting from single points, those two neighbouring windows of any profile are joined that
-// together deviate least from their common line in (rho, z); what is within `noise` does not count
-// as deviation, and among equals the shortest are joined first. The points begin as the windows'
-// means, at the ends of a part (ProfilePoint flag kApart) on the window's line at its outermost
-// point: nothing shrinks. Then they move so that the polyline through them fits all points best
-// (fit_polyline.h): on a bend, means lie on the inner side. O(n log n).
+// kAdaptive concentrates points on detail. Over all profiles it keeps at most as many points as
+// kEquidistant plus the ends of the profiles' parts. Each kept point represents a window of up to 2
+// L neighbours. Starting from single points, the algorithm merges the two neighbouring windows, of
+// any profile, whose points deviate least from their common line in (rho, z). A deviation within
+// `noise` counts as zero, and if several are equal, the shortest merge comes first. The kept points
+// start as the means of the windows. At the end of a part (PointFlag kApart), a point lies instead
+// on its window's line at the outermost position, so that parts do not shrink. Finally the points
+// move so that the polyline through them fits all original points best (fit_polyline.h). Profiles
+// with more than 2,000,000 points in all are processed in blocks. O(n log n).
 //
-// A point has the row in the middle of its window, so that rows stay ascending; it is kFilled if
-// all of its window is, and has any other flag if one of them has it.
+// A kept point gets the row in the middle of its window, so rows stay ascending. It is kFilled if
+// all points of the window are. It has any other flag that at least one point of the window has.
 void sample(std::span<Profile> profiles, const SamplingOptions& options);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -5,21 +5,25 @@
 #include <array>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr int kShortestLine = 5;  // of a line
-constexpr int kMostSlant = 10;    // pixels from row to row
-constexpr double kMostLit = .1;   // of the weaker peak, between two surfaces
+constexpr int kShortestLine = 5;  // shortest line, in rows
+constexpr int kMostSlant = 10;    // pixels between adjacent rows
+// Largest strength between two surfaces, as a share of the weaker peak's strength.
+constexpr double kMostLit = .1;
 
-using Lengths = std::array<int, 2>;  // rows of the line up to each of a row's peaks
+// For each peak of a row, the number of rows of the line that ends at this peak.
+using Lengths = std::array<int, 2>;
 
-// A stripe that runs along the rows is lit unevenly, but nowhere dark.
+// Returns whether the two peaks of a row come from two surfaces, with a dark gap between them. A
+// stripe parallel to the rows varies in brightness but has no dark gap.
 bool are_two_surfaces(const RowPeaks& row) {
   return row.count == 2 && row.valley <= kMostLit * row.peaks[1].strength;
 }
 
-// Of the line that ends at `peak`, from that of the peak of the row before which is next to it.
+// Returns the length of the line that ends at `peak`. The line continues that of the nearest peak
+// in the row before.
 int length_at(const Peak& peak, const RowPeaks& before, const Lengths& lengths) {
   int nearest = kMostSlant + 1, length = 1;
   for (std::size_t k = 0; k < static_cast<std::size_t>(before.count); ++k) {
@@ -51,4 +55,4 @@ std::vector<int> second_peaks(std::span<const RowPeaks> rows, std::span<const in
   return second;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

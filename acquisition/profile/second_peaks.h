@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the peaks that are not the stripe's first surface show a second one.
+// Finds the peaks that show a second surface behind or before the stripe's first.
 #pragma once
 
 #include <span>
@@ -7,11 +7,11 @@
 
 #include "acquisition/profile/peaks.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// One index a row into its peaks, -1 where there is none: the peak that `chosen` left, if it is
-// dark between the two and the peak is part of a line down the image, of peaks chosen or not.
-// Noise, glints and a stripe that runs along the rows show none.
+// Returns for each row the index of a second peak, or -1. The second peak is the one that `chosen`
+// did not take. It qualifies if the image is dark between the two peaks and the second peak
+// continues a line down the image. Noise, glints and a stripe parallel to the rows do not qualify.
 std::vector<int> second_peaks(std::span<const RowPeaks> rows, std::span<const int> chosen);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

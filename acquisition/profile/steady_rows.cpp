@@ -7,14 +7,16 @@
 
 #include "acquisition/profile/line_fit.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// Speckle moves some rows much more than most; what the median says of it is too little.
+// Corrects the median-based estimate, which is too small because speckle moves a few rows much more
+// than most.
 constexpr double kTails = 1.4;
 
-// The median of |a - 3 b + 3 c - d|, which bends alone do not raise, is .6745 sqrt(20) standard
-// deviations of one row.
+// Estimates the standard deviation of one row's position. The median of the third differences |a -
+// 3 b + 3 c - d| is .6745 sqrt(20) times that standard deviation. A bend alone does not increase
+// third differences.
 double noise_of(const std::vector<StripePoint>& stripe) {
   std::vector<double> thirds;
   for (std::size_t i = 3; i < stripe.size(); ++i) {
@@ -57,4 +59,4 @@ void steady(std::vector<StripePoint>& stripe, int reach) {
     stripe[i].u = u[i];
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Averages a stripe along its rows where it is straight within its own noise.
+// Averages a stripe along its rows where it is straight within its noise.
 #pragma once
 
 #include <vector>
 
 #include "acquisition/profile/stripe.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// The noise is that of the stripe itself, from its third differences (robust: edges do not count).
-// Each point moves in u onto the line through the rows around it: the most rows, up to `reach` on
-// either side, whose scatter about the line is that noise. O(rows * reach).
+// Smooths the stripe along the rows. Each point moves in u onto the line through the largest set of
+// neighbouring rows whose scatter about the line matches the noise. The set extends up to `reach`
+// rows to either side. The noise is estimated from the stripe's third differences, which are robust
+// to edges. O(rows * reach).
 void steady(std::vector<StripePoint>& stripe, int reach);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

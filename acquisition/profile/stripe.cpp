@@ -12,12 +12,13 @@
 #include "acquisition/profile/stripe_path.h"
 #include "acquisition/profile/sub_pixel.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr int kFull = 254;  // grey levels: from here the camera's range is used up
+constexpr int kFull = 254;  // grey level from which a pixel counts as saturated
 constexpr int kFullPixels = 2;
-constexpr double kAsStrong = .5;  // of the chosen peak: another that could be meant as well
+// Share of the chosen peak's strength. Another peak at least this strong may be the stripe as well.
+constexpr double kAsStrong = .5;
 
 bool is_saturated(std::span<const std::uint8_t> lit, int u) {
   const auto from = lit.begin() + std::max(u - 1, 0);
@@ -39,7 +40,8 @@ class Finder {
   Finder(const Frame& lit, const Frame& dark, const StripeOptions& options)
       : lit_(lit), dark_(dark), sub_pixel_(options), steady_rows_(options.steady_rows) {}
 
-  // Of one peak in each row that is not negative in `taken`, with these flags besides its own.
+  // Refines one peak in each row whose entry in `taken` is not negative. Adds `flags` to the flags
+  // of each point.
   std::vector<StripePoint> line(std::span<const RowPeaks> rows, std::span<const int> taken,
                                 std::uint8_t flags) const {
     std::vector<StripePoint> points;
@@ -69,8 +71,8 @@ Expected<std::vector<StripePoint>> find_stripe(const Frame& lit, const Frame& da
                                                const StripeOptions& options) {
   if (lit.width != dark.width || lit.height != dark.height)
     return fail(ErrorCode::kBadInput,
-                fmt::format("the pictures with and without laser have {}x{} and {}x{} pixels: set "
-                            "one region of interest for both",
+                fmt::format("the pictures with and without laser have {}x{} and {}x{} pixels; set "
+                            "the same region for both",
                             lit.width, lit.height, dark.width, dark.height));
   const std::vector<RowPeaks> rows = find_peaks(lit, dark, options);
   const std::vector<int> chosen = choose_peaks(rows), second = second_peaks(rows, chosen);
@@ -84,4 +86,4 @@ Expected<std::vector<StripePoint>> find_stripe(const Frame& lit, const Frame& da
   return stripe;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

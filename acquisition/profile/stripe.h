@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the laser's stripe is in an image: one point a row, sub-pixel across the stripe.
+// Finds the laser's stripe in an image. Each row gets one point, or two if it shows two surfaces,
+// at sub-pixel precision across the stripe.
 #pragma once
 
 #include <vector>
@@ -8,39 +9,41 @@
 #include "acquisition/profile/profile.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 enum class StripeMethod {
-  kDerivativeOfGaussian,  // zero of the smoothed image's derivative: little moved by albedo edges
-  kCentreOfMass,          // of the grey levels about the peak
-  kBlaisRioux,            // zero of a fourth order difference: for thin stripes
+  kDerivativeOfGaussian,  // zero of the smoothed image's derivative; robust to albedo edges
+  kCentreOfMass,          // centre of mass of the grey levels around the peak
+  kBlaisRioux,            // [BR86]: zero of a fourth-order difference; for thin stripes
 };
 
 struct StripeOptions {
   StripeMethod method = StripeMethod::kDerivativeOfGaussian;
-  double width = 2.5;  // pixels: standard deviation of the stripe's cross section, and the filter's
-  double contrast = 6;  // how many times the picture's noise a peak stands out at least
-  // Rows on either side that a point may be averaged with. Speckle moves a single row by tenths of
-  // a pixel; rows are averaged along their common line as far as they lie on one within the noise
-  // of this very stripe, so that edges and detail stay. 0: each row alone.
+  // Standard deviation, in pixels, of the stripe's cross section; also the basis of the filter's
+  // width.
+  double width = 2.5;
+  double contrast = 6;  // least height of a peak, in standard deviations of the picture's noise
+  // A point is averaged with at most this many rows on either side, because speckle moves single
+  // rows by tenths of a pixel. Only rows that lie on a common line, within the stripe's own noise,
+  // are averaged, so edges and detail stay. 0 disables averaging.
   int steady_rows = 4;
 
   bool operator==(const StripeOptions&) const = default;
 };
 
 struct StripePoint {
-  int row = 0;             // pixels; ascending, up to two points have the same
+  int row = 0;             // image row, in pixels; ascending, and at most two points share a row
   double u = 0;            // pixels
-  double strength = 0;     // grey levels above the background, smoothed
-  std::uint8_t flags = 0;  // PointFlag
+  double strength = 0;     // grey levels above the background, after smoothing
+  std::uint8_t flags = 0;  // combination of PointFlag values
 };
 
-// The stripe in `lit` (laser on) that is not in `dark` (laser off). Rows without one are left out.
-// Of two peaks in a row the one that continues the rows around comes first, flagged kDouble if the
-// other is about as strong. The other follows, flagged kSecond, if it is part of a line over
-// several rows: two surfaces, one behind the other. Fails (kBadInput) where the frames differ in
-// size.
+// Finds the stripe that `lit` (laser on) shows and `dark` (laser off) does not. Rows without a
+// stripe are left out. If a row has two peaks, the peak that continues the neighbouring rows comes
+// first. It is flagged kDouble if the other peak has similar strength. The other peak follows,
+// flagged kSecond, if it is part of a line over several rows: the row then shows two surfaces, one
+// behind the other. Fails with kBadInput if the frames differ in size.
 Expected<std::vector<StripePoint>> find_stripe(const Frame& lit, const Frame& dark,
                                                const StripeOptions& options = {});
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

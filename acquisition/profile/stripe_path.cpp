@@ -5,13 +5,15 @@
 #include <array>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// In shares of the row's strongest peak. A real step of the surface pays the jump only once.
+// Cost of a jump, in multiples of the row's strongest peak. A real step of the surface pays this
+// cost only once.
 constexpr double kJumpCost = 6;
-constexpr double kFreePixels = 3;     // a row: a slanted stripe, not a jump
-constexpr double kPixelsOfJump = 20;  // beyond them every jump costs the same
+constexpr double kFreePixels =
+    3;  // shift allowed for each row, because a slanted stripe is no jump
+constexpr double kPixelsOfJump = 20;  // a jump longer than this costs no more
 
 double weakness(const RowPeaks& row, int k) {
   return 1 - static_cast<double>(row.peaks[static_cast<std::size_t>(k)].strength) /
@@ -58,4 +60,4 @@ std::vector<int> choose_peaks(std::span<const RowPeaks> rows) {
   return chosen;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a row's peaks is the stripe: the chain down the image that is strong and jumps little.
+// Chooses the stripe among each row's peaks: the strongest chain down the image with few jumps.
 #pragma once
 
 #include <span>
@@ -7,11 +7,11 @@
 
 #include "acquisition/profile/peaks.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// One index a row into its peaks, -1 where there are none. A reflection that is stronger than the
-// stripe for some rows does not move the chain to it: a jump costs what the difference in strength
-// of several rows gains.
+// Returns for each row the index of the peak that belongs to the stripe, or -1 if the row has no
+// peak. A reflection that is stronger than the stripe in a few rows is not chosen, because jumping
+// to it costs as much strength as several rows gain.
 std::vector<int> choose_peaks(std::span<const RowPeaks> rows);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// Standard deviation of the derivative's Gaussian, in those of the stripe. Against speckle wider is
-// better; against albedo edges on the flank narrower. Very wide it becomes the centre of mass.
+// Standard deviation of the derivative's Gaussian, relative to that of the stripe. A wider filter
+// resists speckle better; a narrower filter is less disturbed by albedo edges on the flank. A very
+// wide filter approaches the centre of mass.
 constexpr double kFilterWidth = 1.4;
-constexpr int kMassSteps = 4;  // the window follows the centre it finds
+constexpr int kMassSteps = 4;  // number of times that the window is recentred on the result
 
 std::vector<double> kernel_of(const StripeOptions& options) {
   if (options.method == StripeMethod::kBlaisRioux) return {1, 1};
@@ -35,7 +36,8 @@ std::optional<double> SubPixel::centre(std::span<const std::uint8_t> lit,
   return method_ == StripeMethod::kCentreOfMass ? mass(lit, dark, u) : zero(lit, dark, u);
 }
 
-// Where the filtered row turns from rising to falling, linear between two pixels.
+// Returns the position at which the filtered row changes from rising to falling, interpolated
+// linearly between two pixels.
 std::optional<double> SubPixel::zero(std::span<const std::uint8_t> lit,
                                      std::span<const std::uint8_t> dark, int u) const {
   const int margin = static_cast<int>(kernel_.size()), width = static_cast<int>(lit.size());
@@ -77,4 +79,4 @@ std::optional<double> SubPixel::mass(std::span<const std::uint8_t> lit,
   return u;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stripe's centre in one row, from the peak to the pixel.
+// Refines the stripe's centre in one row from pixel to sub-pixel precision.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 #include "acquisition/profile/stripe.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 class SubPixel {
  public:
   explicit SubPixel(const StripeOptions& options);
 
-  // In pixels. Nothing where the filter finds no peak near `u`, or the image ends too close by.
-  // The difference of the rows is taken with its sign: cut off at zero it would draw the centre
-  // towards the brighter background.
+  // Returns the stripe's centre in pixels. Returns nullopt if the filter finds no peak near `u` or
+  // the image's border is too close. Negative differences of the two rows are kept, because
+  // clipping them at zero would shift the centre towards the brighter background.
   std::optional<double> centre(std::span<const std::uint8_t> lit,
                                std::span<const std::uint8_t> dark, int u) const;
 
@@ -28,8 +28,8 @@ class SubPixel {
                              double u) const;
 
   StripeMethod method_;
-  int reach_;                   // pixels on either side where the centre may be
-  std::vector<double> kernel_;  // odd: of the distances 1, 2, …
+  int reach_;                   // largest distance, in pixels, between the centre and the peak
+  std::vector<double> kernel_;  // an odd function, stored at the distances 1, 2, …
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

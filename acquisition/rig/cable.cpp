@@ -5,7 +5,7 @@
 #include <mutex>
 #include <stop_token>
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
 Cable::Cable(std::function<void()> pull, std::function<void()> put_back)
     : pull_(std::move(pull)), put_back_(std::move(put_back)) {}
@@ -22,4 +22,4 @@ void Cable::pull() {
   });
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cable that somebody else pulls and, after a while, puts back.
+// Simulates a cable that is unplugged and, after a while, plugged in again.
 #pragma once
 
 #include <chrono>
 #include <functional>
 #include <thread>
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
-// Longer than a client repeats what is not acknowledged (Aravis: for 3 s). A camera that starts
-// within that time would take the repeated trigger for a new one: the simulated camera obeys it
-// though nobody controls it yet, keeps it until it streams, and every frame then is the one before.
+// How long the cable stays unplugged: longer than a client repeats an unacknowledged request
+// (Aravis: 3 s). A simulated camera that restarted earlier would take the repeated trigger for a
+// new one. It would accept the trigger before a client controls it, keep it until streaming starts,
+// and from then on deliver each frame one trigger late.
 inline constexpr std::chrono::milliseconds kUnplugged{5000};
 
 class Cable {
  public:
-  // Both are called by a thread of the cable's own, one after the other. A cable that is destroyed
-  // is not put back any more.
+  // A thread of the cable calls `pull` and `put_back` in turn. Destroying the cable cancels a
+  // pending reconnection.
   Cable(std::function<void()> pull, std::function<void()> put_back);
 
-  // At once, and put back kUnplugged later; returns before. Again: the while begins anew.
+  // Unplugs at once and returns. The cable is plugged in again after kUnplugged; a further call
+  // restarts that interval.
   void pull();
 
  private:
@@ -27,4 +29,4 @@ class Cable {
   std::jthread hand_;
 };
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

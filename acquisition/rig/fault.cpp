@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <charconv>
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
 struct Name {
   std::string_view name;
   FaultKind kind;
-  int step;  // where none is given
+  int step;  // the step at which the fault occurs by default
 };
 
 constexpr Name kFaults[] = {{"lost-packets", FaultKind::kLostPackets, 0},
@@ -35,13 +35,13 @@ Unexpected unknown(std::string_view text) {
 
 }  // namespace
 
-Expected<Fault> parse_fault(std::string_view text) {
+Expected<RigFault> parse_fault(std::string_view text) {
   const std::size_t at = text.find('@');
   const auto known = std::find_if(std::begin(kFaults), std::end(kFaults), [&](const Name& name) {
     return name.name == text.substr(0, at);
   });
   if (known == std::end(kFaults)) return unknown(text);
-  Fault fault{known->kind, known->step};
+  RigFault fault{known->kind, known->step};
   if (at == std::string_view::npos) return fault;
   const char *first = text.data() + at + 1, *last = text.data() + text.size();
   const auto [end, error] = std::from_chars(first, last, fault.step);
@@ -49,22 +49,24 @@ Expected<Fault> parse_fault(std::string_view text) {
   return fault;
 }
 
-bool due(const std::vector<Fault>& faults, FaultKind kind, int turns) {
-  return std::any_of(faults.begin(), faults.end(),
-                     [&](const Fault& fault) { return fault.kind == kind && fault.step == turns; });
+bool due(const std::vector<RigFault>& faults, FaultKind kind, int turns) {
+  return std::any_of(faults.begin(), faults.end(), [&](const RigFault& fault) {
+    return fault.kind == kind && fault.step == turns;
+  });
 }
 
-bool lasting(const std::vector<Fault>& faults, FaultKind kind, int turns) {
-  return std::any_of(faults.begin(), faults.end(),
-                     [&](const Fault& fault) { return fault.kind == kind && fault.step <= turns; });
+bool lasting(const std::vector<RigFault>& faults, FaultKind kind, int turns) {
+  return std::any_of(faults.begin(), faults.end(), [&](const RigFault& fault) {
+    return fault.kind == kind && fault.step <= turns;
+  });
 }
 
-double crept(const std::vector<Fault>& faults, int turns) {
+double crept(const std::vector<RigFault>& faults, int turns) {
   double mm = 0;
-  for (const Fault& fault : faults) {
+  for (const RigFault& fault : faults) {
     if (fault.kind == FaultKind::kDrift) mm += kCreepMm * std::max(0, turns - fault.step);
   }
   return mm;
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

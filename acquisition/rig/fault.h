@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is to go wrong, and when: counted in motions of the table.
+// Faults to simulate, and when they occur, counted in motions of the table.
 #pragma once
 
 #include <string_view>
@@ -7,35 +7,37 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
 enum class FaultKind {
-  kLostPackets,    // from then on one frame in twenty lacks packets
-  kCameraUnplug,   // gone after that motion, back after kUnplugged
-  kUsbUnplug,      // likewise, the board
+  kLostPackets,    // from then on, one frame in twenty lacks packets
+  kCameraUnplug,   // the camera is absent after that motion, and back after kUnplugged
+  kUsbUnplug,      // the board is absent after that motion, and back after kUnplugged
   kMotorStall,     // after that motion the table does not turn until the board is restarted
   kMissedTrigger,  // the first frame after that motion is not sent
-  kDrift,          // from then on the laser creeps by kCreepMm a motion
-  kLaserOut,       // from then on it does not light when it is told to
-  kSecondStripe,   // from then on the scanner's other laser lights with it
+  kDrift,          // from then on, the laser shifts by kCreepMm with each motion
+  kLaserOut,       // from then on, the laser stays dark when switched on
+  kSecondStripe,   // from then on, the scanner's other laser lights as well
 };
 
-struct Fault {
+struct RigFault {
   FaultKind kind = FaultKind::kDrift;
-  int step = 0;  // motions that were completed
+  int step = 0;  // number of completed motions
 };
 
 inline constexpr double kCreepMm = 0.002;
 
-// "NAME" or "NAME@STEP", such as camera-unplug@20; without a step after the first motion, or from
-// the start. Fails (kBadInput) with the names there are.
-Expected<Fault> parse_fault(std::string_view text);
+// Parses "NAME" or "NAME@STEP", such as camera-unplug@20. Without a step, the fault is present from
+// the start or occurs after the first motion, depending on its kind. Fails with kBadInput; the
+// error lists the names.
+Expected<RigFault> parse_fault(std::string_view text);
 
-// Whether that kind is due at exactly that motion, or since an earlier one.
-bool due(const std::vector<Fault>& faults, FaultKind kind, int turns);
-bool lasting(const std::vector<Fault>& faults, FaultKind kind, int turns);
+// due() returns whether a fault of that kind occurs at exactly motion `turns`. lasting() returns
+// whether it occurs at that motion or has occurred at an earlier one.
+bool due(const std::vector<RigFault>& faults, FaultKind kind, int turns);
+bool lasting(const std::vector<RigFault>& faults, FaultKind kind, int turns);
 
-// How far the laser has crept, mm.
-double crept(const std::vector<Fault>& faults, int turns);
+// Returns the laser's shift so far, in mm.
+double crept(const std::vector<RigFault>& faults, int turns);
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -10,16 +10,17 @@
 #include <algorithm>
 #include <mutex>
 
-#include "acquisition/rig/optics.h"
+#include "acquisition/rig_optics/optics.h"
 #include "codec/files/file_descriptor.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
-// Enough of a frame's packets that none of them gets through whole.
+// Share of packets lost in a faulty frame: so high that no such frame arrives complete.
 constexpr double kLostShare = 0.05;
 
-// Aravis would share the port with another camera, and each would hear half of what is said.
+// Returns whether the GigE Vision port is free. Aravis would share the port with another camera,
+// and each camera would receive half of the packets.
 bool is_free(const std::string& address) {
   sockaddr_in control{};
   control.sin_family = AF_INET;
@@ -43,15 +44,15 @@ class GigeCamera::Plugged {
     write(ARV_FAKE_CAMERA_REGISTER_SENSOR_HEIGHT, kSensorHeight);
     write(ARV_FAKE_CAMERA_REGISTER_WIDTH, kSensorWidth);
     write(ARV_FAKE_CAMERA_REGISTER_HEIGHT, kSensorHeight);
-    // How often it looks for a trigger, not how often one comes.
+    // This is how often the camera polls for a trigger. It is not the rate of the triggers.
     arv_fake_camera_set_trigger_frequency(fake_, 500);
     arv_fake_camera_set_fill_pattern(fake_, fill, this);
   }
-  // What is under way does not arrive any more.
+  // Drops the frame that is being sent.
   ~Plugged() {
     {
       const std::lock_guard lock(mutex_);
-      leaving_ = true;
+      is_leaving_ = true;
       if (camera_ != nullptr) lose(1);
     }
     g_clear_object(&camera_);
@@ -77,7 +78,7 @@ class GigeCamera::Plugged {
   }
 
   void fill(ArvBuffer* buffer, const Exposure& exposure) {
-    // The buffer's own size is not set yet; width and height are.
+    // Width and height are already set; the buffer's own size is not.
     const int width = arv_buffer_get_image_width(buffer);
     const int height = arv_buffer_get_image_height(buffer);
     std::size_t unset = 0;
@@ -97,18 +98,18 @@ class GigeCamera::Plugged {
 
   void lose(double share) { g_object_set(camera_, "gvsp-lost-ratio", share, nullptr); }
 
-  // For the frame that is sent next, by the thread that this is called by.
+  // Sets how the next frame is transmitted. Call it from the thread that sends.
   void deliver(Delivery delivery) {
     const double lost = delivery == Delivery::kWhole          ? 0
                         : delivery == Delivery::kLacksPackets ? kLostShare
                                                               : 1;
     const std::lock_guard lock(mutex_);
-    if (!leaving_) lose(lost);
+    if (!is_leaving_) lose(lost);
   }
 
   const Expose& expose_;
   std::mutex mutex_;
-  bool leaving_ = false;
+  bool is_leaving_ = false;
   ArvGvFakeCamera* camera_ = nullptr;
   ArvFakeCamera* fake_ = nullptr;
 };
@@ -121,7 +122,7 @@ GigeCamera::~GigeCamera() = default;
 Expected<std::unique_ptr<GigeCamera>> GigeCamera::plug_in(const GigeCameraOptions& options,
                                                           Expose expose) {
   std::unique_ptr<GigeCamera> camera(new GigeCamera(options, std::move(expose)));
-  if (const auto plugged = camera->plug_in(); !plugged) return Unexpected(plugged.error());
+  if (const auto plugged = camera->plug_in(); !plugged) return tl::unexpected(plugged.error());
   return camera;
 }
 
@@ -130,8 +131,8 @@ Expected<void> GigeCamera::plug_in() {
   auto plugged = is_free(options_.address) ? std::make_unique<Plugged>(options_, expose_) : nullptr;
   if (!plugged || !plugged->running()) {
     return fail(ErrorCode::kIo,
-                fmt::format("camera at {}: no interface has that address, or a camera has it "
-                            "already; give --address or --private-network",
+                fmt::format("camera at {}: no interface has that address, or another camera uses "
+                            "it; give --address or --private-network",
                             options_.address));
   }
   plugged_ = std::move(plugged);
@@ -142,4 +143,4 @@ void GigeCamera::unplug() {
   plugged_.reset();
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

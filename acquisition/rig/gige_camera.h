@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig's camera: Aravis' simulated GigE Vision camera, which shows what the renderer draws.
+// The rig's camera: Aravis' simulated GigE Vision camera, with images from the renderer.
 #pragma once
 
 #include <functional>
@@ -7,17 +7,18 @@
 #include <string>
 
 #include "acquisition/frame/frame.h"
-#include "acquisition/rig/sensor.h"
+#include "acquisition/rig_optics/sensor.h"
 #include "codec/core/expected.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
 struct GigeCameraOptions {
-  std::string address = "127.0.0.1";  // of this machine; GigE Vision allows one camera an address
+  // An address of this machine. GigE Vision allows only one camera for each address.
+  std::string address = "127.0.0.1";
   std::string serial;
 };
 
-// What becomes of a frame on its way.
+// How a frame is transmitted.
 enum class Delivery { kWhole, kLacksPackets, kLost };
 
 struct Exposed {
@@ -27,18 +28,19 @@ struct Exposed {
 
 class GigeCamera {
  public:
-  // Called by the camera's own thread for each frame that is triggered.
+  // Renders a triggered frame. The camera's own thread calls it.
   using Expose = std::function<Exposed(const Exposure&, const SensorRegion&)>;
 
-  // Fails (kIo) where the address is not this machine's or another camera has it.
+  // Creates the camera and plugs it in. Fails with kIo if the address is not one of this machine's
+  // or another camera uses it.
   static Expected<std::unique_ptr<GigeCamera>> plug_in(const GigeCameraOptions& options,
                                                        Expose expose);
   ~GigeCamera();
   GigeCamera(const GigeCamera&) = delete;
   GigeCamera& operator=(const GigeCamera&) = delete;
 
-  // As when the cable is pulled: silent, and its settings forgotten. Both return when it is so, and
-  // do nothing where it is so already.
+  // Simulate the camera's cable. While unplugged, the camera is silent and forgets its settings.
+  // Both functions return when the state is reached, and return at once if it already is.
   Expected<void> plug_in();
   void unplug();
 
@@ -51,4 +53,4 @@ class GigeCamera {
   std::unique_ptr<Plugged> plugged_;
 };
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -6,47 +6,52 @@
 #include <algorithm>
 #include <charconv>
 
-namespace vitrine::rig {
+#include "codec/import/formats.h"
+
+namespace vitrine::acquisition::rig {
 namespace {
 
+// With a place for the list of mesh formats.
 constexpr std::string_view kUsage =
     R"(usage: vitrine-rig (--mesh FILE | --empty) [OPTION]... -- COMMAND [ARGUMENT]...
 
 Simulates a laser scanner: a GigE Vision camera on a loopback address and a motor board on a USB bus
-that only COMMAND sees. Runs COMMAND and exits as it does.
+that only COMMAND sees. Runs COMMAND and exits with its exit code.
 
-  --mesh FILE          what stands on the table: PLY, OBJ, STL, OFF or GLB
-  --up AXIS            the file's axis that points upwards: x, y, z, -x, -y, -z (default y)
-  --height-mm MM       its height on the table (default 80)
-  --empty              nothing stands on the table, and the laser meets its bare plate: under an
-                       object lies black cloth, which shows no light
-  --seed N             which rig: geometry, serial numbers and noise (default 1)
-  --steps N            the scanner's steps a turn, for --write-config (default 720)
+  --mesh FILE          the object on the table: {}
+  --up AXIS            the file's upward axis: x, y, z, -x, -y or -z (default y)
+  --height-mm MM       height of the object, 1 to 95 (default 80)
+  --empty              no object: the laser meets the bare plate of the table (with an object, the
+                       plate is covered by black cloth, which reflects no light)
+  --seed N             seed of geometry, serial numbers and noise: each seed gives a different rig
+                       (default 1)
+  --steps N            steps of a scan in one revolution, written by --write-config (default 720)
   --degrees-per-second N
-                       how fast the table turns (default: it is there at once)
-  --table FILE         keeps where the table stands for the next rig, so that it can go on with a scan
-                       (default: each begins at 0 degrees)
-  --fault NAME[@STEP]  what goes wrong, at that motion of the table; may be repeated: lost-packets,
-                       camera-unplug, usb-unplug, motor-stall, missed-trigger, drift,
+                       speed of the table (default: motions complete at once)
+  --table FILE         file that keeps the table's angle for the next rig, so that a scan can be
+                       resumed (default: each rig starts at 0 degrees)
+  --fault NAME[@STEP]  fault at table motion STEP (default: the start); may be repeated:
+                       lost-packets, camera-unplug, usb-unplug, motor-stall, missed-trigger, drift,
                        laser-out, second-stripe
-  --stripe SHAPE       gaussian, top-hat or skewed (default gaussian)
-  --speckle CONTRAST   of the laser's light, 0.33 to 1 (default 0.33)
-  --matt               no paint of another albedo and no gloss
-  --ideal              no noise, no speckle, a motor without error: to compare methods, never to
-                       state accuracy
-  --address IP         the camera's, of an interface of this machine (default 127.0.0.1); one rig an
-                       address
-  --private-network    camera and COMMAND on a loopback of their own: several rigs on one machine. A
-                       rig that COMMAND starts there may have the address 127.0.0.2
-  --dialect NAME       the board's: horus or fabscan (default horus)
-  --write-config FILE  what `vitrine` is to know of the scanner, as JSON
-  --name NAME          the scanner's in there (default rig)
+  --stripe SHAPE       brightness across the line: gaussian, top-hat or skewed (default gaussian)
+  --speckle CONTRAST   speckle contrast of the laser's light, 0.33 to 1 (default 0.33)
+  --matt               an object without paint patches and without gloss
+  --ideal              no noise, no speckle, no motor error: for comparing methods, not for stating
+                       accuracy
+  --address IP         address of the camera, on an interface of this machine (default 127.0.0.1);
+                       each rig needs its own
+  --private-network    run camera and COMMAND on a loopback of their own, for several rigs on one
+                       machine; a rig that COMMAND starts there may use the address 127.0.0.2
+  --dialect NAME       protocol of the board: horus or fabscan (default horus)
+  --write-config FILE  write the scanner's configuration for `vitrine` to FILE, as JSON
+  --name NAME          name of the scanner in that configuration (default rig)
   --write-commands FILE
-                       what the board is told, a line each, after the time in milliseconds since
-                       1970
-  --write-truth FILE   the object in the table's frame at 0 degrees in mm, as PLY, with a flag
-                       `seen` a vertex: visible to laser and camera; then no COMMAND is needed
-  --help, --version)";
+                       write each command that the board receives to FILE, one per line, after the
+                       time in milliseconds since 1970
+  --write-truth FILE   write the object to FILE as PLY, in mm in the table's frame at 0 degrees, with
+                       a flag `seen` for each vertex: visible to laser and camera; COMMAND is then
+                       optional
+  --help, --version    print this help or the version, and exit)";
 
 Unexpected wrong(std::string_view option, std::string_view value, std::string_view wanted) {
   return fail(ErrorCode::kBadInput, fmt::format("{} {}: give {}", option, value, wanted));
@@ -64,8 +69,8 @@ Expected<T> number(std::string_view option, std::string_view value, T low, T hig
   return parsed;
 }
 
-// Stores what an option says, or tells what it should say.
-class Parser {
+// Parses the command line. Stores the value of each option, or reports the valid values.
+class OptionParser {
  public:
   Expected<RigOptions> parse(std::span<const std::string_view> words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -75,11 +80,11 @@ class Parser {
       }
       if (set_switch(words[i])) continue;
       if (!takes_value(words[i]))
-        return fail(ErrorCode::kBadInput, fmt::format("{}: unknown; see --help", words[i]));
+        return fail(ErrorCode::kBadInput, fmt::format("{}: unknown option; see --help", words[i]));
       if (i + 1 == words.size())
         return fail(ErrorCode::kBadInput, fmt::format("{}: needs a value; see --help", words[i]));
       const auto set = set_value(words[i], words[i + 1]);
-      if (!set) return Unexpected(set.error());
+      if (!set) return tl::unexpected(set.error());
       ++i;
     }
     return finish();
@@ -87,13 +92,13 @@ class Parser {
 
  private:
   bool set_switch(std::string_view word) {
-    if (word == "--help") return options_.help = true;
-    if (word == "--version") return options_.version = true;
-    if (word == "--empty") return empty_ = true;
-    if (word == "--private-network") return options_.private_network = true;
-    if (word == "--ideal") return options_.realism.ideal = true;
+    if (word == "--help") return options_.shows_help = true;
+    if (word == "--version") return options_.shows_version = true;
+    if (word == "--empty") return is_empty_ = true;
+    if (word == "--private-network") return options_.has_private_network = true;
+    if (word == "--ideal") return options_.realism.is_ideal = true;
     if (word != "--matt") return false;
-    options_.finish = {.painted = false, .gloss = 0};
+    options_.finish = {.is_painted = false, .gloss = 0};
     return true;
   }
 
@@ -109,7 +114,7 @@ class Parser {
 
   template <class T>
   Expected<void> store(T& to, const Expected<T>& value) {
-    if (!value) return Unexpected(value.error());
+    if (!value) return tl::unexpected(value.error());
     to = *value;
     return {};
   }
@@ -132,7 +137,7 @@ class Parser {
 
   Expected<void> add_fault(std::string_view value) {
     const auto fault = parse_fault(value);
-    if (!fault) return Unexpected(fault.error());
+    if (!fault) return tl::unexpected(fault.error());
     options_.faults.push_back(*fault);
     return {};
   }
@@ -169,30 +174,31 @@ class Parser {
   }
 
   Expected<RigOptions> finish() {
-    if (options_.help || options_.version) return options_;
-    if (empty_ != placed_.file.empty())
-      return fail(ErrorCode::kBadInput, "what stands on the table? Give --mesh FILE or --empty");
-    if (!empty_) options_.object = placed_;
-    if (empty_ && !options_.write_truth.empty())
-      return fail(ErrorCode::kBadInput, "--write-truth: an empty table has none; give --mesh FILE");
+    if (options_.shows_help || options_.shows_version) return options_;
+    if (is_empty_ != placed_.file.empty())
+      return fail(ErrorCode::kBadInput, "give either --mesh FILE or --empty");
+    if (!is_empty_) options_.object = placed_;
+    if (is_empty_ && !options_.write_truth.empty())
+      return fail(ErrorCode::kBadInput,
+                  "--write-truth: an empty table has no ground truth; give --mesh FILE");
     if (options_.command.empty() && options_.write_truth.empty())
-      return fail(ErrorCode::kBadInput, "no command to run; give one after --");
+      return fail(ErrorCode::kBadInput, "no command given; give one after --");
     return options_;
   }
 
   RigOptions options_;
-  PlacedMesh placed_;
-  bool empty_ = false;
+  ObjectFile placed_;
+  bool is_empty_ = false;
 };
 
 }  // namespace
 
-std::string_view usage() {
-  return kUsage;
+std::string usage() {
+  return fmt::format(kUsage, std::string_view(kImportFormatNames));
 }
 
 Expected<RigOptions> parse_options(std::span<const std::string_view> words) {
-  return Parser().parse(words);
+  return OptionParser().parse(words);
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

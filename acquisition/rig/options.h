@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of vitrine-rig.
+// Parses the command line of vitrine-rig.
 #pragma once
 
 #include <optional>
@@ -9,29 +9,31 @@
 #include <vector>
 
 #include "acquisition/rig/fault.h"
-#include "acquisition/rig/placed_mesh.h"
-#include "acquisition/rig/renderer.h"
-#include "acquisition/rig/solid.h"
+#include "acquisition/rig_optics/object_file.h"
+#include "acquisition/rig_optics/renderer.h"
+#include "acquisition/rig_optics/solid.h"
 #include "codec/core/expected.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
 struct RigOptions {
-  bool help = false, version = false, private_network = false;
-  std::optional<PlacedMesh> object;  // nothing: an empty table, its plate bare
+  bool shows_help = false, shows_version = false, has_private_network = false;
+  std::optional<ObjectFile> object;  // nullopt means an empty table
   Realism realism;
   Finish finish;
   int steps = 720;
-  double degrees_per_second = 0;  // of the table; 0: it is there at once
-  std::vector<Fault> faults;
+  // Speed of the table. 0 completes motions at once.
+  double degrees_per_second = 0;
+  std::vector<RigFault> faults;
   std::string address = "127.0.0.1", dialect = "horus", name = "rig";
-  std::string write_config, write_truth, write_commands, table;  // files; empty: not asked for
+  // Names of files. Empty if not requested.
+  std::string write_config, write_truth, write_commands, table;
   std::vector<std::string> command;
 };
 
-std::string_view usage();
+std::string usage();
 
-// Fails (kBadInput) with the option and what it takes.
+// Fails with kBadInput; the error names the option and its valid values.
 Expected<RigOptions> parse_options(std::span<const std::string_view> words);
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -15,10 +15,11 @@
 
 #include "codec/files/file_descriptor.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
-// As oneself where one may; otherwise as root of a user namespace in which one has the same name.
+// Enters a new network namespace as the current user, if the system permits it. Otherwise enters a
+// new user namespace first, in which this process is root, mapped to the same user outside.
 bool leave_network() {
   if (::unshare(CLONE_NEWNET) == 0) return true;
   const auto user = ::getuid();
@@ -36,7 +37,8 @@ bool raise_loopback() {
   std::strcpy(request.ifr_name, "lo");
   request.ifr_flags = IFF_UP | IFF_RUNNING;
   if (::ioctl(socket.get(), SIOCSIFFLAGS, &request) != 0) return false;
-  // Aravis has a camera answer at none but an address that an interface has for its own.
+  // Aravis's camera answers only at an address that belongs to an interface, so this adds an
+  // address.
   std::strcpy(request.ifr_name, "lo:2");
   sockaddr_in second{};
   second.sin_family = AF_INET;
@@ -55,4 +57,4 @@ Expected<void> enter_private_network() {
                           std::strerror(errno)));
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rigs side by side: GigE Vision's control port is fixed, so that each needs a loopback of its own.
+// Gives each rig a network of its own. Rigs that run side by side need this because GigE Vision's
+// control port is fixed.
 #pragma once
 
 #include "codec/core/expected.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
-// Moves this process, and all it starts from now on, into a network of their own that has nothing
-// but a loopback. Call it before there is a second thread. Fails (kIo) where the system does not
-// let it.
+// Moves this process and its future children into a new network namespace that has only a loopback
+// interface. Call it before a second thread exists. Fails with kIo if the system does not permit
+// it.
 Expected<void> enter_private_network();
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "acquisition/rig/sensor.h"
-#include "acquisition/rig/target.h"
+#include "acquisition/rig_optics/sensor.h"
+#include "acquisition/rig_optics/target.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
 std::string to_json(const RigFile& rig) {
   using Json = nlohmann::ordered_json;
@@ -34,4 +34,4 @@ std::string to_json(const RigFile& rig) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

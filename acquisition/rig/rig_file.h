@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `vitrine` is told about this rig, as about any scanner: nothing of what calibration finds.
+// Writes the rig.json of this rig, which `vitrine` reads as for any other scanner.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
 struct BoardAddress {
-  std::string dialect, vendor, product, serial;  // such as horus, 0x2341, 0x0043
+  std::string dialect, vendor, product, serial;  // for example horus, 0x2341, 0x0043
 };
 
 struct RigFile {
   std::string name = "rig", camera_address;
   BoardAddress board;
   int steps = 720;
-  std::filesystem::path calibrations;  // folder
-  std::filesystem::path socket;        // of the operator's door
+  std::filesystem::path calibrations;  // folder of the calibrations
+  std::filesystem::path socket;        // the operator's socket (operator_socket.h)
 };
 
 std::string to_json(const RigFile& rig);
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -7,23 +7,23 @@
 #include <filesystem>
 #include <memory>
 
-#include "acquisition/rig/operator_door.h"
+#include "acquisition/rig/operator_socket.h"
 #include "acquisition/rig/options.h"
-#include "acquisition/rig/plate.h"
 #include "acquisition/rig/private_network.h"
 #include "acquisition/rig/rig_file.h"
+#include "acquisition/rig/rig_scanner.h"
 #include "acquisition/rig/run_command.h"
-#include "acquisition/rig/scanner.h"
-#include "acquisition/rig/solid.h"
 #include "acquisition/rig/truth.h"
+#include "acquisition/rig_optics/plate.h"
+#include "acquisition/rig_optics/solid.h"
 #include "codec/files/atomic_file.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Of the socket; gone at the end.
+// A temporary folder for the operator's socket. The destructor removes it.
 class OwnFolder {
  public:
   OwnFolder() {
@@ -70,36 +70,36 @@ Expected<void> write_config(const RigOptions& options, const fs::path& socket) {
 
 Expected<int> serve(const RigOptions& options, const Subject* object) {
   const OwnFolder folder;
-  auto scanner = Scanner::start({.object = object,
-                                 .realism = options.realism,
-                                 .faults = options.faults,
-                                 .camera_address = options.address,
-                                 .fabscan = options.dialect == "fabscan",
-                                 .degrees_per_second = options.degrees_per_second,
-                                 .table = options.table,
-                                 .commands = options.write_commands});
-  if (!scanner) return Unexpected(scanner.error());
-  auto door = open_door(folder.socket(), (*scanner)->stage());
-  if (!door) return Unexpected(door.error());
+  auto scanner = RigScanner::start({.object = object,
+                                    .realism = options.realism,
+                                    .faults = options.faults,
+                                    .camera_address = options.address,
+                                    .is_fabscan = options.dialect == "fabscan",
+                                    .degrees_per_second = options.degrees_per_second,
+                                    .table = options.table,
+                                    .commands = options.write_commands});
+  if (!scanner) return tl::unexpected(scanner.error());
+  auto listener = open_operator_socket(folder.socket(), (*scanner)->stage());
+  if (!listener) return tl::unexpected(listener.error());
   const auto written = write_config(options, folder.socket());
-  if (!written) return Unexpected(written.error());
+  if (!written) return tl::unexpected(written.error());
   return run_command(options.command);
 }
 
 Expected<int> run_with_object(const RigOptions& options) {
   const auto mesh = load(*options.object);
-  if (!mesh) return Unexpected(mesh.error());
+  if (!mesh) return tl::unexpected(mesh.error());
   const Solid solid(*mesh, options.finish);
   if (!options.write_truth.empty()) {
     const auto seen = seen_vertices(*mesh, solid, optics_of(options.realism.seed));
     const auto written = write_file_atomically(options.write_truth, truth_ply(*mesh, seen));
-    if (!written) return Unexpected(written.error());
+    if (!written) return tl::unexpected(written.error());
   }
   return options.command.empty() ? 0 : serve(options, &solid);
 }
 
 Expected<int> run_empty(const RigOptions& options) {
-  const Solid bare(plate(), {.painted = false, .gloss = 0});
+  const Solid bare(plate(), {.is_painted = false, .gloss = 0});
   return serve(options, &bare);
 }
 
@@ -113,9 +113,9 @@ int complain(const Error& error, int exit_code) {
 int run(std::span<const std::string_view> words) {
   const auto options = parse_options(words);
   if (!options) return complain(options.error(), 2);
-  if (options->help) return fmt::print("{}\n", usage()), 0;
-  if (options->version) return fmt::print("vitrine-rig " VITRINE_VERSION "\n"), 0;
-  if (options->private_network) {
+  if (options->shows_help) return fmt::print("{}\n", usage()), 0;
+  if (options->shows_version) return fmt::print("vitrine-rig " VITRINE_VERSION "\n"), 0;
+  if (options->has_private_network) {
     const auto entered = enter_private_network();
     if (!entered) return complain(entered.error(), 1);
   }
@@ -124,4 +124,4 @@ int run(std::span<const std::string_view> words) {
   return code ? *code : complain(code.error(), 1);
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -12,10 +12,11 @@
 #include <cstring>
 #include <fstream>
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr timespec kPatience{5, 0};  // between asking a leftover to end and ending it
+// Time that a leftover process has to end before it is killed.
+constexpr timespec kGracePeriod{5, 0};
 
 sigset_t held_signals() {
   sigset_t set;
@@ -33,7 +34,8 @@ std::vector<char*> wrapped(const std::vector<std::string>& words) {
   return arguments;
 }
 
-// Allocates nothing: other threads may have held any lock when this process was forked off.
+// Becomes the command after the fork. Must not allocate, because another thread may have held any
+// lock at the time of the fork.
 [[noreturn]] void become(char* const* arguments) {
   const sigset_t set = held_signals();
   ::sigprocmask(SIG_UNBLOCK, &set, nullptr);
@@ -47,7 +49,7 @@ int exit_code(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// Waits for `child`, passing signals on to it.
+// Waits until `child` ends and forwards signals to it.
 int attend(pid_t child) {
   const sigset_t set = held_signals();
   for (;;) {
@@ -69,7 +71,7 @@ std::vector<pid_t> children() {
   return found;
 }
 
-// Orphans of the command have become ours.
+// Ends the processes that the command left behind. They are now children of this process.
 void end_leftovers() {
   sigset_t ended;
   sigemptyset(&ended);
@@ -78,7 +80,7 @@ void end_leftovers() {
   for (auto left = children(); !left.empty(); left = children()) {
     for (const pid_t child : left)
       ::kill(child, signal);
-    if (::sigtimedwait(&ended, nullptr, &kPatience) < 0 && errno == EAGAIN) signal = SIGKILL;
+    if (::sigtimedwait(&ended, nullptr, &kGracePeriod) < 0 && errno == EAGAIN) signal = SIGKILL;
     while (::waitpid(-1, nullptr, WNOHANG) > 0) {
     }
   }
@@ -105,4 +107,4 @@ Expected<int> run_command(const std::vector<std::string>& words) {
   return code;
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a command where the simulated USB board can be seen, and leaves nothing behind.
+// Runs a command that can see the simulated USB board, and cleans up after it.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
-// Keeps the signals that run_command() waits for from every thread; call it before there is a
-// second one.
+// Blocks, in every thread, the signals that run_command() waits for. Call it before a second thread
+// exists.
 void hold_signals();
 
-// Runs `words` under umockdev-wrapper and answers its exit code, 128 and the signal's number where
-// one ended it. SIGTERM, SIGINT and SIGHUP are passed on to it. All that it started and left behind
-// is ended, too, and it ends with this process.
+// Runs `words` under umockdev-wrapper. Returns the command's exit code, or 128 plus the signal's
+// number if a signal ended the command. Forwards SIGTERM, SIGINT and SIGHUP to the command. Ends
+// all processes that the command leaves behind, and ends the command if this process ends.
 Expected<int> run_command(const std::vector<std::string>& words);
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -10,7 +10,7 @@
 #include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
 constexpr std::uint64_t kMostBytes = 100;
@@ -21,15 +21,15 @@ Expected<double> read_table(const std::filesystem::path& file) {
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown)) return 0;
   const auto bytes = read_file(file, kMostBytes);
-  if (!bytes) return Unexpected(bytes.error());
+  if (!bytes) return tl::unexpected(bytes.error());
   const std::string text(bytes->begin(), bytes->end());
   double degrees = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), degrees);
   if (error == std::errc{} && std::string_view(end) == "\n" && std::isfinite(degrees))
     return degrees;
-  return fail(
-      ErrorCode::kBadInput,
-      fmt::format("{} holds no angle of a table; remove it, and begin scans anew", file.string()));
+  return fail(ErrorCode::kBadInput,
+              fmt::format("{} does not contain the table's angle; remove it and restart the scans",
+                          file.string()));
 }
 
 Expected<void> write_table(const std::filesystem::path& file, double degrees) {
@@ -38,4 +38,4 @@ Expected<void> write_table(const std::filesystem::path& file, double degrees) {
   return write_file_atomically(file, {first, text.size()});
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

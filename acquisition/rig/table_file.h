@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file that keeps where the table stands while no rig runs.
+// A file that keeps the table's angle while no rig runs.
 #pragma once
 
 #include <filesystem>
 
 #include "codec/core/expected.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
-// Degrees; 0 where there is no such file. Fails where it holds anything but a number.
+// Returns the table's angle in degrees, or 0 if the file does not exist. Fails if the file holds
+// anything but a number.
 Expected<double> read_table(const std::filesystem::path& file);
 
 Expected<void> write_table(const std::filesystem::path& file, double degrees);
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -9,15 +9,16 @@
 #include <numbers>
 #include <string>
 
-#include "acquisition/rig/view.h"
+#include "acquisition/rig_optics/local_optics.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
-constexpr double kClearance =
-    0.02;  // mm, that rays keep from the vertex whose faces they would meet
+// mm: a ray starts this far from its vertex, so that it does not hit the vertex's own faces.
+constexpr double kClearance = 0.02;
 
-// Weighted by their areas; zero for a vertex without a face.
+// Returns for each vertex the mean of its faces' normals, weighted by area. Zero for a vertex
+// without a face.
 std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size());
   for (const Triangle& face : mesh.faces) {
@@ -33,15 +34,15 @@ std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
   return normals;
 }
 
-// The angles, in degrees, that turn `p` into the sheet: normal.y (x sin + y cos) = offset -
-// normal.z z.
+// Returns the table's angles, in degrees, at which `p` lies in the laser sheet: the solutions of
+// normal.y (x sin + y cos) = offset - normal.z z.
 std::vector<double> crossings(const Optics& optics, const Vec3& p) {
   const LaserSheet& laser = optics.laser;
   const double radius = std::hypot(p.x, p.y);
   const double aside = (laser.offset - laser.normal.z * p.z) / laser.normal.y;
   if (radius <= std::abs(aside)) return {};
   const double azimuth = std::atan2(p.y, p.x), up = std::asin(aside / radius);
-  const double sense = optics.clockwise ? -1 : 1;
+  const double sense = optics.is_clockwise ? -1 : 1;
   constexpr double kDegrees = 180 / std::numbers::pi;
   return {sense * (up - azimuth) * kDegrees, sense * (std::numbers::pi - up - azimuth) * kDegrees};
 }
@@ -59,15 +60,15 @@ class Witness {
 
  private:
   bool sees_at(double degrees, const Vec3& p, const Vec3& normal) const {
-    const View view = seen_from(on_table(optics_, degrees), optics_);
-    const double to_camera = steepness(normal, view.camera.at - p);
-    const double to_laser = steepness(normal, view.laser.source - p);
-    if (to_camera * to_laser <= 0 || !within_picture(view.camera, p)) return false;
+    const LocalOptics optics = optics_in(on_table(optics_, degrees), optics_);
+    const double to_camera = steepness(normal, optics.camera.at - p);
+    const double to_laser = steepness(normal, optics.laser.source - p);
+    if (to_camera * to_laser <= 0 || !within_picture(optics.camera, p)) return false;
     const double least = std::cos(kGrazing * std::numbers::pi / 180);
     if (std::abs(to_camera) < least || std::abs(to_laser) < least) return false;
     const Vec3 before = p + normal * (to_camera < 0 ? -kClearance : kClearance);
-    return !solid_.blocked(before, view.laser.source, 0) &&
-           !solid_.blocked(before, view.camera.at, 0);
+    return !solid_.blocked(before, optics.laser.source, 0) &&
+           !solid_.blocked(before, optics.camera.at, 0);
   }
 
   static double steepness(const Vec3& normal, const Vec3& way) {
@@ -127,4 +128,4 @@ std::vector<std::uint8_t> truth_ply(const TriangleMesh& mesh,
   return out;
 }
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

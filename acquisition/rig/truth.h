@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scan is measured against: the object, and which of it can be scanned at all.
+// The ground truth for a scan: the object, and the part of its surface that can be scanned.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "acquisition/rig/optics.h"
-#include "acquisition/rig/solid.h"
+#include "acquisition/rig_optics/optics.h"
+#include "acquisition/rig_optics/solid.h"
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 
-inline constexpr double kGrazing = 85;  // degrees off a surface's normal
+inline constexpr double kGrazing =
+    85;  // largest angle, in degrees, between a surface's normal and a line of sight
 
-// A flag a vertex. Seen is a vertex that, at one of the two angles of the table at which it lies in
-// the laser sheet, neither the object hides from the laser's source or from the camera nor the edge
-// of the picture cuts off, and whose surface both meet on the same side within kGrazing of its
-// normal (the mean of its faces). Not a sample over steps: it is what ever finer steps come to.
+// Returns one flag for each vertex: whether the scanner can see it. A vertex lies in the laser
+// sheet at two angles of the table. It is seen if, at one of these angles, laser source and camera
+// both have a free line of sight to it, on the same side of the surface and within kGrazing of the
+// vertex's normal (the mean of its faces' normals), and it is inside the picture. The result is the
+// limit for ever finer steps of the table, not a sample.
 std::vector<std::uint8_t> seen_vertices(const TriangleMesh& mesh, const Solid& solid,
                                         const Optics& optics);
 
-// Binary PLY in mm, with the flag as `property uchar seen`.
+// Returns a binary PLY in mm that has the flag as `property uchar seen`.
 std::vector<std::uint8_t> truth_ply(const TriangleMesh& mesh,
                                     const std::vector<std::uint8_t>& seen);
 
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

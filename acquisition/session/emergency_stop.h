@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The red button of a scanner: reaches the board that is open now from any thread, and keeps one
-// that is opened later from being used.
+// The emergency stop of a scanner. A press, from any thread, stops the board that is open now and
+// also keeps boards opened later from being used.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 #include "acquisition/device/board.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 class EmergencyStop {
  public:
@@ -22,17 +22,18 @@ class EmergencyStop {
     const std::lock_guard lock(mutex_);
     return presses_ > released_;
   }
-  std::uint64_t presses() const {  // how many so far
+  std::uint64_t presses() const {  // number of presses so far
     const std::lock_guard lock(mutex_);
     return presses_;
   }
-  // Takes back the first `presses`: a later one holds.
+  // Releases the first `presses` presses. A later press stays in effect.
   void release(std::uint64_t presses) {
     const std::lock_guard lock(mutex_);
     released_ = std::max(released_, presses);
   }
 
-  // Until guard(nullptr) `board` is stopped with a press; at once where that was before.
+  // From now until guard(nullptr), a press stops `board`. An earlier press that is still in effect
+  // stops it at once.
   void guard(Board* board) {
     const std::lock_guard lock(mutex_);
     board_ = board;
@@ -45,4 +46,4 @@ class EmergencyStop {
   std::uint64_t presses_ = 0, released_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 Expected<void> FirstLook::add(const FramePair& frames, double angle) {
   auto measured = measure_profile(frames, calibration_, options_, angle);
@@ -18,4 +18,4 @@ Expected<void> FirstLook::judgement() const {
   return judge(profiles_);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the first frames of a scan show an object in the laser's light, and if not, what the
-// operator should do.
+// Checks whether the first frames of a scan show an object in the laser's light. If not, the error
+// says what the operator should do.
 #pragma once
 
 #include <vector>
 
 #include "acquisition/session/processing.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 class FirstLook {
  public:
   FirstLook(const Calibration& calibration, const StripeOptions& stripe)
       : calibration_(calibration), options_(stripe) {}
 
-  // Another view, with the table at `angle` degrees.
+  // Adds the frames taken with the table at `angle` degrees.
   Expected<void> add(const FramePair& frames, double angle);
 
-  // Of all views so far.
+  // Judges all views added so far.
   Expected<void> judgement() const;
 
  private:
@@ -27,4 +27,4 @@ class FirstLook {
   std::vector<Profile> profiles_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

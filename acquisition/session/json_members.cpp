@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using nlohmann::json;
@@ -17,18 +17,19 @@ const json kEmptyObject = json::object();
 
 Expected<json> parse_json_object(std::string_view text, const std::string& place) {
   if (text.size() > kMaxJsonBytes) {
-    return fail(ErrorCode::kLimit, fmt::format("{} is longer than {} bytes; name the right file",
+    return fail(ErrorCode::kLimit, fmt::format("{} is longer than {} bytes; give the right file",
                                                place, kMaxJsonBytes));
   }
-  bool deep = false;
+  bool is_deep = false;
   const auto shallow = [&](int depth, json::parse_event_t, json&) {
-    deep = deep || depth > kMaxDepth;
-    return !deep;
+    is_deep = is_deep || depth > kMaxDepth;
+    return !is_deep;
   };
   json object = json::parse(text, shallow, /*allow_exceptions=*/false);
-  if (!deep && object.is_object()) return object;
-  return fail(ErrorCode::kBadInput,
-              fmt::format("{} is not a JSON object; see the README for an example", place));
+  if (!is_deep && object.is_object()) return object;
+  return fail(
+      ErrorCode::kBadInput,
+      fmt::format("{} is not a JSON object; see acquisition/README.md for an example", place));
 }
 
 JsonMembers::JsonMembers(const json& object, std::string place,
@@ -36,7 +37,7 @@ JsonMembers::JsonMembers(const json& object, std::string place,
     : object_(object), place_(std::move(place)) {
   for (const auto& [key, value] : object.items()) {
     if (std::find(known.begin(), known.end(), key) == known.end())
-      fault(key, fmt::format("is not known here (known are {})", fmt::join(known, ", ")));
+      fault(key, fmt::format("is an unknown key (known are {})", fmt::join(known, ", ")));
   }
 }
 
@@ -62,7 +63,7 @@ std::string JsonMembers::text(std::string_view key, std::string_view otherwise) 
   if (value == nullptr) return std::string(otherwise);
   if (value->is_string() && value->get_ref<const std::string&>().size() <= kMaxLength)
     return value->get<std::string>();
-  fault(key, "must be a text");
+  fault(key, "must be a string");
   return std::string(otherwise);
 }
 
@@ -113,4 +114,4 @@ void JsonMembers::adopt(const JsonMembers& inner) {
   if (!fault_) fault_ = inner.fault_;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

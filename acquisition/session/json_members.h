@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading of small JSON files that people may have written: each fault names file, key and what is
-// expected there.
+// Reads small JSON files that people may have written. Each error names the file, the key and the
+// expected value.
 #pragma once
 
 #include <initializer_list>
@@ -12,18 +12,18 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 inline constexpr std::size_t kMaxJsonBytes = 1 << 20;
 
-// The object that `text` holds; `place` is the file's name.
+// Parses `text` as an object; `place` is the file's name.
 Expected<nlohmann::json> parse_json_object(std::string_view text, const std::string& place);
 
-// The members of one object. A read that fails gives `otherwise`, and the first fault is kept, so
-// that a sequence of reads is checked once.
+// Reads the members of one object. If a read fails, it returns `otherwise`. The first error is
+// kept, so one check() after a sequence of reads is enough.
 class JsonMembers {
  public:
-  // A key that is not in `known` is a fault. `object` outlives this.
+  // Keys that are not in `known` are errors. `object` must outlive this reader.
   JsonMembers(const nlohmann::json& object, std::string place,
               std::initializer_list<std::string_view> known);
 
@@ -32,14 +32,15 @@ class JsonMembers {
   double number(std::string_view key, double low, double high, double otherwise);
   int whole(std::string_view key, int low, int high, int otherwise);
   bool flag(std::string_view key, bool otherwise);
-  // The value's place among `choices`.
+  // Reads one of `choices` and returns its index.
   std::size_t choice(std::string_view key, std::span<const std::string_view> choices,
                      std::size_t otherwise);
-  // An object, empty where the key is absent. Its faults are to be collected by adopt().
+  // object() returns a reader of a nested object, which is empty if the key is absent. adopt()
+  // takes over that reader's error.
   JsonMembers object(std::string_view key, std::initializer_list<std::string_view> known);
   void adopt(const JsonMembers& inner);
 
-  // `what`: "must be …".
+  // Reports a fault. `what` has the form "must be …".
   void fault(std::string_view key, std::string_view what);
   Expected<void> check() const;
 
@@ -47,8 +48,8 @@ class JsonMembers {
   const nlohmann::json* find(std::string_view key) const;
 
   const nlohmann::json& object_;
-  std::string place_;  // "rig.json" or "rig.json: camera"
+  std::string place_;  // place in the file, such as "rig.json" or "rig.json: camera"
   std::optional<Error> fault_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

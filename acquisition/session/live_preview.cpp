@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 int scale_for(int width) {
   return std::max(1, (width + kPreviewWidth - 1) / kPreviewWidth);
 }
 
-// The brightest pixel of each square: a thin stripe stays visible.
+// Shrinks a frame. Each pixel becomes the brightest of its square, so that a thin stripe stays
+// visible.
 std::shared_ptr<const Frame> shrink(const Frame& frame, int scale) {
   auto small = std::make_shared<Frame>();
   small->width = frame.width / scale, small->height = frame.height / scale;
@@ -73,4 +74,4 @@ std::vector<std::array<float, 3>> LivePreview::cloud_from(std::size_t first) con
           cloud_.end()};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

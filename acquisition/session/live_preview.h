@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an operator sees while a scan runs: the last frame, the last profile and the growing cloud
-// of points. Written by the scan, read from any thread.
+// Shows a running scan: the last frame, the last profile and the growing point cloud. The scan's
+// thread writes them; any thread may read them.
 #pragma once
 
 #include <array>
@@ -11,40 +11,41 @@
 #include "acquisition/frame/frame.h"
 #include "acquisition/profile/profile.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct PreviewFrame {
-  std::shared_ptr<const Frame>
-      frame;      // laser on, at most kPreviewWidth wide; null before the first
-  int scale = 1;  // a pixel of it is that many of the camera's on either side
+  // The frame taken with laser, at most kPreviewWidth wide. Null before the first frame.
+  std::shared_ptr<const Frame> frame;
+  int scale = 1;  // number of camera pixels along each side of a preview pixel
 };
 
 inline constexpr int kPreviewWidth = 650;
-inline constexpr std::size_t kCloudPoints = 100'000;  // at most
+inline constexpr std::size_t kCloudPoints = 100'000;  // upper limit of the cloud's size
 
 class LivePreview {
  public:
-  // For a scan of `steps` profiles, each of which has the same share of the cloud.
+  // Previews a scan of `steps` profiles. Each profile gets the same share of the cloud.
   explicit LivePreview(int steps);
 
   void show(Frame lit);
   void add(const Profile& profile);
 
-  PreviewFrame frame() const;      // made when it is asked for: a scan has no time to lose
-  Profile profile() const;         // the last one
-  std::size_t cloud_size() const;  // points so far
-  // The points of the cloud from number `first` on, mm, in the frame of the object. The cloud only
-  // grows, so that a viewer asks for what it does not have. That of a scan which is opened anew
-  // lacks the steps that were given up: a viewer of it that held more points starts over.
+  PreviewFrame frame() const;      // shrinks the last frame when called, to keep the scan fast
+  Profile profile() const;         // returns the last profile
+  std::size_t cloud_size() const;  // returns the number of points so far
+  // Returns the cloud's points from index `first` on, in mm in the object's frame. The cloud
+  // usually only grows, so a viewer requests only the points that it lacks. It shrinks if a
+  // reopened scan has discarded steps. A viewer that then holds more points than the cloud starts
+  // over.
   std::vector<std::array<float, 3>> cloud_from(std::size_t first) const;
 
  private:
-  const std::size_t share_;  // points of a profile, at most
+  const std::size_t share_;  // largest number of points from one profile
 
-  mutable std::mutex mutex_;            // of what follows
-  std::shared_ptr<const Frame> frame_;  // as large as the camera's
+  mutable std::mutex mutex_;            // guards the members below
+  std::shared_ptr<const Frame> frame_;  // at the camera's full size
   Profile profile_;
   std::vector<std::array<float, 3>> cloud_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

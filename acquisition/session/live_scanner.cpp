@@ -5,14 +5,16 @@
 
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr int kPairTries = 3;
 
-constexpr std::size_t kNoisy = 10;  // of so many pixels one at least differs from the next
+// A picture counts as noisy if more than one in this many pixels differs from the pixel before it.
+constexpr std::size_t kNoisy = 10;
 
-// Not of a picture behind a lens cap, of a dazzled one, or of an ideal camera.
+// Returns whether a picture shows noise. Pictures taken with the lens cap on, over-exposed pictures
+// and pictures of ideal cameras have none.
 bool shows_noise(const Frame& frame) {
   std::size_t changes = 0;
   for (std::size_t i = 1; i < frame.pixels.size(); ++i)
@@ -39,8 +41,8 @@ LiveScanner::LiveScanner(std::unique_ptr<Camera> camera, std::unique_ptr<Board> 
 }
 
 LiveScanner::~LiveScanner() {
-  if (!board_) return;  // moved from
-  // Closing switches them off, too; an error has nobody left to be told.
+  if (!board_) return;  // this object was moved from
+  // Closing the board switches both off anyway, and no caller is left to receive an error.
   (void)board_->laser(false);
   (void)board_->rest();
   stop_->guard(nullptr);
@@ -52,8 +54,8 @@ Expected<void> LiveScanner::find_position(double otherwise) {
   return *position ? Expected<void>{} : board_->set_position(otherwise);
 }
 
-// A picture that is delivered twice would be a step without a stripe. Where pictures show no noise
-// it may be one: the laser meets nothing there.
+// If the camera delivered the same picture twice, the step would have no stripe, so the capture is
+// repeated. Without noise, however, equal pictures are correct if the laser hits no surface.
 Expected<FramePair> LiveScanner::capture_pair() {
   auto pair = capture_once();
   for (int i = 1; i < kPairTries && pair && pair->dark == pair->lit; ++i)
@@ -61,7 +63,7 @@ Expected<FramePair> LiveScanner::capture_pair() {
   if (!pair || pair->dark != pair->lit || !shows_noise(pair->dark)) return pair;
   return fail(ErrorCode::kIo,
               fmt::format("camera {} delivers the same picture with the laser off and on; check "
-                          "that the laser lights, and plug the camera in anew",
+                          "that the laser lights, and plug the camera in again",
                           camera().serial));
 }
 
@@ -78,4 +80,4 @@ Expected<FramePair> LiveScanner::capture_once() {
   return pair;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera and board of a scanner, opened and ready to measure. Laser and motor are off once it is
-// gone, however that comes about.
+// The camera and the board of a scanner, opened and ready to measure. Laser and motor go off when
+// the LiveScanner is destroyed or its process ends.
 #pragma once
 
 #include <functional>
@@ -10,23 +10,23 @@
 #include "acquisition/device/camera.h"
 #include "acquisition/session/emergency_stop.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// How to open the devices; called again after each loss of one.
+// Functions that open the devices. They are called again after a device is lost.
 struct ScannerDevices {
   std::function<Expected<std::unique_ptr<Camera>>()> open_camera;
   std::function<Expected<std::unique_ptr<Board>>()> open_board;
 };
 
 struct FramePair {
-  Frame dark, lit;  // laser off, laser on; of one position of the table
+  Frame dark, lit;  // the frames without and with laser, at one position of the table
 };
 
-// Used by one thread, from open() to the end. An error of any call means that it is to be closed
-// and opened anew.
+// One thread must use it from open() to the end. After an error of any call, destroy it and open it
+// again.
 class LiveScanner {
  public:
-  // `stop` outlives it.
+  // Opens camera and board. `stop` must outlive the result.
   static Expected<LiveScanner> open(const ScannerDevices& devices, const CameraSettings& settings,
                                     EmergencyStop& stop);
   LiveScanner(LiveScanner&&) = default;
@@ -37,14 +37,16 @@ class LiveScanner {
   const BoardIdentity& board() const { return board_->identity(); }
   SensorRegion region() const { return camera_->region(); }
 
-  // Where the table stands; where the board cannot know that, it is told `otherwise`.
+  // Determines the table's angle. If the board does not know the angle, sets it to `otherwise`.
   Expected<void> find_position(double otherwise);
   Expected<void> turn_to(double degrees) { return board_->turn_to(degrees); }
-  // Laser and motor off until the next turn; the watchdog rests, too.
+  // Switches laser and motor off until the next motion. The board's watchdog pauses.
   Expected<void> rest() { return board_->rest(); }
-  Expected<Frame> capture() { return camera_->capture(); }  // as the laser is, off at first
-  // Taken anew, three times in all, where both frames are the same one: equal down to their noise,
-  // which alone makes two exposures differ.
+  Expected<Frame> capture() {
+    return camera_->capture();
+  }  // captures with the laser in its present state, which is initially off
+  // Takes a frame without and one with laser. If the two are identical, takes both again, up to
+  // three times in all, because noise alone makes any two exposures differ.
   Expected<FramePair> capture_pair();
 
  private:
@@ -56,4 +58,4 @@ class LiveScanner {
   EmergencyStop* stop_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/open_scanner.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 Scanner open_scanner(const ScannerConfig& config) {
   Scanner scanner;
@@ -13,4 +13,4 @@ Scanner open_scanner(const ScannerConfig& config) {
   return scanner;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

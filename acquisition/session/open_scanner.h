@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+// Opens the real devices of a scanner from its configuration.
 #pragma once
 
 #include "acquisition/session/scanner.h"
 #include "acquisition/session/scanner_config.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// The real devices that `config` names. Nothing is opened before a scan or a calibration needs it;
-// a camera that has been opened once is looked for by its serial.
+// Returns the scanner of that configuration. A device is opened only when a scan or a calibration
+// needs it. A camera that was open before is found again by its serial number.
 Scanner open_scanner(const ScannerConfig& config);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -7,13 +7,13 @@
 #include <charconv>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr int kMaxSide = 1 << 15;
 
-// Takes a number from 1 to kMaxSide and the character after it off the front of `text`; 0 where
-// there is none.
+// Removes a number from 1 to kMaxSide, and the character after it, from the front of `text`.
+// Returns the number, or 0 if there is none.
 int take_number(std::string_view& text, char after) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -46,4 +46,4 @@ Expected<Frame> from_pgm(std::span<const std::uint8_t> file) {
   return frame;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

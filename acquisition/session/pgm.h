@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames as binary PGM files (P5, 8 bits), which lose nothing and which everything can show.
+// Reads and writes frames as binary PGM files (P5, 8 bits), which are lossless and widely
+// supported.
 #pragma once
 
 #include <span>
@@ -7,11 +8,11 @@
 #include "acquisition/frame/frame.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 std::vector<std::uint8_t> to_pgm(const Frame& frame);
 
-// Fails (kBadInput) on anything but what to_pgm() gives.
+// Parses a frame that to_pgm() wrote. Fails with kBadInput on anything else.
 Expected<Frame> from_pgm(std::span<const std::uint8_t> file);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "acquisition/session/processing.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 Expected<Measured> measure_profile(const FramePair& frames, const Calibration& calibration,
                                    const StripeOptions& options, double angle) {
@@ -15,8 +15,9 @@ Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibr
                                  const Processing& processing) {
   SurfaceOptions options = processing.surface;
   options.sampling = processing.sampling;
-  options.noise = calibration.noise;  // and none for the sampling: what comes to it is smoothed
+  options.noise =
+      calibration.noise;  // sampling gets no noise value, because its input is already smoothed
   return surface_of(profiles, options);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

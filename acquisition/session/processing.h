@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From frames to the mesh, as the rooms below do it one after the other.
+// Turns frames into profiles, and profiles into the mesh, with the modules profile and surface.
 #pragma once
 
 #include <span>
@@ -12,12 +12,14 @@
 #include "acquisition/session/live_scanner.h"
 #include "acquisition/surface/surface_of.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct Processing {
   StripeOptions stripe;
   SamplingOptions sampling;
-  SurfaceOptions surface;  // but for noise and sampling, which come from elsewhere
+  // Options of the mesh. Its noise is ignored and taken from the calibration; its sampling comes
+  // from `sampling`.
+  SurfaceOptions surface;
 };
 
 struct Measured {
@@ -25,13 +27,13 @@ struct Measured {
   StripeCount stripe;
 };
 
-// Of one position of the table, which the board has turned by `angle` degrees. Fails (kBadInput)
-// where the frames differ in size.
+// Computes the profile of one position of the table. `angle` is the angle, in degrees, by which the
+// board has turned the table. Fails with kBadInput if the frames differ in size.
 Expected<Measured> measure_profile(const FramePair& frames, const Calibration& calibration,
                                    const StripeOptions& options, double angle);
 
-// Profiles as measured to the mesh.
+// Makes the mesh from measured profiles.
 Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibration& calibration,
                                  const Processing& processing);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

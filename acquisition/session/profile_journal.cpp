@@ -12,11 +12,12 @@
 #include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// kUncounted: a profile by older versions. A record: kind, size of its body, body, and the first
-// eight bytes of the SHA-256 of all these.
+// The kinds of records. kUncounted is a profile in the format without stripe counts, which is still
+// read. A record consists of its kind, the size of its body, the body, and the first eight bytes of
+// the SHA-256 of all these.
 constexpr std::uint32_t kUncounted = 1, kTurn = 2, kProfile = 3, kGivenUp = 4;
 constexpr std::size_t kHeadBytes = 8, kChecksumBytes = 8, kPointBytes = 3 * 8 + 4 + 1;
 constexpr std::size_t kThetaBytes = 8, kCountBytes = 5 * 8;
@@ -47,7 +48,12 @@ std::vector<std::uint8_t> body_of(const Profile& profile, const StripeCount& str
 }
 
 StripeCount stripe_of(ByteReader& in) {
-  return {1, in.u64(), in.u64(), in.u64(), in.u64(), in.u64()};
+  return {.frames = 1,
+          .rows = in.u64(),
+          .saturated = in.u64(),
+          .doubled = in.u64(),
+          .pixels = in.u64(),
+          .full = in.u64()};
 }
 
 Profile profile_of(ByteReader& in) {
@@ -85,14 +91,14 @@ void give_up(JournalContents& contents, std::span<const std::uint8_t> body) {
   contents.given_up_at = static_cast<int>(in.u32());
 }
 
-// The next whole record's body, empty at the end or where it is torn.
+// Returns the body of the next record. Empty at the end of the file or if the record is torn.
 std::span<const std::uint8_t> next_record(std::span<const std::uint8_t> rest, std::uint32_t& kind) {
   ByteReader in(rest);
   kind = in.u32();
   const std::uint32_t size = in.u32();
   const auto body = in.bytes(size);
   in.bytes(kChecksumBytes);
-  if (!in.ok() || !has_checksum(rest.first(in.position()))) return {};
+  if (!in.is_ok() || !has_checksum(rest.first(in.position()))) return {};
   return body;
 }
 
@@ -167,7 +173,8 @@ Expected<void> ProfileJournal::write(std::uint32_t kind, std::vector<std::uint8_
   out.bytes(body);
   std::vector<std::uint8_t> record = out.take();
   put_checksum(record);
-  // One write: on a full disk a part of it may be there, which is then a torn record.
+  // The record is written in one call. If the disk is full, only a part may be written, which then
+  // counts as a torn record.
   ssize_t n = 0;
   do {
     n = ::write(file_.get(), record.data(), record.size());
@@ -176,4 +183,4 @@ Expected<void> ProfileJournal::write(std::uint32_t kind, std::vector<std::uint8_
   return refused("write", path_, n < 0 ? errno : ENOSPC);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

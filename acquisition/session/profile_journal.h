@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The profiles of a scan on disk: an append-only file of records, each with its checksum. A record
-// that a crash has torn is dropped when the file is read, with all that follows it: those steps are
-// scanned again. Records that are given up stay in the file, and do not count any more.
+// Stores a scan's profiles in an append-only file of records with checksums. A record torn by a
+// crash is dropped when the file is read, together with all records after it, and the steps of
+// these records are scanned again. Discarded records stay in the file but no longer count.
 #pragma once
 
 #include <cstdint>
@@ -15,35 +15,40 @@
 #include "codec/core/expected.h"
 #include "codec/files/file_descriptor.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 inline constexpr std::uint64_t kMaxJournalBytes = std::uint64_t{4} << 30;
 
 struct JournalContents {
-  std::vector<Profile> profiles;     // of the steps 0, 1, 2, …
-  std::vector<StripeCount> stripes;  // of each; of older versions' only about how many rows
-  std::optional<int> stands_at;      // the step of the last note_turn()
-  int given_up_at = 0;               // how many steps were done at the last give_up()
-  std::size_t bytes = 0;             // of whole records; what follows is torn
+  std::vector<Profile> profiles;  // index: the step, from 0
+  // Index: the step. Records of kind kUncounted have only an approximate number of rows.
+  std::vector<StripeCount> stripes;
+  std::optional<int> stands_at;  // the step in the last note_turn()
+  int given_up_at = 0;           // number of steps that were done at the last give_up()
+  // Length of all whole records. The rest of the file is torn.
+  std::size_t bytes = 0;
 };
 
 JournalContents read_journal(std::span<const std::uint8_t> file);
 
 class ProfileJournal {
  public:
-  // Reads what is there and goes on behind it; a missing file is created. Fails with kIo.
+  // Reads the existing records into `contents` and prepares to append after them. Creates a missing
+  // file. Fails with kIo.
   static Expected<ProfileJournal> open(const std::filesystem::path& path,
                                        JournalContents& contents);
 
-  // The profile of the next step and the stripe it was found in; on disk on return. After an error
-  // (kIo: a full disk) the file must be opened anew.
+  // Appends the profile of the next step and the counts of its stripe. The record is on disk on
+  // return. After an error (kIo, such as a full disk) the file must be opened again.
   Expected<void> append(const Profile& profile, const StripeCount& stripe);
 
-  // The profiles that follow the first `kept` are to be measured again; on disk on return.
+  // Discards the profiles after the first `kept`, which are to be measured again. The record is on
+  // disk on return.
   Expected<void> give_up(int kept, int steps_done);
 
-  // That the table stands at `step`, or soon will: a motion that has begun is completed when this
-  // process has ended. Survives that, and the end of the computer together with the next profile.
+  // Records that the table stands at `step` or is moving there, because a motion in progress
+  // completes even if this process ends. The record survives the end of the process at once, but a
+  // power failure only after the next profile is written.
   Expected<void> note_turn(int step);
 
  private:
@@ -54,4 +59,4 @@ class ProfileJournal {
   FileDescriptor file_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

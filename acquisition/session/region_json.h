@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of the sensor that is read, as rig.json and scan.json hold it.
+// Reads and writes the region of the sensor, as in rig.json and scan.json.
 #pragma once
 
 #include "acquisition/frame/frame.h"
 #include "acquisition/session/json_members.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 inline SensorRegion region_in(JsonMembers& root) {
   constexpr int kMost = 1 << 15;  // pixels
@@ -22,4 +22,4 @@ inline nlohmann::json to_json(const SensorRegion& region) {
   return {{"x", region.x}, {"y", region.y}, {"width", region.width}, {"height", region.height}};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -8,10 +8,11 @@
 #include "acquisition/calibration/calibration_store.h"
 #include "acquisition/session/scan_calibration.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// The scan's own, or another of its camera and region.
+// Returns the calibration with that number: the scan's own, or another one of the same camera and
+// region.
 Expected<Calibration> chosen(const ScanRecord& record, const std::filesystem::path& calibrations,
                              int number) {
   if (number == record.calibration) return calibration_of(record, calibrations);
@@ -22,16 +23,16 @@ Expected<Calibration> chosen(const ScanRecord& record, const std::filesystem::pa
   return calibration;
 }
 
-// A scan that is done has all its steps.
+// Fails if a scan that is done lacks steps.
 Expected<void> check_journal(const ScanFolder& folder, int steps_there, int steps) {
   if (folder.state().state != ScanState::kDone || steps_there == steps) return {};
   return fail(ErrorCode::kBadInput,
-              fmt::format("{} holds {} of the {} steps of a scan that is done; restore it, or scan "
+              fmt::format("{} contains {} of the {} steps of a completed scan; restore it, or scan "
                           "again",
                           folder.journal().string(), steps_there, steps));
 }
 
-// What of `options` moves the points; null: nothing.
+// Returns the name of the first option that changes the points, or null if none does.
 const char* other_points(const ScanRequest& scan, int own, const ReprocessOptions& options) {
   if (options.calibration != 0 && options.calibration != own) return "another calibration";
   return options.processing.stripe == scan.processing.stripe ? nullptr : "another stripe method";
@@ -70,7 +71,7 @@ Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem:
   const auto record = folder.record();
   if (!record) return tl::unexpected(record.error());
   if (!*record) {
-    return fail(ErrorCode::kState, fmt::format("there is no scan in {} any more; name another "
+    return fail(ErrorCode::kState, fmt::format("there is no scan in {}; name another "
                                                "folder",
                                                folder.path().string()));
   }
@@ -94,4 +95,4 @@ Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem:
   return Reprocessed{{std::move(*surface)}, steps, sum(scan->stripes)};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan's mesh made anew, with other parameters or another calibration.
+// Rebuilds the mesh of a stored scan with other parameters or another calibration.
 #pragma once
 
 #include <functional>
@@ -7,26 +7,28 @@
 #include "acquisition/session/processing.h"
 #include "acquisition/session/scan_folder.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct ReprocessOptions {
   Processing processing;
-  int calibration = 0;                   // number; 0: the scan's own
-  std::function<void(double)> progress;  // 0..1 of the pictures; may be empty
+  int calibration = 0;  // number of the calibration; 0: the scan's own
+  // Receives the share of the pictures done, 0 to 1. May be empty.
+  std::function<void(double)> progress;
 };
 
 struct Reprocessed : ScannedSurface {
-  int steps = 0;  // that it is made of
+  int steps = 0;  // number of the scan's steps that the mesh was built from
   StripeCount stripe;
 };
 
-// Of a scan with calibration number `own`: another calibration, and another way to find the stripe,
-// need its pictures. Fails (kState) where they were not kept.
+// Fails with kState if the scan's pictures are needed but were not kept. They are needed for
+// another calibration than the scan's own, whose number is `own`, and for another stripe method.
 Expected<void> check_pictures(const ScanRequest& scan, int own, const ReprocessOptions& options);
 
-// Of all steps that are on disk, also of a scan that was cancelled. Fails as check_pictures(), and
-// (kBadInput) where the scan is done and yet steps are missing: its journal is damaged.
+// Rebuilds the mesh from all steps on disk, even those of a cancelled scan. Fails for the same
+// reasons as check_pictures(). Fails with kBadInput if the scan is done but steps are missing,
+// because its journal is damaged.
 Expected<Reprocessed> reprocess(const ScanFolder& folder, const std::filesystem::path& calibrations,
                                 const ReprocessOptions& options);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -10,10 +10,11 @@
 #include <cstring>
 #include <sstream>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr int kPatience = 30'000;  // ms for an answer: the rig may render a while
+// Milliseconds to wait for an answer. The rig may be rendering.
+constexpr int kAnswerTimeout = 30'000;
 constexpr std::size_t kMaxLine = 1'000;
 
 Unexpected lost(const char* what) {
@@ -28,8 +29,10 @@ Expected<RigLink> RigLink::connect(const std::filesystem::path& socket) {
   address.sun_family = AF_UNIX;
   const std::string name = socket.string();
   if (name.size() >= sizeof address.sun_path)
-    return fail(ErrorCode::kBadInput,
-                fmt::format("the socket {} has too long a name; choose a shorter folder", name));
+    return fail(
+        ErrorCode::kBadInput,
+        fmt::format("the path of socket {} is too long; choose a folder with a shorter path",
+                    name));
   name.copy(address.sun_path, name.size());
   FileDescriptor fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   if (!fd || ::connect(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
@@ -61,7 +64,7 @@ Expected<std::string> RigLink::ask(std::string_view command) {
   const std::string line = fmt::format("{}\n", command);
   if (::send(socket_.get(), line.data(), line.size(), MSG_NOSIGNAL) !=
       static_cast<ssize_t>(line.size()))
-    return lost("has gone");
+    return lost("has closed the connection");
   auto answer = read_line();
   if (!answer) return answer;
   if (answer->starts_with("error: ")) return fail(ErrorCode::kBadInput, answer->substr(7));
@@ -77,13 +80,13 @@ Expected<std::string> RigLink::read_line() {
       return line;
     }
     pollfd readable{.fd = socket_.get(), .events = POLLIN, .revents = 0};
-    if (unread_.size() > kMaxLine || ::poll(&readable, 1, kPatience) <= 0)
+    if (unread_.size() > kMaxLine || ::poll(&readable, 1, kAnswerTimeout) <= 0)
       return lost("does not answer");
     char block[256];
     const ssize_t n = ::recv(socket_.get(), block, sizeof block, 0);
-    if (n <= 0) return lost("has gone");
+    if (n <= 0) return lost("has closed the connection");
     unread_.append(block, static_cast<std::size_t>(n));
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

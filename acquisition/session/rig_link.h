@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an operator does by hand, asked of the simulated rig: to put the calibration target on the
-// table and the object back. One line a command over its Unix socket, one line an answer.
+// Asks the simulated rig to act as the operator and to put the calibration target or the object on
+// the table. Sends each command as one line over the rig's Unix socket and reads one line back.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,23 @@
 #include "codec/core/expected.h"
 #include "codec/files/file_descriptor.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 class RigLink {
  public:
-  // Fails (kIo) where no rig listens there.
+  // Connects to the rig. Fails with kIo if no rig listens on that socket.
   static Expected<RigLink> connect(const std::filesystem::path& socket);
 
-  Expected<int> poses();  // of the target: held before the table, then standing on it
+  // Returns the numbers of the target's poses: those held in front of the table, then those
+  // standing on it.
+  Expected<int> poses();
   Expected<void> place_target(int pose);
   Expected<void> place_object();
 
  private:
   explicit RigLink(FileDescriptor socket) : socket_(std::move(socket)) {}
 
-  // The answer's line, without "ok"; "error: …" is an error.
+  // Sends a command and returns the answer without "ok". An answer "error: …" becomes an error.
   Expected<std::string> ask(std::string_view command);
   Expected<std::string> read_line();
 
@@ -31,4 +33,4 @@ class RigLink {
   std::string unread_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

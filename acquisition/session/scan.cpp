@@ -7,10 +7,10 @@
 #include <exception>
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// Shares of the progress: steps, then the mesh.
+// Share of the steps in the total progress. The rest belongs to the mesh.
 constexpr double kScanningShare = 0.97;
 
 double steady_seconds() {
@@ -18,15 +18,15 @@ double steady_seconds() {
 }
 
 Unexpected not_now(const char* what, ScanState state) {
-  return fail(ErrorCode::kState, fmt::format("cannot {} a scan that is {}; look at its state first",
+  return fail(ErrorCode::kState, fmt::format("cannot {} a scan that is {}; check its state first",
                                              what, name_of(state)));
 }
 
 Error error_of(const std::exception& fault) {
   std::string words = fault.what();
-  std::ranges::replace(words, '\n', ' ');  // OpenCV's have several lines
+  std::ranges::replace(words, '\n', ' ');  // OpenCV's messages have several lines
   return {ErrorCode::kIo,
-          fmt::format("the scan cannot go on: {}; free memory and resume it", words)};
+          fmt::format("the scan cannot continue: {}; free memory and resume it", words)};
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ Scan::Scan(Scanner scanner, const ScanRequest& request, ScanFolder folder, ScanS
 }
 
 Scan::~Scan() {
-  (void)pause();  // one that does not run need not be
+  (void)pause();  // pause() fails if the scan does not run, which needs no handling
   if (thread_.joinable()) thread_.join();
 }
 
@@ -81,15 +81,16 @@ Expected<void> Scan::resume() try {
   const std::lock_guard lock(mutex_);
   if (is_running(status_.state)) return not_now("start", status_.state);
   if (status_.state == ScanState::kCancelled) return not_now("resume", status_.state);
-  wish_ = Wish::kRun;
+  requested_ = RequestedAction::kRun;
   stop_.release(stop_.presses());
-  if (thread_.joinable()) thread_.join();  // it has ended: its last word was the state
+  if (thread_.joinable())
+    thread_.join();  // the thread has ended: setting the state was its last action
   thread_ = std::jthread([this] { work(); });
   status_.error.reset();
   surface_.reset();
   enter(ScanState::kChecking);
   return {};
-} catch (const std::exception& fault) {  // no thread
+} catch (const std::exception& fault) {  // the system could not start the thread
   return tl::unexpected(error_of(fault));
 }
 
@@ -97,7 +98,7 @@ Expected<void> Scan::pause() {
   const std::lock_guard lock(mutex_);
   if (status_.state != ScanState::kChecking && status_.state != ScanState::kScanning)
     return not_now("pause", status_.state);
-  if (wish_ == Wish::kRun) wish_ = Wish::kPause;
+  if (requested_ == RequestedAction::kRun) requested_ = RequestedAction::kPause;
   changed_.notify_all();
   return {};
 }
@@ -106,7 +107,7 @@ Expected<void> Scan::cancel() {
   const std::lock_guard lock(mutex_);
   if (status_.state == ScanState::kDone || status_.state == ScanState::kCancelled)
     return not_now("cancel", status_.state);
-  wish_ = Wish::kCancel;
+  requested_ = RequestedAction::kCancel;
   if (is_running(status_.state)) {
     changed_.notify_all();
     return {};
@@ -138,12 +139,13 @@ std::shared_ptr<const ScannedSurface> Scan::surface() const {
 
 bool Scan::is_interrupted() const {
   const std::lock_guard lock(mutex_);
-  return wish_ != Wish::kRun;
+  return requested_ != RequestedAction::kRun;
 }
 
 void Scan::sleep(std::chrono::milliseconds at_most) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, at_most, [&] { return wish_ != Wish::kRun || stop_.is_pressed(); });
+  changed_.wait_for(lock, at_most,
+                    [&] { return requested_ != RequestedAction::kRun || stop_.is_pressed(); });
 }
 
 void Scan::checks_passed() {
@@ -186,8 +188,8 @@ void Scan::enter(ScanState state) {
 void Scan::work() {
   auto outcome = run_and_mesh();
   const std::lock_guard lock(mutex_);
-  StoredState end;  // paused
-  if (wish_ == Wish::kCancel) {
+  StoredState end;  // the default state is paused
+  if (requested_ == RequestedAction::kCancel) {
     end.state = ScanState::kCancelled;
   } else if (!outcome) {
     end = {ScanState::kFailed, outcome.error()};
@@ -196,13 +198,14 @@ void Scan::work() {
     surface_ = std::move(*outcome);
   }
   status_.error = end.error;
-  // Only tells a later process how it ended: without it, the scan is one that can be resumed.
+  // The state only tells a later process how the scan ended. If it cannot be written, the scan
+  // counts as resumable.
   (void)folder_.write_state(end);
   enter(end.state);
 }
 
-// Nothing where it was interrupted. What is thrown, here or by the thread that measures, ends this
-// scan alone.
+// Runs the scan and makes the mesh. Returns null if the scan was interrupted. An exception, here or
+// in the measuring thread, ends only this scan.
 Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() try {
   ScanRun run({.scanner = scanner_,
                .request = request_,
@@ -210,11 +213,11 @@ Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() try {
                .stop = stop_,
                .preview = preview_,
                .watch = *this,
-               .patience = settings_.patience});
+               .retries = settings_.retries});
   if (auto scanned = run.run(); !scanned) return tl::unexpected(scanned.error());
   {
     const std::lock_guard lock(mutex_);
-    if (wish_ != Wish::kRun) return nullptr;
+    if (requested_ != RequestedAction::kRun) return nullptr;
     enter(ScanState::kMeshing);
   }
   auto surface = mesh_of(run.take_profiles(), run.calibration(), request_.processing);
@@ -224,4 +227,4 @@ Expected<std::shared_ptr<const ScannedSurface>> Scan::run_and_mesh() try {
   return tl::unexpected(error_of(fault));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

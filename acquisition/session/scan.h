@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan as something that is started, watched, paused, resumed and cancelled from any thread. It
-// lives in a folder (scan_folder.h): whatever ends this process, a later one goes on with it, and
-// the mesh is the same as if nothing had happened.
+// A scan that any thread can start, watch, pause, resume and cancel. It is stored in a folder
+// (scan_folder.h). If this process ends, a later process can resume the scan and gets the same mesh
+// as without the interruption.
 #pragma once
 
 #include <condition_variable>
@@ -12,46 +12,49 @@
 #include "acquisition/session/scan_run.h"
 #include "acquisition/surface/surface_of.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct ScanSettings {
-  Patience patience;
-  std::function<double()> seconds;  // a clock that only grows; empty: the computer's
+  RetryLimits retries;
+  std::function<double()> seconds;  // a monotonic clock in seconds; empty: the system's clock
 };
 
 class Scan : private ScanWatch {
  public:
-  // A new scan, idle. Fails where `folder` cannot be made or holds a scan, or the request is wrong.
+  // Creates a new, idle scan. Fails if `folder` cannot be created or already holds a scan, or if
+  // the request is invalid.
   static Expected<std::unique_ptr<Scan>> create(Scanner scanner, const ScanRequest& request,
                                                 const std::filesystem::path& folder,
                                                 ScanSettings settings = {});
-  // The scan in `folder`: paused, or done, cancelled or failed as it was.
+  // Opens the scan in `folder`. Its state is the stored one, if that is done, cancelled or failed,
+  // and otherwise paused.
   static Expected<std::unique_ptr<Scan>> reopen(Scanner scanner,
                                                 const std::filesystem::path& folder,
                                                 ScanSettings settings = {});
-  ~Scan() override;  // pauses a scan that runs
+  ~Scan() override;  // pauses a running scan
 
-  // Starts an idle scan, goes on with one that is paused or failed, meshes a done one anew: each
-  // returns at once. kState where the scan's state does not allow it, kIo where no thread can be
-  // had.
+  // Starts an idle scan, resumes a paused or failed one, or makes the mesh of a finished scan
+  // again. resume(), pause() and cancel() return at once. They fail with kState if the scan's state
+  // does not allow the call, and with kIo if no thread can be started.
   Expected<void> resume();
-  Expected<void> pause();   // takes effect after the present step
-  Expected<void> cancel();  // what has been measured stays in the folder
+  Expected<void> pause();   // takes effect after the current step
+  Expected<void> cancel();  // measured steps stay in the folder
 
-  // Laser and motor off at once; the scan fails and can be resumed.
+  // Switches laser and motor off at once. The scan fails and can be resumed.
   void emergency_stop() noexcept;
 
   ScanStatus status() const;
-  // Waits until it neither checks, scans nor meshes, or for `at_most`.
+  // Waits until the scan is no longer checking, scanning or meshing, but not longer than `at_most`.
+  // Returns the status.
   ScanStatus wait(std::chrono::milliseconds at_most) const;
   const LivePreview& preview() const { return preview_; }
   const ScanFolder& folder() const { return folder_; }
 
-  // Once it is done and until it is resumed; null before.
+  // Returns the mesh, from the end of the scan until the scan is resumed. Null at other times.
   std::shared_ptr<const ScannedSurface> surface() const;
 
  private:
-  enum class Wish { kRun, kPause, kCancel };
+  enum class RequestedAction { kRun, kPause, kCancel };
 
   Scan(Scanner scanner, const ScanRequest& request, ScanFolder folder, ScanSettings settings);
 
@@ -63,7 +66,7 @@ class Scan : private ScanWatch {
 
   void work();
   Expected<std::shared_ptr<const ScannedSurface>> run_and_mesh();
-  void enter(ScanState state);  // under mutex_
+  void enter(ScanState state);  // the caller must hold mutex_
   double now() const;           // seconds
 
   const Scanner scanner_;
@@ -73,15 +76,16 @@ class Scan : private ScanWatch {
   LivePreview preview_;
   EmergencyStop stop_;
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   mutable std::condition_variable changed_;
   ScanStatus status_;
-  Wish wish_ = Wish::kRun;
-  double started_ = 0;    // seconds, when the first step of this run began
-  int steps_before_ = 0;  // this run
+  RequestedAction requested_ = RequestedAction::kRun;
+  // Time, in seconds, at the start of this run's first step.
+  double started_ = 0;
+  int steps_before_ = 0;  // number of steps done before this run
   std::shared_ptr<const ScannedSurface> surface_;
 
   std::jthread thread_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -9,7 +9,7 @@
 #include "acquisition/calibration/calibration_store.h"
 #include "codec/core/sha256.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 std::string digest_of(const Calibration& calibration) {
   const std::string text = to_json(calibration);
@@ -20,7 +20,7 @@ Expected<void> fits(const Calibration& calibration, const std::string& camera,
                     const SensorRegion& region) {
   if (calibration.camera == camera && calibration.region == region) return {};
   return fail(ErrorCode::kBadInput,
-              fmt::format("calibration {} is not of the camera and region of the scan; choose "
+              fmt::format("calibration {} is for another camera or region than the scan; choose "
                           "another",
                           calibration.number));
 }
@@ -29,13 +29,14 @@ Expected<Calibration> calibration_of(const ScanRecord& record,
                                      const std::filesystem::path& calibrations) {
   auto calibration = CalibrationStore(calibrations).load(record.calibration);
   if (!calibration) return calibration;
-  const bool is_same = record.calibration_digest.empty() ||  // a scan of an earlier version
+  const bool is_same = record.calibration_digest.empty() ||  // the scan's record has no digest
                        record.calibration_digest == digest_of(*calibration);
   if (is_same && fits(*calibration, record.camera, record.settings.region)) return calibration;
-  return fail(ErrorCode::kBadInput,
-              fmt::format("calibration {} in {} is not the one that the scan was begun with; bring "
-                          "that one back or start a new scan",
-                          record.calibration, calibrations.string()));
+  return fail(
+      ErrorCode::kBadInput,
+      fmt::format("calibration {} in {} is not the one that the scan was started with; restore "
+                  "that one or start a new scan",
+                  record.calibration, calibrations.string()));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -10,7 +10,7 @@
 #include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,22 +46,24 @@ Expected<Frame> read_frame(const fs::path& path) {
   });
 }
 
-// Of another scan.
+// Returns the error that another scan uses the folder.
 Error in_the_way(const ScanFolder& there) {
   const ScanState state = there.state().state;
   const bool has_ended = state == ScanState::kDone || state == ScanState::kCancelled;
-  return {ErrorCode::kState,
-          has_ended ? fmt::format("{} holds a scan that is {}; give another name, or reprocess it",
-                                  there.path().string(), name_of(state))
-                    : fmt::format("{} holds a scan already; resume that one or remove the folder",
-                                  there.path().string())};
+  return {
+      ErrorCode::kState,
+      has_ended
+          ? fmt::format("{} contains a scan that is {}; give another name, or reprocess that scan",
+                        there.path().string(), name_of(state))
+          : fmt::format("{} already contains a scan; resume it or remove the folder",
+                        there.path().string())};
 }
 
 }  // namespace
 
 Expected<ScanFolder> ScanFolder::create(const fs::path& path) {
   ScanFolder folder(path);
-  std::error_code ignored;  // make_folder() tells
+  std::error_code ignored;  // make_folder() below reports the error
   if (fs::exists(folder.path_ / kRecordName, ignored)) return tl::unexpected(in_the_way(folder));
   if (auto made = make_folder(path); !made) return tl::unexpected(made.error());
   return folder;
@@ -101,14 +103,14 @@ Expected<JournalContents> ScanFolder::measured() const {
 }
 
 void ScanFolder::remove() const {
-  std::error_code ignored;  // what stays harms nobody
+  std::error_code ignored;  // a leftover file is harmless
   for (const char* name : {kRecordName, kJournalName, kStateName})
     fs::remove(path_ / name, ignored);
   fs::remove(path_, ignored);
 }
 
 StoredState ScanFolder::state() const {
-  // What cannot be read is a scan that was interrupted: it can be resumed.
+  // A scan whose state cannot be read counts as interrupted, so it can be resumed.
   const auto text = read_text(path_ / kStateName);
   const auto object = text ? parse_json_object(*text, "state.json")
                            : Expected<nlohmann::json>(tl::unexpected(text.error()));
@@ -146,4 +148,4 @@ Expected<FramePair> ScanFolder::frames(int step) const {
   return FramePair{std::move(*dark), std::move(*lit)};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scan on disk, in a folder of its own:
-//   scan.json        what it is; written once, when the first checks have passed
+//   scan.json        the scan's record; written once, after the first checks have passed
 //   profiles         the journal of its profiles
-//   state.json       how it ended or why it failed; absent or "scanning" where a process was killed
-//   frames/NNNNN-dark.pgm, frames/NNNNN-lit.pgm   where the pictures are kept
+//   state.json       how it ended or why it failed; absent or "scanning" if a process was killed
+//   frames/NNNNN-dark.pgm, frames/NNNNN-lit.pgm   the pictures, if they are kept
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 #include "acquisition/session/scan_request.h"
 #include "acquisition/session/scan_status.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct StoredState {
   ScanState state = ScanState::kPaused;
@@ -23,25 +23,25 @@ struct StoredState {
 
 class ScanFolder {
  public:
-  // Makes the folder where it is missing. Fails (kState) where a scan is in it already.
+  // Creates the folder if it is missing. Fails with kState if it already holds a scan.
   static Expected<ScanFolder> create(const std::filesystem::path& path);
-  // Fails (kIo) where no scan is in it.
+  // Opens the folder of a scan. Fails with kIo if the folder holds no scan.
   static Expected<ScanFolder> open(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path journal() const;
 
-  // Nothing where the checks of the scan have not passed yet.
+  // Returns the scan's record, or nullopt if the scan's first checks have not passed yet.
   Expected<std::optional<ScanRecord>> record() const;
   Expected<void> write_record(const ScanRecord& record) const;
 
-  // As far as they are on disk.
+  // Returns the profiles that are on disk.
   Expected<JournalContents> measured() const;
 
   StoredState state() const;
   Expected<void> write_state(const StoredState& state) const;
 
-  // Removes the scan, but for its pictures, and the folder where nothing else is in it.
+  // Removes the scan except its pictures. Then removes the folder if it is empty.
   void remove() const;
 
   Expected<void> write_frames(int step, const FramePair& frames) const;
@@ -55,4 +55,4 @@ class ScanFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

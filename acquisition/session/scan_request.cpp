@@ -12,12 +12,12 @@
 #include "acquisition/session/json_members.h"
 #include "acquisition/session/region_json.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using nlohmann::json;
 
-// A frame that is asked for again and again is no caller that is stuck.
+// Even the longest capture, with all its repeated requests, must not trigger the watchdog.
 static_assert(std::chrono::duration<double, std::micro>(longest_capture(kMostExposure)) <
               kWatchdog);
 
@@ -93,7 +93,7 @@ Expected<void> check(const ScanRequest& request) {
       kSamplingLengths.end())
     return {};
   return fail(ErrorCode::kBadInput,
-              fmt::format("a sampling length of {} points does not exist; choose 5, 10, 15 or 20",
+              fmt::format("a sampling length of {} points is not supported; choose 5, 10, 15 or 20",
                           request.processing.sampling.window));
 }
 
@@ -141,4 +141,4 @@ Expected<ScanRecord> scan_record_of(std::string_view text, const std::string& pl
   return record;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

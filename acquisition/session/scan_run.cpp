@@ -11,7 +11,7 @@
 #include "acquisition/session/first_look.h"
 #include "acquisition/session/scan_calibration.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 std::string now_as_text() {
@@ -25,10 +25,11 @@ std::string board_name(const BoardIdentity& board) {
 Expected<void> same_camera(const ScanRecord& record, const LiveScanner& scanner) {
   if (scanner.camera().serial == record.camera && scanner.region() == record.settings.region)
     return {};
-  return fail(ErrorCode::kBadInput,
-              fmt::format("the scan was begun with camera {}, this is {} or another region of it; "
-                          "connect that camera or start a new scan",
-                          record.camera, scanner.camera().serial));
+  return fail(
+      ErrorCode::kBadInput,
+      fmt::format("the scan was started with camera {}, this is camera {} or another region; "
+                  "connect that camera and set its region, or start a new scan",
+                  record.camera, scanner.camera().serial));
 }
 
 Error stuck(const Error& error) {
@@ -58,7 +59,9 @@ Expected<void> ScanRun::open_folder() {
   Expected<void> judged;
   for (int step = 0; step < steps_done(); ++step)
     judged = stripe_watch_->add(stripes_[step], step + 1);
-  if (!judged) return refuse(judged.error());  // a crash came between the last step and this
+  if (!judged)
+    return refuse(
+        judged.error());  // an earlier process crashed between the last step and this check
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);
@@ -74,7 +77,7 @@ Expected<void> ScanRun::run() {
   Tries tries;
   while (steps_done() < means_.request.steps && !means_.watch.is_interrupted()) {
     const int before = steps_done();
-    Outcome outcome = scan_on();
+    StepOutcome outcome = scan_on();
     if (auto settled = settle(); !settled) outcome = of_scan(settled.error());
     if (outcome) continue;
     const auto& [error, cause] = outcome.error();
@@ -84,18 +87,18 @@ Expected<void> ScanRun::run() {
     if (!is_worth_a_try(cause, tries))
       return tl::unexpected(cause == Cause::kMotion ? stuck(error) : error);
     means_.watch.waits_for(error);
-    means_.watch.sleep(means_.patience.between);
+    means_.watch.sleep(means_.retries.between);
   }
   return {};
 }
 
 bool ScanRun::is_worth_a_try(Cause cause, const Tries& tries) const {
-  const auto& [most, at_first, turns, between] = means_.patience;
+  const auto& [most, at_first, turns, between] = means_.retries;
   if (cause == Cause::kScan || tries.all > (is_checked_ ? most : at_first)) return false;
   return cause != Cause::kMotion || tries.turns < turns;
 }
 
-ScanRun::Outcome ScanRun::scan_on() {
+ScanRun::StepOutcome ScanRun::scan_on() {
   auto scanner = LiveScanner::open(means_.scanner.devices, settings(), means_.stop);
   if (!scanner) return of_device(scanner.error());
   if (auto prepared = prepare(*scanner); !prepared) return prepared;
@@ -116,7 +119,7 @@ CameraSettings ScanRun::settings() const {
   return settings;
 }
 
-ScanRun::Outcome ScanRun::prepare(LiveScanner& scanner) {
+ScanRun::StepOutcome ScanRun::prepare(LiveScanner& scanner) {
   if (auto known = identify(scanner); !known) return of_scan(known.error());
   if (auto found = scanner.find_position(angle_of(means_.request, stands_at_)); !found)
     return of_device(found.error(), Cause::kMotion);
@@ -129,7 +132,7 @@ ScanRun::Outcome ScanRun::prepare(LiveScanner& scanner) {
   return {};
 }
 
-// The calibration that this camera is to be used with.
+// Chooses the calibration: the requested one, or the newest for this camera and region.
 Expected<void> ScanRun::identify(const LiveScanner& scanner) {
   if (record_) return same_camera(*record_, scanner);
   const CalibrationStore store(means_.scanner.calibrations);
@@ -142,8 +145,9 @@ Expected<void> ScanRun::identify(const LiveScanner& scanner) {
   return {};
 }
 
-// An object may leave the laser plane at one angle: up to four tell whether it is there.
-ScanRun::Outcome ScanRun::look(LiveScanner& scanner) {
+// Checks whether the scanner sees the object. At one angle an object may miss the laser plane, so
+// up to four angles are tried.
+ScanRun::StepOutcome ScanRun::look(LiveScanner& scanner) {
   const int steps = means_.request.steps;
   FirstLook seen(calibration_, means_.request.processing.stripe);
   for (int quarter = 0; quarter < 4; ++quarter) {
@@ -175,9 +179,10 @@ Expected<void> ScanRun::begin(const LiveScanner& scanner) {
   return {};
 }
 
-// Noted first: whoever kills this process does not stop the table. A turn that fails here has not
-// been made, or nobody knows how far; the place before it is the best guess.
-ScanRun::Outcome ScanRun::turn(LiveScanner& scanner, int step) {
+// Turns the table to a step. The step is recorded first, because a table completes its motion even
+// if this process is killed. If the motion fails, the table has moved by an unknown part of it. The
+// best estimate is then the position before the motion.
+ScanRun::StepOutcome ScanRun::turn(LiveScanner& scanner, int step) {
   if (auto noted = journal_->note_turn(step); !noted) return of_scan(noted.error());
   const auto turned = scanner.turn_to(angle_of(means_.request, step));
   if (!turned) {
@@ -216,7 +221,7 @@ Expected<void> ScanRun::measure_and_store(int step, FramePair frames) {
   return {};
 }
 
-// The profile that is being worked on is on disk on return.
+// Waits until the profile in progress is on disk.
 Expected<void> ScanRun::settle() {
   if (!pending_.valid()) return {};
   if (auto stored = pending_.get(); !stored) return stored;
@@ -228,7 +233,8 @@ Expected<void> ScanRun::settle() {
   return judged ? Expected<void>{} : refuse(judged.error());
 }
 
-// The steps that were judged are measured again by whoever goes on: the laser may be back.
+// Refuses the last steps. A resumed scan measures them again, because the laser may be back by
+// then.
 Expected<void> ScanRun::refuse(const Error& judgement) {
   const int kept = steps_done() - stripe_watch_->span();
   if (auto noted = journal_->give_up(kept, steps_done()); !noted) return noted;
@@ -239,4 +245,4 @@ Expected<void> ScanRun::refuse(const Error& judgement) {
   return tl::unexpected(judgement);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// From where a scan stands to its last step, on the thread that owns the devices. Per step: turn,
-// frame without laser, frame with laser, profile, disk.
+// Runs a scan from its current step to the last, on the thread that owns the devices. Each step
+// turns the table, takes a frame without laser and one with laser, computes the profile and writes
+// it to disk.
 //
-// While the table turns and the camera exposes step k, the profile of step k - 1 is found and
-// written on another thread; step k + 1 does not begin before that is on disk. So the disk is at
-// most one step behind the table, the camera never waits for us, and what a crash loses is scanned
-// again. The journal also says where the table stands, for boards that forget.
+// While the table turns and the camera exposes step k, another thread computes and writes the
+// profile of step k - 1. Step k + 1 starts only when that profile is on disk. So the disk is at
+// most one step behind the table. The camera waits only if computing and writing a profile takes
+// longer than a step. Steps lost in a crash are scanned again. The journal also records the table's
+// angle, for boards that forget it.
 #pragma once
 
 #include <chrono>
@@ -18,26 +20,26 @@
 #include "acquisition/session/scanner.h"
 #include "acquisition/session/stripe_watch.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// How long a scan waits for a device that is gone.
-struct Patience {
-  int tries = 60;  // to go on, without a step done in between
-  // To begin: a device may still be held by a process that was killed.
+// How often and how long a scan retries after it has lost a device.
+struct RetryLimits {
+  int tries = 60;  // number of attempts to resume without completing a step in between
+  // Number of attempts to start. The first may fail because a killed process still holds a device.
   int first_tries = 10;
-  // To turn a table that does not turn, in all: what jams it stays, and with each try the place of
-  // the table is less certain.
+  // Number of attempts, in all, to turn a stalled table. A jam does not clear itself, and each
+  // attempt makes the table's angle less certain.
   int turns = 2;
   std::chrono::milliseconds between{500};
 };
 
-// Who is told about a run, and may end it.
+// Receives a run's progress and may interrupt the run.
 class ScanWatch {
  public:
   virtual ~ScanWatch() = default;
 
   virtual bool is_interrupted() const = 0;
-  // Returns early when it is interrupted.
+  // Sleeps for `at_most`, or less if the run is interrupted.
   virtual void sleep(std::chrono::milliseconds at_most) = 0;
   virtual void checks_passed() = 0;
   virtual void step_done(int steps_done, const StripeCount& so_far) = 0;
@@ -46,7 +48,7 @@ class ScanWatch {
 
 class ScanRun {
  public:
-  // All of them outlive the run.
+  // The inputs of a run. All members must outlive the run.
   struct Means {
     const Scanner& scanner;
     const ScanRequest& request;
@@ -54,28 +56,29 @@ class ScanRun {
     EmergencyStop& stop;
     LivePreview& preview;
     ScanWatch& watch;
-    Patience patience;
+    RetryLimits retries;
   };
 
   explicit ScanRun(const Means& means) : means_(means) {}
 
-  // Goes on until all steps are on disk or the watch interrupts it; laser and motor are off on
-  // return. Fails with what stopped it; a later run goes on from there.
+  // Scans until all steps are on disk or the watch interrupts the run. Laser and motor are off on
+  // return. Fails with the error that stopped the scan; a later run resumes there.
   Expected<void> run();
 
   std::vector<Profile> take_profiles() { return std::move(profiles_); }
   const Calibration& calibration() const { return calibration_; }
 
  private:
-  // Opening the devices anew helps where one was lost, and hardly where the table does not turn.
+  // The part that failed. Reopening the devices helps if one was lost, but rarely if the table does
+  // not turn.
   enum class Cause { kScan, kDevice, kMotion };
   struct Setback {
     Error error;
     Cause cause = Cause::kScan;
   };
-  using Outcome = tl::expected<void, Setback>;
+  using StepOutcome = tl::expected<void, Setback>;
 
-  // Setbacks since the last step that was done.
+  // Number of setbacks since the last completed step.
   struct Tries {
     int all = 0, turns = 0;
   };
@@ -84,12 +87,12 @@ class ScanRun {
   static tl::unexpected<Setback> of_scan(const Error& error);
 
   bool is_worth_a_try(Cause cause, const Tries& tries) const;
-  Outcome scan_on();
-  Outcome prepare(LiveScanner& scanner);
+  StepOutcome scan_on();
+  StepOutcome prepare(LiveScanner& scanner);
   Expected<void> identify(const LiveScanner& scanner);
-  Outcome look(LiveScanner& scanner);
+  StepOutcome look(LiveScanner& scanner);
   Expected<void> begin(const LiveScanner& scanner);
-  Outcome turn(LiveScanner& scanner, int step);
+  StepOutcome turn(LiveScanner& scanner, int step);
   tl::expected<FramePair, Setback> take(LiveScanner& scanner, int step);
   void measure(int step, FramePair frames);
   Expected<void> measure_and_store(int step, FramePair frames);
@@ -106,12 +109,14 @@ class ScanRun {
   std::optional<ProfileJournal> journal_;
   std::vector<Profile> profiles_;
   std::optional<StripeWatch> stripe_watch_;
-  std::vector<StripeCount> stripes_;  // of profiles_
-  StripeCount seen_;                  // in all of them
-  Measured fresh_;  // of step profiles_.size(); the other thread's until pending_ is there
+  std::vector<StripeCount> stripes_;  // the counts for each of profiles_
+  StripeCount seen_;                  // sum of stripes_
+  // The result for step profiles_.size(). The other thread owns it until pending_ completes.
+  Measured fresh_;
   std::future<Expected<void>> pending_;
-  int stands_at_ = 0;  // the step that the table was turned to last, as the journal says, too
+  // The step to which the table was last turned. The journal records it too.
+  int stands_at_ = 0;
   bool is_checked_ = false;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

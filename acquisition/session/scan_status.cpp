@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 constexpr std::array<std::string_view, 8> kNames = {"idle",    "checking", "scanning",  "paused",
@@ -22,4 +22,4 @@ std::optional<ScanState> state_of(std::string_view name) {
   return static_cast<ScanState>(it - kNames.begin());
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a scan is, for those who watch it.
+// The state and progress of a scan, for display.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@
 #include "acquisition/profile/judge.h"
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-//   idle → checking → scanning → meshing → done
-// Checking and scanning may become paused or failed, from where resume() goes back to checking;
-// everything but done may become cancelled.
+// The states of a scan: idle → checking → scanning → meshing → done. A scan that is checking or
+// scanning may become paused or failed; resume() returns it to checking. Every state except done
+// may become cancelled.
 enum class ScanState { kIdle, kChecking, kScanning, kPaused, kMeshing, kDone, kCancelled, kFailed };
 
-std::string_view name_of(ScanState state);  // "idle", "checking", …
+std::string_view name_of(ScanState state);  // returns "idle", "checking", …
 constexpr bool is_running(ScanState state) {
   return state == ScanState::kChecking || state == ScanState::kScanning ||
          state == ScanState::kMeshing;
@@ -25,12 +25,13 @@ std::optional<ScanState> state_of(std::string_view name);
 
 struct ScanStatus {
   ScanState state = ScanState::kIdle;
-  int steps = 0, steps_done = 0;       // done: the profile is on disk
-  StripeCount stripe;                  // in all that are done
+  int steps = 0, steps_done = 0;       // a step is done when its profile is on disk
+  StripeCount stripe;                  // sum over all done steps
   double progress = 0;                 // 0 to 1
-  std::optional<double> seconds_left;  // nothing until it can be told
-  std::string note;                    // what it waits for: a camera that is gone; mostly empty
-  std::optional<Error> error;          // why it failed
+  std::optional<double> seconds_left;  // nullopt until it can be estimated
+  // The condition for which the scan waits, such as a lost camera. Usually empty.
+  std::string note;
+  std::optional<Error> error;  // the cause, if the scan failed
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner as a scan needs it: how to open its devices, how to set its camera, and where its
-// calibrations are.
+// The parts of a scanner that a scan needs: how to open its devices, how to set its camera, and the
+// folder of its calibrations.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 
 #include "acquisition/session/live_scanner.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct Scanner {
   std::string name;
   ScannerDevices devices;
   CameraSettings settings;
-  std::filesystem::path calibrations;  // folder
+  std::filesystem::path calibrations;  // folder of the calibrations
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -12,10 +12,10 @@
 #include "codec/files/atomic_file.h"
 #include "codec/files/read_file.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// "0x2341", as lsusb prints it without the 0x.
+// Reads a hexadecimal number with prefix, such as "0x2341". lsusb prints it without the prefix.
 std::uint16_t usb_number(JsonMembers& members, std::string_view key) {
   const std::string text = members.text(key);
   const char* first = text.data() + (text.starts_with("0x") ? 2 : 0);
@@ -23,7 +23,7 @@ std::uint16_t usb_number(JsonMembers& members, std::string_view key) {
   std::uint16_t value = 0;
   const auto [last, error] = std::from_chars(first, end, value, 16);
   if (error != std::errc{} || last != end)
-    members.fault(key, "must be the USB number as a text in hexadecimal, such as \"0x2341\"");
+    members.fault(key, "must be the USB number as a hexadecimal string, such as \"0x2341\"");
   return value;
 }
 
@@ -31,7 +31,7 @@ CameraSelector camera_in(JsonMembers& root) {
   auto members = root.object("camera", {"address", "serial"});
   CameraSelector camera{.address = members.text("address"), .serial = members.text("serial")};
   if (camera.address.empty() == camera.serial.empty())
-    members.fault("serial", "or \"address\" must name the camera, one of them");
+    members.fault("serial", "or \"address\" must select the camera, but not both");
   in_addr address{};
   if (!camera.address.empty() && ::inet_pton(AF_INET, camera.address.c_str(), &address) != 1)
     members.fault("address", "must be the camera's IP address, such as \"192.168.0.20\"");
@@ -54,35 +54,36 @@ BoardSelector board_in(JsonMembers& root) {
   board.port = members.text("port");
   static const std::regex kPort("([0-9]+-[0-9]+(\\.[0-9]+)*)?");
   if (!std::regex_match(board.port, kPort))
-    members.fault("port", "must be the bus, then the sockets, such as \"1-2.4\"");
+    members.fault("port", "must be the bus and the ports, such as \"1-2.4\"");
   board.steps_per_turn = members.whole("steps_per_turn", 8, 1 << 20, board.steps_per_turn);
   root.adopt(members);
   return board;
 }
 
-void check_members(const Target& target, JsonMembers& members) {
+void check_members(const CharucoTarget& target, JsonMembers& members) {
   for (const char* key : {"squares_x", "squares_y"}) {
     if (!members.has(key)) members.fault(key, "is missing");
   }
   if (!(target.marker_mm > 0 && target.marker_mm < target.square_mm))
     members.fault("marker_mm", "must be larger than 0 and smaller than \"square_mm\"");
   if (const auto known = check_target(target); !known) {
-    const std::string& told = known.error().message;  // its next step gives way to fault()'s
-    members.fault("dictionary", fmt::format("does not fit: {}", told.substr(0, told.rfind("; "))));
+    const std::string& reason = known.error().message;  // fault() adds a next step of its own
+    members.fault("dictionary",
+                  fmt::format("does not fit: {}", reason.substr(0, reason.rfind("; "))));
   }
 }
 
-// A scanner that is calibrated by points that are known needs none.
-Target target_in(JsonMembers& root) {
+// Reads the target. It may be absent, because scanners calibrated by known points need none.
+CharucoTarget target_in(JsonMembers& root) {
   constexpr int kLeastSquares = 3, kMostSquares = 64;
   constexpr double kLargest = 1'000;  // mm
   auto members =
       root.object("target", {"squares_x", "squares_y", "square_mm", "marker_mm", "dictionary"});
-  Target target{.squares_x = members.whole("squares_x", kLeastSquares, kMostSquares, 0),
-                .squares_y = members.whole("squares_y", kLeastSquares, kMostSquares, 0),
-                .square_mm = members.number("square_mm", 0, kLargest, 0),
-                .marker_mm = members.number("marker_mm", 0, kLargest, 0),
-                .dictionary = members.text("dictionary")};
+  CharucoTarget target{.squares_x = members.whole("squares_x", kLeastSquares, kMostSquares, 0),
+                       .squares_y = members.whole("squares_y", kLeastSquares, kMostSquares, 0),
+                       .square_mm = members.number("square_mm", 0, kLargest, 0),
+                       .marker_mm = members.number("marker_mm", 0, kLargest, 0),
+                       .dictionary = members.text("dictionary")};
   if (root.has("target")) check_members(target, members);
   root.adopt(members);
   return target;
@@ -131,4 +132,4 @@ Expected<ScannerConfig> read_scanner_config(const std::filesystem::path& path) {
   return parse_scanner_config({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// rig.json: one scanner, written by an operator, or by vitrine-rig for the one that it simulates.
+// The configuration of one scanner, as in `rig.json`. An operator writes `rig.json` by hand;
+// vitrine-rig writes one for its simulated scanner.
 #pragma once
 
 #include <filesystem>
@@ -9,24 +10,24 @@
 #include "acquisition/device/board.h"
 #include "acquisition/device/camera.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct ScannerConfig {
   std::string name;
   CameraSelector camera;
   BoardSelector board;
   CameraSettings settings;
-  Target target;
-  int steps = 720;                     // of a scan that does not say
-  std::filesystem::path calibrations;  // folder
-  std::filesystem::path rig;           // socket of the simulated rig; empty: an operator places
-                                       // the target by hand
+  CharucoTarget target;
+  int steps = 720;                     // default number of steps of a scan
+  std::filesystem::path calibrations;  // folder of the calibrations
+  // Socket of the simulated rig. Empty: an operator places the target by hand.
+  std::filesystem::path rig;
 };
 
-// Paths are relative to the folder of the file. Fails (kIo, kBadInput) with file, key and what is
-// expected there.
+// Read the configuration. Relative paths start at the file's folder. They fail with kIo or
+// kBadInput; the error gives file, key and expected value.
 Expected<ScannerConfig> read_scanner_config(const std::filesystem::path& path);
 Expected<ScannerConfig> parse_scanner_config(std::string_view text,
                                              const std::filesystem::path& path);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -5,13 +5,14 @@
 
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 Expected<void> StripeWatch::add(const StripeCount& stripe, int steps_done) {
   last_.push_back(stripe);
   if (last_.size() > most_) last_.erase(last_.begin());
   StripeCount seen = sum(last_);
-  seen.saturated = 0;  // one side of an object may be brighter than the others
+  seen.saturated =
+      0;  // saturation is ignored, because one side of an object may be brighter than the others
   const bool is_lost = !shows_stripe(seen);
   if (!is_lost) is_lost_ = false;
   const auto judged = judge(seen);
@@ -22,11 +23,10 @@ Expected<void> StripeWatch::add(const StripeCount& stripe, int steps_done) {
     return {};
   return fail(
       ErrorCode::kBadInput,
-      fmt::format(
-          "the stripe {} since step {} of the scan, {}, then start a new scan, "
-          "or resume this one: it measures from there again, and takes an object that just {}",
-          is_lost ? "is lost" : "has changed", steps_done - static_cast<int>(most_) + 1,
-          judged.error().message, is_lost ? "leaves the light" : "looks like that"));
+      fmt::format("the stripe {} since step {} of the scan, {}, then start a new scan, "
+                  "or resume this one: it measures again from there, and accepts an object that {}",
+                  is_lost ? "is lost" : "has changed", steps_done - static_cast<int>(most_) + 1,
+                  judged.error().message, is_lost ? "leaves the laser plane" : "looks like that"));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

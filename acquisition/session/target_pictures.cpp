@@ -9,18 +9,19 @@
 
 #include "acquisition/profile/stripe.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr double kProbeAngle = 10;  // degrees
-constexpr double kHeldStill = 2;    // pixels
+constexpr double kProbeAngle =
+    10;  // degrees: probe motion that shows whether the target turns with the table
+constexpr double kHeldStill = 2;  // pixels: largest movement of a corner that counts as still
 
-// Whether all corners that both views show are where they were.
+// Returns whether all corners seen in both views have stayed in place.
 bool is_same_place(const TargetView& a, const TargetView& b) {
   for (std::size_t i = 0; i < a.ids.size(); ++i) {
     const auto it = std::find(b.ids.begin(), b.ids.end(), a.ids[i]);
     if (it == b.ids.end()) continue;
-    const Pixel& there = b.corners[static_cast<std::size_t>(it - b.ids.begin())];
+    const ImagePoint& there = b.corners[static_cast<std::size_t>(it - b.ids.begin())];
     if (std::hypot(a.corners[i].u - there.u, a.corners[i].v - there.v) > kHeldStill) return false;
   }
   return true;
@@ -28,11 +29,12 @@ bool is_same_place(const TargetView& a, const TargetView& b) {
 
 class Photographer {
  public:
-  Photographer(LiveScanner& scanner, const Target& target, const TargetPictureOptions& options)
+  Photographer(LiveScanner& scanner, const CharucoTarget& target,
+               const TargetPictureOptions& options)
       : scanner_(scanner), target_(target), options_(options) {}
 
-  // All pictures of one place. A target that does not turn with the table is held before it, and
-  // one picture shows all.
+  // Takes all pictures of one placement. If the target does not turn with the table, it is held in
+  // front of the table, and one picture is enough.
   Expected<void> take_place(int placement) {
     const auto first = take(placement, 0);
     if (!first) return tl::unexpected(first.error());
@@ -55,7 +57,7 @@ class Photographer {
   std::vector<TargetPicture>& pictures() { return pictures_; }
 
  private:
-  // Whether the target is seen there.
+  // Takes one picture. Returns whether the picture shows the target.
   Expected<bool> take(int placement, double angle) {
     if (options_.is_interrupted && options_.is_interrupted())
       return fail(ErrorCode::kState, "the calibration was interrupted; start it again");
@@ -79,13 +81,13 @@ class Photographer {
   }
 
   LiveScanner& scanner_;
-  const Target& target_;
+  const CharucoTarget& target_;
   const TargetPictureOptions& options_;
   std::vector<TargetPicture> pictures_;
   std::optional<Error> why_unseen_;
 };
 
-// Placements are numbered without gaps: one that no picture shows has no number.
+// Renumbers the placements without gaps. A placement that no picture shows gets no number.
 void close_gaps(std::vector<TargetPicture>& pictures) {
   int number = -1, last = -1;
   for (TargetPicture& picture : pictures) {
@@ -96,7 +98,7 @@ void close_gaps(std::vector<TargetPicture>& pictures) {
 
 }  // namespace
 
-Expected<CalibrationInput> picture_target(const Scanner& scanner, const Target& target,
+Expected<CalibrationInput> picture_target(const Scanner& scanner, const CharucoTarget& target,
                                           const PlaceTarget& place, EmergencyStop& stop,
                                           const TargetPictureOptions& options) {
   if (auto known = check_target(target); !known) return tl::unexpected(known.error());
@@ -132,4 +134,4 @@ Expected<CalibrationInput> picture_target(const Scanner& scanner, const Target& 
                           .pictures = std::move(photographer.pictures())};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

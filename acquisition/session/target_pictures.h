@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures that a calibration is made from: the target in many places, each without and with
-// the laser's line on it.
+// Takes the pictures for a calibration. They show the target in many placements, each without and
+// with the laser's line on it.
 #pragma once
 
 #include <functional>
@@ -9,25 +9,28 @@
 #include "acquisition/calibration/calibrate.h"
 #include "acquisition/session/scanner.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Puts the target into its `number`-th place, from 0, or has it put there; false: there is no
-// other. It may stand on the table, so that it turns with it, or be held before it.
+// Moves the target to placement `number`, counted from 0, or asks the operator to do so. Returns
+// false if there are no more placements. The target may stand on the table and turn with it, or be
+// held in front of it.
 using PlaceTarget = std::function<Expected<bool>(int number)>;
 
 struct TargetPictureOptions {
-  double largest_angle = 50, angle_step = 5;  // degrees, of the table, either way
-  // Called after each place with what has been seen so far and, where no picture shows the target
-  // there, why: words for the operator.
+  double largest_angle = 50,
+         angle_step = 5;  // degrees by which the table turns, in either direction
+  // Called after each placement. `seen` says, in words for the operator, how many pictures show the
+  // target so far and, if none of this placement does, why. May be empty.
   std::function<void(const std::string& seen)> progress = {};
-  // Asked before each picture; may be empty.
+  // Polled before each picture; may be empty.
   std::function<bool()> is_interrupted = {};
 };
 
-// Fails with a device's error, where it is interrupted (kState), or (kBadInput) where no picture
-// shows the target ("target never seen"). Laser and motor are off on return.
-Expected<CalibrationInput> picture_target(const Scanner& scanner, const Target& target,
+// Takes all pictures. Fails with the error of a device, with kState if interrupted, or with
+// kBadInput if no picture shows the target ("target never seen"). Laser and motor are off on
+// return.
+Expected<CalibrationInput> picture_target(const Scanner& scanner, const CharucoTarget& target,
                                           const PlaceTarget& place, EmergencyStop& stop,
                                           const TargetPictureOptions& options = {});
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -7,7 +7,7 @@
 
 #include "codec/mesh/face_neighbours.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 struct BoundaryEdge {
@@ -57,7 +57,8 @@ class Loop {
     return std::max({size.x, size.y, size.z});
   }
 
-  // Faces run counter-clockwise: along the rim of a piece with them, round a hole against them.
+  // Returns whether the loop is the rim of a hole. Faces are counter-clockwise, so the rim of a
+  // piece runs with them and the rim of a hole against them.
   bool is_hole() const {
     Vec3 area, normal;
     for (const BoundaryEdge& e : edges_) {
@@ -75,7 +76,8 @@ class Loop {
   Vec3 middle_;
 };
 
-// Loops without those vertices where several come together: which edge goes on is not known there.
+// Returns the boundary loops. A vertex at which several loops meet is left out, because the loop's
+// next edge is ambiguous there.
 std::vector<Loop> loops_of(const TriangleMesh& mesh) {
   const std::vector<BoundaryEdge> edges = boundary_of(mesh);
   const auto leaving = [&](std::uint32_t v) {
@@ -119,4 +121,4 @@ std::uint64_t close_holes(TriangleMesh& mesh, double largest) {
   return middles.size();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

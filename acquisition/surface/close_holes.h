@@ -6,11 +6,11 @@
 
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Each loop of boundary edges that goes round a hole (not round a piece of surface) and fits into a
-// box of `largest` mm gets a new vertex in its middle and a fan of faces around it. `mesh` has no
-// edge with more than two faces. Returns how many were closed. O(n log n).
+// Closes each hole whose boundary loop fits into a box of `largest` mm: adds a vertex in its middle
+// and a fan of faces. Boundary loops around a piece of surface are not holes. No edge of `mesh` may
+// have more than two faces. Returns the number of holes closed. O(n log n).
 std::uint64_t close_holes(TriangleMesh& mesh, double largest);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -5,15 +5,18 @@
 #include <cmath>
 #include <numbers>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr double kDepths = 4;       // of s_max: eq. 5
-constexpr double kOutermost = .95;  // of the points lie closer to the axis than what spacing is of
+constexpr double kDepths = 4;  // multiples of s_max: [WLL] eq. 5
+// The spacing is measured at a radius. This share of the points is closer to the axis than that
+// radius.
+constexpr double kOutermost = .95;
 
-constexpr double kLeastHeight = 1e-3;  // mm: no camera's row is lower
+constexpr double kLeastHeight = 1e-3;  // mm: rows of real cameras are farther apart than this
 
-constexpr int kSampledGap = 4;  // of the median: profiles that come sampled have any rows
+constexpr int kSampledGap =
+    4;  // multiples of the median, because sampled profiles have irregular rows
 
 template <class T>
 T percentile(std::vector<T>& values, double part) {
@@ -100,4 +103,4 @@ bool are_joined(double depth, double distance, const Spacing& spacing) {
   return across > spacing.cos_largest * distance;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

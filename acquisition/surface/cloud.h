@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of all strands, and what makes two of them neighbours.
+// The points of all strands, and the distances that decide which points are neighbours.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 #include "acquisition/surface/surface_of.h"
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Strands in order of theta over one turn, with the points of all of them in one array besides:
-// those of strand k are [first[k], first[k + 1]). Strands of equal theta make one step: those of
-// step s are [steps[s], steps[s + 1]).
+// The strands of a scan by ascending theta over one revolution. All their points are numbered in
+// one sequence, and strand k has the points [first[k], first[k + 1]). Strands of equal theta form a
+// step, and step s has the strands [steps[s], steps[s + 1]).
 struct Cloud {
   std::vector<Profile> strands;
   std::vector<std::size_t> first, steps;
@@ -29,28 +29,32 @@ struct Cloud {
   }
 };
 
-// Where in `strands`, in order of theta, each step begins, and their number.
+// Returns the index in `strands` at which each step begins, followed by the number of strands.
 std::vector<std::size_t> steps_of(std::span<const Profile> strands);
 
-// The strands without the points that are not kept.
+// Returns the strands with only those points that are flagged in `kept`.
 std::vector<Profile> keep(const Cloud& cloud, const std::vector<bool>& kept);
 
-// What holds for the whole scan.
+// Distances and angles that hold for the whole scan.
 struct Spacing {
-  int rows = 1;            // from point to point in a strand, median
-  int gap = 1;             // rows from point to point; where there are more, some are missing
-  double row_height = 1;   // mm, from row to row, median
-  double largest = 0;      // s_max, mm
-  double near = 0;         // 4 s_max, mm: what eq. 5 joins at any angle
-  double bridge = 0;       // mm: strands whose points are further apart are not joined
-  double cos_largest = 0;  // of phi_max
+  // Median number of rows between consecutive points of a strand.
+  int rows = 1;
+  // Largest number of rows between consecutive points that counts as no gap.
+  int gap = 1;
+  double row_height = 1;  // mm: median height of a row
+  double largest = 0;     // s_max, mm
+  // 4 s_max, in mm. Closer points are joined by [WLL] eq. 5 at any angle.
+  double near = 0;
+  // Strands whose points are farther apart than this, in mm, are not joined.
+  double bridge = 0;
+  double cos_largest = 0;  // cosine of phi_max
 };
 
 Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options);
 
-// Eq. 5-6: the depths rho differ by `depth`, which is less than 4 s_max, or the surface is seen at
-// an angle phi below phi_max, where cos(phi) is the share of their distance that lies across the
-// depth.
+// Returns whether two points are joined by [WLL] eq. 5 and 6. They are if their depths rho differ
+// by `depth` < 4 s_max, or if the surface between them is seen at an angle phi < phi_max. cos(phi)
+// is the share of their `distance` that is perpendicular to the depth.
 bool are_joined(double depth, double distance, const Spacing& spacing);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

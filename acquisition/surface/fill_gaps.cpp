@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 double distance(const TablePoint& a, const TablePoint& b) {
@@ -19,8 +19,8 @@ class Course {
   Course(const std::vector<ProfilePoint>& points, const Spacing& spacing)
       : points_(points), spacing_(spacing) {}
 
-  // Whether the surface goes on from the point before `i` to it. The plane's far side of the axis
-  // is another side of the object.
+  // Returns whether the surface continues from the point before `i` to point `i`. If rho changes
+  // its sign, the points are on different sides of the object.
   bool goes_on(std::size_t i) const {
     const TablePoint &a = points_[i - 1].at, &b = points_[i].at;
     if (!same_side(a, b)) return false;
@@ -29,8 +29,8 @@ class Course {
   }
 
  private:
-  // Whether the step to `i` is what the step to `other`, before or after it, lets expect: a surface
-  // that laser or camera graze goes far in depth from row to row, but not at once.
+  // Returns whether the step to `i` resembles the step to `other`, which is its neighbour along the
+  // strand. On a surface at a grazing angle, the depth changes much from row to row, but steadily.
   bool is_steady(std::size_t i, std::size_t other) const {
     if (other == 0 || other >= points_.size()) return false;
     const ProfilePoint &a = points_[i - 1], &b = points_[i], &c = points_[other - 1],
@@ -86,4 +86,4 @@ std::uint64_t fill_gaps(Profile& strand, double largest_hole, const Spacing& spa
   return filled;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gaps along a strand: the small ones are filled, at the others its surface ends.
+// Fills small gaps along a strand; at larger gaps the surface ends.
 #pragma once
 
 #include <cstdint>
 
 #include "acquisition/surface/cloud.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Rows that are missing between two points which are joined (eq. 5, or else a step that is like the
-// one before or after it: a surface may be grazed all along) and no further apart than
-// `largest_hole` mm get points in between, linear in rho (and in lateral and z), flagged kFilled. A
-// point that is not joined to the one before it, or has a larger gap before it, is flagged kApart.
-// Returns how many points were filled in.
+// Fills gaps: interpolates points in missing rows, linearly in rho, lateral and z, and flags them
+// kFilled. The two ends of a gap must be joined and at most `largest_hole` mm apart. Two points are
+// joined by [WLL] eq. 5, or if the step between them resembles the step before or after it (grazing
+// surfaces). A point that is not joined to the point before it, or follows a larger gap, is flagged
+// kApart. Returns the number of points added.
 std::uint64_t fill_gaps(Profile& strand, double largest_hole, const Spacing& spacing);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -10,20 +10,21 @@
 #include "codec/mesh/face_neighbours.h"
 #include "codec/mesh/triangle_bvh.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr std::size_t kPoints = 10'000;  // that a scan is moved by
-// Distances up to which points count, one after the other, in `overlap`s: from the operator's start
-// to what is the same surface.
+constexpr std::size_t kPoints = 10'000;  // number of points used to register a scan
+// Distances, in multiples of `overlap`, up to which points count. Each pass uses the next distance:
+// the first suits the operator's rough placement, the last accepts only the same surface.
 constexpr std::array<double, 8> kNarrowing = {40, 20, 10, 6, 4, 2, 1, 1};
-constexpr int kSteps = 6;             // at each distance
-constexpr std::size_t kFewest = 100;  // points that overlap
+constexpr int kSteps = 6;             // iterations at each distance
+constexpr std::size_t kFewest = 100;  // least number of overlapping points
 
-// What scans are moved onto: without the rim, where closest points are no counterparts.
-class Target {
+// The surface to which scans are registered. Its rim is excluded, because closest points there do
+// not correspond.
+class FixedSurface {
  public:
-  explicit Target(const TriangleMesh& mesh) : bvh_(mesh), rim_(bvh_.size(), false) {
+  explicit FixedSurface(const TriangleMesh& mesh) : bvh_(mesh), rim_(bvh_.size(), false) {
     const auto across = face_neighbours(bvh_.faces(), bvh_.positions().size());
     for (std::uint32_t t = 0; t < bvh_.size(); ++t) {
       for (std::uint32_t k = 0; k < 3; ++k)
@@ -36,9 +37,9 @@ class Target {
     std::vector<Counterpart> found;
     for (const Vec3& p : points) {
       const Vec3 moved = motion(p);
-      const SurfacePoint hit = bvh_.closest(moved, {reach * reach});
+      const ClosestTriangle hit = bvh_.closest(moved, {reach * reach});
       if (hit.squared >= reach * reach || rim_[hit.triangle]) continue;
-      const Corners corners = bvh_.triangle(hit.triangle);
+      const TrianglePoints corners = bvh_.triangle(hit.triangle);
       const Vec3 normal = normal_of(corners);
       if (const double size = length(normal); size > 0)
         found.push_back({moved, closest_point(corners, moved), normal * (1 / size)});
@@ -70,7 +71,7 @@ double rms_of(const std::vector<Counterpart>& pairs) {
 
 Unexpected no_overlap(std::size_t scan, std::size_t points) {
   return fail(ErrorCode::kBadInput,
-              fmt::format("scan {} overlaps with those before it in {} points only; give a better "
+              fmt::format("scan {} overlaps the earlier ones in only {} points; give a better "
                           "start, or scan more of the same parts",
                           scan + 1, points));
 }
@@ -112,15 +113,15 @@ Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const Rigi
                        const MergeOptions& options) {
   if (scans.empty() || scans.size() != starts.size())
     return fail(ErrorCode::kBadInput,
-                fmt::format("{} scans and {} starts; give one start for each scan", scans.size(),
-                            starts.size()));
+                fmt::format("there are {} scans and {} starts; give one start for each scan",
+                            scans.size(), starts.size()));
   for (std::size_t k = 0; k < scans.size(); ++k) {
     if (scans[k].faces.empty())
       return fail(ErrorCode::kBadInput, fmt::format("scan {} has no face; leave it out", k + 1));
   }
   Merged merged{{scans[0].positions, scans[0].faces, {}}, {RigidMotion{}}, {0}, {1}};
   for (std::size_t k = 1; k < scans.size(); ++k) {
-    const Target target(merged.mesh);
+    const FixedSurface target(merged.mesh);
     const std::vector<Vec3> points = some_of(scans[k].positions);
     const std::size_t fewest = std::min(kFewest, points.size());
     RigidMotion motion = starts[k];
@@ -142,4 +143,4 @@ Expected<Merged> merge(std::span<const TriangleMesh> scans, std::span<const Rigi
   return merged;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

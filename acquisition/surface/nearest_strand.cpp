@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <limits>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// Of one strand to points that come row by row.
+// Computes distances from one strand to points that arrive by ascending row.
 class Distance {
  public:
   Distance(const Cloud& cloud, std::size_t strand)
       : points_(cloud.strands[strand].points), at_(&cloud.positions[cloud.first[strand]]) {}
 
-  // Squared; between two points that the strand joins, to where it is at that row.
+  // Returns the squared distance from `p` to the strand at `row`. Between two joined points, it is
+  // measured to the position interpolated at that row.
   double to(const Vec3& p, int row) {
     while (below_ < points_.size() && points_[below_].row < row)
       ++below_;
@@ -32,7 +33,7 @@ class Distance {
  private:
   const std::vector<ProfilePoint>& points_;
   const Vec3* at_;
-  std::size_t below_ = 0;  // the first point that is not above the row
+  std::size_t below_ = 0;  // index of the first point that is not above the current row
 };
 
 }  // namespace
@@ -52,4 +53,4 @@ std::vector<std::size_t> nearest_strands(const Cloud& cloud, std::size_t strand,
   return nearest;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

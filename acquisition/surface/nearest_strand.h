@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a step shows two surfaces, a point belongs to the one that is nearer.
+// Assigns each point to the nearest strand of a step that shows two surfaces.
 #pragma once
 
 #include <vector>
 
 #include "acquisition/surface/cloud.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// For each point of `strand` the strand of `step` that is nearest to it at its row; if there is
-// only one, that. O(points).
+// Returns, for each point of `strand`, the strand of `step` that is nearest at the point's row. If
+// `step` has only one strand, returns that one. O(points).
 std::vector<std::size_t> nearest_strands(const Cloud& cloud, std::size_t strand, std::size_t step);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

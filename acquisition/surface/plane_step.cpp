@@ -5,13 +5,15 @@
 #include <array>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using Vector6 = std::array<double, 6>;
-constexpr double kDetermined = 1e-9;  // of the largest diagonal: a smaller pivot is rounding
+// Multiple of the largest diagonal entry. A smaller pivot is only rounding error.
+constexpr double kDetermined = 1e-9;
 
-// Gaussian elimination of a positive semidefinite system; zero where it is singular.
+// Solves a positive semidefinite system by Gaussian elimination. Returns zero if the system is
+// singular.
 Vector6 solve(std::array<Vector6, 6> a, Vector6 b) {
   double largest = 0;
   for (std::size_t k = 0; k < 6; ++k)
@@ -35,7 +37,7 @@ Vector6 solve(std::array<Vector6, 6> a, Vector6 b) {
   return x;
 }
 
-// By the angle |turn| about `turn` (Rodrigues).
+// Rotates `p` about `turn` by the angle |turn| (Rodrigues).
 Vec3 rotated(const Vec3& p, const Vec3& turn) {
   const double angle = length(turn);
   if (!(angle > 0)) return p;
@@ -74,14 +76,4 @@ RigidMotion towards_planes(std::span<const Counterpart> pairs) {
   return step;
 }
 
-RigidMotion then(const RigidMotion& first, const RigidMotion& second) {
-  RigidMotion both;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3& r = second.rows[k];
-    both.rows[k] = first.rows[0] * r.x + first.rows[1] * r.y + first.rows[2] * r.z;
-  }
-  both.shift = second(first.shift);
-  return both;
-}
-
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// One step of registration by planes: it slides along what it already touches, which steps towards
-// points do only slowly.
+// Computes one point-to-plane step of registration. Unlike a point-to-point step, it slides quickly
+// along surfaces that are already in contact.
 #pragma once
 
 #include <span>
 
 #include "codec/core/vec.h"
-#include "codec/mesh/rigid_alignment.h"
+#include "codec/distance/rigid_alignment.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct Counterpart {
-  Vec3 point, on;  // a point and the closest one of the other surface
-  Vec3 normal;     // there, of length 1
+  Vec3 point, on;  // a point, and the closest point on the other surface
+  Vec3 normal;     // unit normal at the closest point
 };
 
-// The small motion that brings the points closest to the planes through their counterparts (least
-// squares, Chen and Medioni 1992). None where they do not determine it.
+// Returns the small motion that brings each point closest to the tangent plane at its counterpart,
+// by least squares ([CM92]). Returns the identity if the pairs do not determine the motion.
 RigidMotion towards_planes(std::span<const Counterpart> pairs);
 
-// `second` after `first`.
-RigidMotion then(const RigidMotion& first, const RigidMotion& second);
-
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

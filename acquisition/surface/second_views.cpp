@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using Cell = std::array<std::int32_t, 3>;
@@ -41,7 +41,8 @@ class Near {
   }
 
  private:
-  // In three cells above each other, which lie one after the other.
+  // Returns whether a point lies near `p`. Searches three cells, one above the other, which are
+  // contiguous in memory.
   bool has(const Vec3& p, const Cell& low) const {
     const Placed from{low, 0};
     const Cell high = {low[0], low[1], low[2] + 2};
@@ -75,4 +76,4 @@ std::vector<bool> first_views(const Cloud& cloud, double reach) {
   return kept;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

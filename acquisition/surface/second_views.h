@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the laser plane meets beyond the axis has been seen better, half a turn earlier or later.
+// Drops points beyond the axis that were seen better half a revolution earlier or later.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,11 @@
 
 #include "acquisition/surface/cloud.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// False for each point with negative rho that has a point with positive rho closer than `reach` mm:
-// two sheets over each other would not be one surface. True for all others. O(n log n).
+// Returns one flag for each point. It is false for a point with negative rho if a point with
+// positive rho is closer than `reach` mm, because the two sheets would not form one surface. It is
+// true for all other points. O(n log n).
 std::vector<bool> first_views(const Cloud& cloud, double reach);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -7,21 +7,22 @@
 #include <optional>
 #include <span>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// In points on either side: steps, rows.
+// Half sizes of a window, in steps and rows.
 struct Reach {
   int steps, rows;
 };
 constexpr std::array<Reach, 4> kWindows = {{{4, 6}, {3, 4}, {2, 2}, {1, 1}}};
-constexpr int kTerms = 6;  // 1, x, y, x², xy, y²
-// Calibrated noise is an average: it is more where the stripe is weak or the surface slants, and
-// the motor's error adds to it.
-constexpr double kAllowed = 1.5;  // times `noise`, rms of what is left
-constexpr double kOwn = 3;        // times `noise`: how far a point may move
+constexpr int kTerms = 6;  // the terms are 1, x, y, x², xy, y²
+// Limits in multiples of `noise`. The calibrated noise is an average: the real noise is larger
+// where the stripe is weak or the surface slants, and the motor adds its error.
+constexpr double kAllowed = 1.5;  // largest accepted rms of the residuals
+constexpr double kOwn = 3;        // largest motion of a point
 
-// The quadratics over a window of the grid, made orthonormal: a fit is one product a term.
+// Orthonormal quadratics over a window of the grid. With them, a fit needs only one product for
+// each term.
 class Basis {
  public:
   explicit Basis(Reach reach) : reach_(reach) {
@@ -31,7 +32,7 @@ class Basis {
         terms_.push_back({1, p, q, p * p, p * q, q * q});
       }
     }
-    // Gram-Schmidt.
+    // Gram-Schmidt orthonormalisation
     for (std::size_t k = 0; k < kTerms; ++k) {
       for (std::size_t j = 0; j < k; ++j)
         subtract(k, j, product(k, j));
@@ -43,7 +44,8 @@ class Basis {
 
   Reach reach() const { return reach_; }
 
-  // The quadratic at the middle of `values`, if it leaves no more than `rms` of them.
+  // Fits a quadratic to `values` and returns its value at the centre. Returns nullopt if the
+  // residual exceeds `rms`.
   std::optional<double> middle(const std::vector<double>& values, double rms) const {
     std::array<double, kTerms> c{};
     double squares = 0, fitted = 0, at_middle = 0;
@@ -72,10 +74,11 @@ class Basis {
   }
 
   Reach reach_;
-  std::vector<std::array<double, kTerms>> terms_;  // at each place of the window
+  std::vector<std::array<double, kTerms>> terms_;  // the terms at each position of the window
 };
 
-// rho over step and row in a layer for each strand of a step, NaN where there is no point.
+// The values of rho by step and row. Each strand of a step has its own layer. A position without a
+// point is NaN.
 class Grid {
  public:
   Grid(const std::vector<Profile>& strands, const std::vector<std::size_t>& steps, int step)
@@ -94,7 +97,8 @@ class Grid {
 
   int row(const ProfilePoint& point) const { return (point.row - low_) / step_; }
 
-  // Less the middle's. False where the window is not complete.
+  // Stores the values relative to that of the centre in `values`. Returns false if the window is
+  // incomplete.
   bool window(std::size_t layer, int step, int row, Reach reach,
               std::vector<double>& values) const {
     if (row < reach.rows || row + reach.rows >= rows_ || 2 * reach.steps >= count_) return false;
@@ -168,4 +172,4 @@ std::uint64_t smooth(std::vector<Profile>& strands, double noise, const Spacing&
   return moved;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the sensor's noise out of the strands, and nothing else.
+// Smooths strands within the sensor's noise.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 #include "acquisition/profile/profile.h"
 #include "acquisition/surface/cloud.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Each point moves in rho onto the quadratic surface that is fitted to the rows and steps around
-// it, of two strands in a step to the one that is nearer in rho: the largest of a few windows that
-// is complete and scatters about its surface no more than `noise` (mm) explains. Where none does,
-// at edges, steps and borders, a point stays as it was measured; so what is smoothed away is no
-// larger than the noise. `strands` are in order of theta over one turn, at equal steps, with points
-// `spacing.rows` apart. Returns how many points moved. O(n).
+// Smooths the scan: moves each point in rho onto a quadratic surface fitted to the rows and steps
+// around it. If a step has two strands, the strand nearer in rho counts. Among a few windows, it
+// uses the largest that is complete and whose rms residual is at most 1.5 times `noise` (mm). If no
+// window qualifies, as at edges, the point stays. So smoothing removes nothing larger than the
+// noise. `strands` are by ascending theta over one revolution, at equal steps, with points
+// `spacing.rows` apart. Returns the number of points moved. O(n).
 std::uint64_t smooth(std::vector<Profile>& strands, double noise, const Spacing& spacing);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

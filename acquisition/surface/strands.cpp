@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 double distance(const Profile& strand, const ProfilePoint& point) {
@@ -42,4 +42,4 @@ std::vector<Profile> strands_of(const Profile& profile) {
   return strands;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

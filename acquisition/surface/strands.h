@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts a profile whose rows show two surfaces into strands that show one a row.
+// Splits a profile whose rows show two surfaces into strands with one point a row.
 #pragma once
 
 #include <vector>
 
 #include "acquisition/profile/profile.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// One strand, or two where a row has two points: each a profile of the same theta with at most one
-// point a row. A point goes on with the strand whose last point is the nearer one, and of two in a
-// row both so that they lie nearest in sum. Each strand may go over from one surface to another: it
-// is only a way to order the points.
+// Splits a profile into one strand, or two if a row has two points. Each strand is a profile of the
+// same theta with at most one point a row. A single point joins the strand whose last point is
+// nearer. Two points in a row are assigned so that the sum of distances is least. A strand may
+// change from one surface to the other, because strands only order the points.
 std::vector<Profile> strands_of(const Profile& profile);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

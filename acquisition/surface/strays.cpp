@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <numeric>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr std::size_t kStepsOn = 2;  // further on, so that one picture may be missing
-constexpr std::size_t kReach = 2;    // further on within a strand; on either side in the others
+constexpr std::size_t kStepsOn =
+    2;  // number of steps to look ahead, so that one picture may be missing
+// Number of points to look ahead within a strand, and to either side in other strands.
+constexpr std::size_t kReach = 2;
 constexpr int kNeighbours = 3;
 
 class Pieces {
@@ -34,7 +36,7 @@ class Pieces {
   std::vector<std::uint32_t> parent_, size_;
 };
 
-// Pairs of neighbours, each once.
+// Visits each pair of neighbouring points once.
 class Neighbours {
  public:
   Neighbours(const Cloud& cloud, double reach) : cloud_(cloud), reach_(reach) {}
@@ -63,7 +65,7 @@ class Neighbours {
     }
   }
 
-  // Of one strand and those in [from, to).
+  // Visits the neighbours that points of one strand have in the strands [from, to).
   template <class Visit>
   void between(std::size_t strand, std::size_t from, std::size_t to, Visit visit) const {
     const auto& points = cloud_.strands[strand].points;
@@ -111,4 +113,4 @@ Strays find_strays(const Cloud& cloud, double reach, std::size_t smallest) {
   return strays;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points that no surface goes through.
+// Finds outliers and isolated points, which belong to no surface.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 #include "acquisition/surface/cloud.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct Strays {
-  std::vector<bool> kept;  // a point of the cloud each
+  std::vector<bool> kept;  // one flag for each point of the cloud
   std::uint64_t outliers = 0, isolated = 0;
 };
 
-// Neighbours of a point are those of the rows next to its own, in its strand and all of the two
-// steps on either side, that are closer than `reach` (mm). Outliers have fewer than three of them;
-// what is left and hangs together in pieces of fewer than `smallest` points is isolated. Pieces are
-// formed over rows and steps alike, so that a thin edge which shows on a few rows of many profiles
-// is one. O(n).
+// Finds points that do not belong to the surface. Neighbours of a point are points closer than
+// `reach` (mm) in adjacent rows of its own strand and of all strands of the two steps on either
+// side. Points with fewer than three neighbours are outliers. Among the rest, connected pieces with
+// fewer than `smallest` points are isolated. Pieces extend over rows and steps alike, so a thin
+// edge that shows on a few rows of many profiles is one piece. O(n).
 Strays find_strays(const Cloud& cloud, double reach, std::size_t smallest);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -7,29 +7,30 @@
 
 #include "acquisition/surface/nearest_strand.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr double kBreak = 10;  // times what an edge across may be long
+constexpr double kBreak = 10;  // multiple of the largest accepted length of an edge between strands
 
 struct Side {
   std::size_t strand;
   const std::vector<ProfilePoint>& points;
-  std::size_t first;  // of the cloud
-  std::vector<std::size_t>
-      nearest;  // the strand of the other step that each point may be joined to
-  int rows;     // from point to point at least
+  std::size_t first;  // index of the strand's first point in the cloud
+  // For each point, the strand of the other step to which an edge may lead.
+  std::vector<std::size_t> nearest;
+  int rows;  // least number of rows between points
 
   std::size_t size() const { return points.size(); }
   bool goes_on(std::size_t i) const { return i + 1 < size() && !(points[i + 1].flags & kApart); }
-  // The rows that point i answers for.
+  // Returns the number of rows that point i represents.
   int reach(std::size_t i) const {
     int reach = rows;
     if (goes_on(i)) reach = std::max(reach, points[i + 1].row - points[i].row);
     if (i > 0 && goes_on(i - 1)) reach = std::max(reach, points[i].row - points[i - 1].row);
     return reach;
   }
-  // The rho that the strand has at `row` if it goes there from point i, otherwise that of point i.
+  // Returns the rho at `row`, interpolated if the strand continues there from point i. Otherwise
+  // returns the rho of point i.
   double depth_at(std::size_t i, int row) const {
     const ProfilePoint& at = points[i];
     std::size_t next = i;
@@ -41,8 +42,9 @@ struct Side {
   }
 };
 
-// The edges across that are looked at: for each point of one strand those to a range of the other's
-// points, about the same rows. The ranges overlap, so that a way down both strands stays within.
+// The candidate edges between two strands. They lead from each point of one strand to a range of
+// points of the other at about the same rows. Consecutive ranges overlap, so a path down both
+// strands always exists.
 class Band {
  public:
   Band(const Side& a, const Side& b, int rows) {
@@ -71,7 +73,7 @@ class Band {
   std::vector<std::size_t> low_, end_, first_;
 };
 
-// The rows between two points that may be joined, at most.
+// Returns the largest number of rows between two points that may be joined.
 int rows_apart(const Side& a, const Side& b, const Spacing& spacing) {
   int rows = static_cast<int>(std::ceil(spacing.near / spacing.row_height));
   for (const Side* side : {&a, &b}) {
@@ -97,8 +99,8 @@ class Strip {
     std::size_t i = a_.size() - 1, j = b_.size() - 1;
     while (i > 0 || j > 0) {
       const Way& way = ways_[band_.cell(i, j)];
-      const std::uint32_t third = way.down_a ? vertex_a(i) : vertex_b(j);
-      way.down_a ? --i : --j;
+      const std::uint32_t third = way.goes_down_a ? vertex_a(i) : vertex_b(j);
+      way.goes_down_a ? --i : --j;
       if (way.joins) add(i, j, third, faces);
     }
   }
@@ -106,10 +108,10 @@ class Strip {
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  // From the top of both strands to an edge across.
+  // The best path from the top of both strands to an edge between the strands.
   struct Way {
     double cost = kNever;
-    bool down_a = false, joins = false;  // its last step
+    bool goes_down_a = false, joins = false;  // describe the last step of the path
   };
 
   void find_ways() {
@@ -124,13 +126,14 @@ class Strip {
     }
   }
 
-  // A step without triangle costs more than any edge.
-  void offer(std::size_t i, std::size_t j, bool down_a, bool goes_on, Way& way) const {
-    const std::size_t from = down_a ? band_.cell(i - 1, j) : band_.cell(i, j - 1);
+  // Keeps the path that ends with this step in `way` if it is cheaper. A step without a triangle
+  // costs more than any edge.
+  void offer(std::size_t i, std::size_t j, bool goes_down_a, bool goes_on, Way& way) const {
+    const std::size_t from = goes_down_a ? band_.cell(i - 1, j) : band_.cell(i, j - 1);
     const double length = edges_[band_.cell(i, j)];
     const bool joins = goes_on && edges_[from] < kNever && length < kNever;
     const double cost = ways_[from].cost + (joins ? length : kBreak * spacing_.bridge);
-    if (cost < way.cost) way = {cost, down_a, joins};
+    if (cost < way.cost) way = {cost, goes_down_a, joins};
   }
 
   std::uint32_t vertex_a(std::size_t i) const { return static_cast<std::uint32_t>(a_.first + i); }
@@ -151,8 +154,8 @@ class Strip {
     if (distance * distance - in_depth * in_depth - height * height >
         spacing_.bridge * spacing_.bridge)
       return false;
-    // Depths are compared at the same row: between the rows of a sampled strand a surface that is
-    // nearly flat goes far in depth without a step.
+    // Depths are compared at the same row. Between the rows of a sampled strand, the depth of a
+    // nearly flat surface may change much without a discontinuity.
     const double depth = std::min(std::abs(a_.depth_at(i, q.row) - q.at.rho),
                                   std::abs(b_.depth_at(j, p.row) - p.at.rho));
     return are_joined(depth, distance, spacing_);
@@ -162,8 +165,8 @@ class Strip {
     return is_accepted(i, j) ? length_across(i, j) : kNever;
   }
 
-  // Rows go down and the object has been turned back further in the next step, so that this
-  // order is counter-clockwise from the laser's side; beyond the axis the turn goes the other way.
+  // Rows go down, and in the next step the object has been turned back further. So this order is
+  // counter-clockwise, seen from the laser's side. Beyond the axis the object turns the other way.
   void add(std::size_t i, std::size_t j, std::uint32_t third, std::vector<Triangle>& faces) const {
     if (a_.points[i].at.rho < 0)
       faces.push_back({vertex_a(i), third, vertex_b(j)});
@@ -175,17 +178,20 @@ class Strip {
   const Spacing& spacing_;
   const Side &a_, &b_;
   const Band band_;
-  std::vector<double> edges_;  // lengths of those across, kNever where they are not accepted
-  std::vector<Way> ways_;      // the cheapest
+  std::vector<double> edges_;  // lengths of candidate edges; kNever if rejected
+  std::vector<Way> ways_;      // the cheapest path to each edge
 };
 
-// The strands of a step, to be joined to those of `other`.
+// Returns the strands of one step, which will be joined to those of `other`.
 std::vector<Side> sides_of(const Cloud& cloud, std::size_t step, std::size_t other,
                            const Spacing& spacing) {
   std::vector<Side> sides;
   for (std::size_t k = cloud.steps[step]; k < cloud.steps[step + 1]; ++k)
-    sides.push_back({k, cloud.strands[k].points, cloud.first[k], nearest_strands(cloud, k, other),
-                     spacing.rows});
+    sides.push_back({.strand = k,
+                     .points = cloud.strands[k].points,
+                     .first = cloud.first[k],
+                     .nearest = nearest_strands(cloud, k, other),
+                     .rows = spacing.rows});
   return sides;
 }
 
@@ -202,4 +208,4 @@ void add_strips(const Cloud& cloud, std::size_t step, const Spacing& spacing,
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles between two neighbouring steps.
+// Triangulates the strip between two neighbouring steps.
 #pragma once
 
 #include <vector>
 
 #include "acquisition/surface/cloud.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// Of all pairs of strands, one of `step` and one of the next. Of the ways down both strands at once
-// the one is taken that makes the most triangles, and of those the one with the shortest edges
-// across (in a quad of equal rows: the shorter diagonal). A triangle needs all three of its edges:
-// along a strand where it is not kApart; across where the points are closer than 4 s_max, whatever
-// their rows (a shelf that laser or camera graze goes over many rows from step to step, and far in
-// depth at each), or else by eq. 5 between rows as close as the points around; and only where of
-// the other step's strands each of the two points has the other's nearest. So the strands may have
-// any rows and numbers of points. An edge across is of at most two triangles of one pair of
-// strands, an edge along a strand of at most one triangle on either side: the surface has no edge
-// of three faces.
+// Joins each strand of `step` to each strand of the next step. Among the paths down both strands,
+// chooses the path with the most triangles. If several have the most, it chooses the one with the
+// shortest edges between strands; in a quad of equal rows this is the shorter diagonal. Strands may
+// have any rows and numbers of points.
+// A triangle needs all three edges. An edge along a strand exists unless its end is flagged kApart.
+// An edge between strands exists if its points are closer than 4 s_max, at any rows, because
+// grazing surfaces extend over many rows. It also exists if [WLL] eq. 5 joins its points and their
+// rows are as close as those of the points around. In both cases, each point's strand must be
+// nearest to the other point.
+// An edge between strands bounds at most two triangles, of one pair of strands. An edge along a
+// strand bounds at most one on either side. So no edge of the surface has three faces.
 void add_strips(const Cloud& cloud, std::size_t step, const Spacing& spacing,
                 std::vector<Triangle>& faces);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -15,11 +15,11 @@
 #include "acquisition/surface/strays.h"
 #include "acquisition/surface/strip.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-constexpr std::size_t kFewestSteps = 3;  // fewer have no turn to close
-constexpr double kNeighbourhood = 4;     // of s_max, as in eq. 5
+constexpr std::size_t kFewestSteps = 3;  // fewer steps do not form a closed revolution
+constexpr double kNeighbourhood = 4;     // multiple of s_max, as in [WLL] eq. 5
 
 std::vector<Profile> all_strands(std::span<const Profile> profiles) {
   std::vector<Profile> all;
@@ -87,9 +87,10 @@ Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
   Cloud cloud(all_strands(profiles));
   report.points = cloud.size();
   if (cloud.step_count() < kFewestSteps)
-    return fail(ErrorCode::kBadInput,
-                fmt::format("{} profiles make no surface: scan at least {} steps of a turn",
-                            cloud.step_count(), kFewestSteps));
+    return fail(
+        ErrorCode::kBadInput,
+        fmt::format("{} profiles do not make a surface; scan at least {} steps of a revolution",
+                    cloud.step_count(), kFewestSteps));
   const Spacing spacing = spacing_of(cloud, options);
   report.spacing = spacing.largest;
   cloud = Cloud(without_strays(cloud, spacing, options, report));
@@ -109,4 +110,4 @@ Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
   return surface;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Profiles to a triangle mesh (paper, eq. 5-6).
+// Meshes the profiles of one revolution into a surface. Source: [WLL] eq. 5 and 6.
 #pragma once
 
 #include <cstdint>
@@ -10,42 +10,46 @@
 #include "codec/core/expected.h"
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct SurfaceOptions {
-  double largest_spacing = 0;       // s_max in mm; 0: from the profiles
+  // s_max in mm. 0 derives it from the profiles.
+  double largest_spacing = 0;
   double largest_angle = 75;        // phi_max, degrees
-  double largest_hole = 2;          // mm; 0 fills none
-  std::size_t smallest_piece = 30;  // points
-  double noise = 0;  // mm: standard deviation of a point's rho, as calibrated; 0: the
-                     // points stay where they were measured
+  double largest_hole = 2;          // mm; 0 leaves all holes open
+  std::size_t smallest_piece = 30;  // number of points
+  // Calibrated standard deviation of a point's rho, in mm. 0 disables smoothing.
+  double noise = 0;
   SamplingOptions sampling{.window = 1};
 };
 
 struct SurfaceReport {
-  std::uint64_t points = 0;                  // as they came
-  std::uint64_t outliers = 0, isolated = 0;  // dropped (strays.h)
-  std::uint64_t seen_twice = 0;              // dropped (second_views.h)
-  std::uint64_t filled = 0;                  // put into gaps (fill_gaps.h)
-  std::uint64_t smoothed = 0;                // moved (smooth.h)
-  std::uint64_t sampled = 0;                 // what is left after sampling
-  std::uint64_t holes = 0;                   // closed in the mesh (close_holes.h)
-  double spacing = 0;                        // s_max as used, mm
+  std::uint64_t points = 0;  // number of points before processing
+  // Numbers of points dropped as outliers and as isolated pieces (strays.h).
+  std::uint64_t outliers = 0, isolated = 0;
+  std::uint64_t seen_twice = 0;  // number of points dropped as second views (second_views.h)
+  std::uint64_t filled = 0;      // number of points added in gaps (fill_gaps.h)
+  std::uint64_t smoothed = 0;    // number of points moved by smoothing (smooth.h)
+  std::uint64_t sampled = 0;     // number of points left after sampling
+  std::uint64_t holes = 0;       // number of holes closed in the mesh (close_holes.h)
+  double spacing = 0;            // the s_max that was used, mm
 };
 
 struct ScannedSurface {
-  TriangleMesh mesh;  // mm, z along the table's axis; faces counter-clockwise from outside
+  // In mm, z along the table's axis. Faces are counter-clockwise from outside.
+  TriangleMesh mesh;
   SurfaceReport report;
 };
 
-// `profiles` of one turn, in any order; the last joins the first. Rows that show two surfaces part
-// a profile into strands (strands.h), which are joined where they are nearest. In this order:
-// outliers, isolated points, what is seen a second time beyond the axis, filling, smoothing,
-// sampling, mesh, small holes. No edge has more than two faces, and these run along it in opposite
-// directions; a vertex may have more than one fan, which the import parts. Nothing closes the
-// object's top and bottom where no laser came, but for holes up to `largest_hole`. Fails
-// (kBadInput) where nothing is left to mesh, saying why. O(n log n).
+// Makes a mesh from the `profiles` of one revolution, which may be in any order. The last profile
+// joins the first. Profiles whose rows show two surfaces are split into strands (strands.h), and
+// each strand joins the nearest strands. The order of processing is: drop outliers, isolated points
+// and second views beyond the axis; fill gaps; smooth; sample; mesh; close small holes.
+// No edge has more than two faces, and they traverse it in opposite directions. A vertex may have
+// several fans, which the import splits. The object's top and bottom stay open, apart from holes up
+// to `largest_hole`. Fails with kBadInput, giving the reason, if no points are left to mesh. O(n
+// log n).
 Expected<ScannedSurface> surface_of(std::span<const Profile> profiles,
                                     const SurfaceOptions& options);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

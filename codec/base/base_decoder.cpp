@@ -5,13 +5,15 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "codec/base/draco_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-// Bytes 0-4 "DRACO", 5-6 version, 7 geometry type (1 mesh), 8 method (1 edgebreaker).
+// A Draco header has "DRACO" in bytes 0-4, the version in 5-6, the geometry type in 7 (1: mesh) and
+// the method in 8 (1: edgebreaker).
 bool is_edgebreaker_mesh(std::span<const std::uint8_t> bytes) {
   constexpr std::uint8_t kName[] = {'D', 'R', 'A', 'C', 'O'};
   return bytes.size() > 10 && std::equal(std::begin(kName), std::end(kName), bytes.begin()) &&
@@ -49,11 +51,16 @@ Expected<BaseMesh> decode_draco(std::span<const std::uint8_t> bytes) {
     out.faces.push_back({face[0].value(), face[1].value(), face[2].value()});
   }
   const auto* positions = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
-  const auto* colours = mesh.GetNamedAttribute(draco::GeometryAttribute::COLOR);
-  if (positions == nullptr || !read_attribute(mesh, *positions, out.positions) ||
-      (colours != nullptr && !read_attribute(mesh, *colours, out.colours))) {
-    return damaged_base("an attribute is missing or of another kind");
+  bool readable = positions != nullptr && read_attribute(mesh, *positions, out.positions);
+  for (std::uint8_t i = 0; readable && i < kSemantics; ++i) {
+    const auto semantic = static_cast<Semantic>(i);
+    const auto* attribute = mesh.GetNamedAttribute(draco_type(semantic));
+    if (attribute == nullptr) continue;
+    std::vector<Vec3i> values;
+    readable = read_attribute(mesh, *attribute, values);
+    out.attributes.push_back({semantic, std::move(values)});
   }
+  if (!readable) return damaged_base("an attribute is missing or of another kind");
   return out;
 }
 
@@ -62,10 +69,10 @@ Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manife
   if (!decoded) return tl::unexpected(decoded.error());
   const LevelInfo& level = manifest.levels[0];
   if (decoded->positions.size() != level.vertices || decoded->faces.size() != level.faces ||
-      decoded->colours.empty() == manifest.coloured) {
+      !has_all(decoded->attributes, manifest.attributes, level.vertices)) {
     return damaged_base("its counts are not those of the header");
   }
   return std::move(*decoded);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+// Decodes the base mesh of a `.pmesh` from its Draco buffer.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "codec/core/expected.h"
-#include "codec/progressive/base_mesh.h"
-#include "codec/progressive/manifest.h"
+#include "codec/format/base_mesh.h"
+#include "codec/format/manifest.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Decodes the base mesh of a `.pmesh`. The Draco header's type and method are checked first and the
-// counts afterwards, but Draco itself is not safe on hostile bytes: call it in the sandbox unless
-// the bytes are known to be this codec's own.
+// Decodes the Draco buffer `bytes`. Fails (kBadInput) if it does not match `manifest`: the geometry
+// type and the method are checked before decoding, the counts afterwards. Draco is not safe on
+// hostile bytes, so call this in a sandbox unless this codec wrote the bytes.
 Expected<BaseMesh> decode_base(std::span<const std::uint8_t> bytes, const Manifest& manifest);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -9,7 +9,7 @@
 #include "codec/base/draco_mesh.h"
 #include "codec/base/same_surface.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 void add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type,
@@ -32,9 +32,8 @@ void fill(draco::Mesh& mesh, const BaseMesh& base) {
                  {draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])});
   }
   add_attribute(mesh, draco::GeometryAttribute::POSITION, base.positions);
-  if (!base.colours.empty()) {
-    add_attribute(mesh, draco::GeometryAttribute::COLOR, base.colours);
-  }
+  for (const auto& [semantic, values] : base.attributes)
+    add_attribute(mesh, draco_type(semantic), values);
 }
 
 Expected<std::vector<std::uint8_t>> compress(const draco::Mesh& mesh) {
@@ -66,4 +65,4 @@ Expected<EncodedBase> encode_base(const BaseMesh& base) {
   return out;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base mesh as a Draco buffer (edgebreaker, integer attributes: lossless).
+// Encodes the base mesh without loss as a Draco buffer [Draco], with the edgebreaker method and
+// integer attributes.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "codec/core/expected.h"
-#include "codec/progressive/base_mesh.h"
+#include "codec/format/base_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct EncodedBase {
   std::vector<std::uint8_t> bytes;
-  BaseMesh decoded;                     // as every reader of `bytes` will see it
-  std::vector<std::uint32_t> original;  // per decoded vertex: its index in the input
+  BaseMesh decoded;                     // the mesh that a reader of `bytes` gets
+  std::vector<std::uint32_t> original;  // per decoded vertex: its index in the input mesh
 };
 
-// Draco chooses the order of the vertices; the decoded mesh shows it.
+// Encodes `base`. Draco reorders the vertices; `decoded` has the new order. Fails (kBadInput) if
+// Draco refuses the mesh or changes its surface.
 Expected<EncodedBase> encode_base(const BaseMesh& base);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -7,19 +7,21 @@
 
 #include "codec/mesh/connectivity.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
 
-// Floods from one pair of corners over a component; both meshes are closed, so that boundaries
-// must correspond too.
-class Matcher {
+// Matches the vertices of two meshes component by component. Each component is matched by flooding
+// from one pair of corners. Both meshes are closed by virtual vertices, so their boundaries must
+// correspond, too.
+class VertexMatcher {
  public:
-  Matcher(const BaseMesh& a, const BaseMesh& b, const Connectivity& in_a, const Connectivity& in_b)
+  VertexMatcher(const BaseMesh& a, const BaseMesh& b, const Connectivity& in_a,
+                const Connectivity& in_b)
       : a_(a), b_(b), in_a_(in_a), in_b_(in_b) {
     vertex_.assign(b.positions.size(), kNone);
-    used_.assign(a.positions.size(), false);
+    is_used_.assign(a.positions.size(), false);
     by_position_.reserve(3 * a.faces.size());
     for (Corner c = 0; c < 3 * a.faces.size(); ++c)
       by_position_.push_back(c);
@@ -29,7 +31,8 @@ class Matcher {
     });
   }
 
-  // Finds a partner for the component of b that holds corner `seed`.
+  // Matches the component of b that contains the corner `seed` with a component of a. Returns false
+  // if no component of a matches.
   bool match_component(Corner seed) {
     const Vec3i& p = b_.positions[in_b_.vertex(seed)];
     auto candidate = std::lower_bound(
@@ -48,11 +51,13 @@ class Matcher {
  private:
   bool pair_up(VertexId va, VertexId vb) {
     if (is_virtual(va) || is_virtual(vb)) return is_virtual(va) && is_virtual(vb);
-    if (vertex_[vb] != kNone || used_[va]) return vertex_[vb] == va;
+    if (vertex_[vb] != kNone || is_used_[va]) return vertex_[vb] == va;
     if (a_.positions[va] != b_.positions[vb]) return false;
-    if (!a_.colours.empty() && a_.colours[va] != b_.colours[vb]) return false;
+    for (std::size_t i = 0; i < a_.attributes.size(); ++i) {
+      if (a_.attributes[i].values[va] != b_.attributes[i].values[vb]) return false;
+    }
     vertex_[vb] = va;
-    used_[va] = true;
+    is_used_[va] = true;
     trail_.push_back(vb);
     return true;
   }
@@ -76,7 +81,7 @@ class Matcher {
 
   bool undo() {
     for (VertexId v : trail_) {
-      used_[vertex_[v]] = false;
+      is_used_[vertex_[v]] = false;
       vertex_[v] = kNone;
     }
     return false;
@@ -86,8 +91,8 @@ class Matcher {
   const BaseMesh& b_;
   const Connectivity& in_a_;
   const Connectivity& in_b_;
-  std::vector<std::uint32_t> vertex_;  // of b, in a
-  std::vector<bool> used_;             // of a
+  std::vector<std::uint32_t> vertex_;  // per vertex of b: the matching vertex of a
+  std::vector<bool> is_used_;          // per vertex of a: whether a vertex of b matches it
   std::vector<VertexId> trail_;
   std::vector<Corner> by_position_;
 };
@@ -100,17 +105,17 @@ Expected<std::vector<std::uint32_t>> correspond(const BaseMesh& a, const BaseMes
                 "Draco does not keep the base mesh as it is; please report this mesh");
   };
   if (a.positions.size() != b.positions.size() || a.faces.size() != b.faces.size() ||
-      a.colours.size() != b.colours.size()) {
+      semantics_of(a.attributes) != semantics_of(b.attributes)) {
     return different();
   }
   const auto in_a = Connectivity::close(static_cast<std::uint32_t>(a.positions.size()), a.faces);
   const auto in_b = Connectivity::close(static_cast<std::uint32_t>(b.positions.size()), b.faces);
   if (!in_a || !in_b) return different();
-  Matcher matcher(a, b, *in_a, *in_b);
+  VertexMatcher matcher(a, b, *in_a, *in_b);
   for (Corner c = 0; c < 3 * b.faces.size(); c += 3) {
     if (!matcher.is_matched(in_b->vertex(c)) && !matcher.match_component(c)) return different();
   }
   return matcher.take();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

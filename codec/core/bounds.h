@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axis-aligned box around points.
+// Axis-aligned bounding boxes.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct Bounds {
   Vec3 low, high;
@@ -19,7 +19,7 @@ struct Bounds {
   }
 };
 
-// `positions` must not be empty.
+// Returns the bounding box of `positions`, which must not be empty.
 inline Bounds bounds_of(std::span<const Vec3> positions) {
   Bounds box{positions[0], positions[0]};
   for (const Vec3& p : positions) {
@@ -29,4 +29,4 @@ inline Bounds bounds_of(std::span<const Vec3> positions) {
   return box;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,23 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading and writing of little-endian integers, IEEE doubles and LEB128 variable-length integers.
+// Reads and writes integers, IEEE doubles and LEB128 variable-length integers. Numbers are
+// little-endian unless stated otherwise.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Reads from untrusted bytes. A read beyond the end gives zero and makes `ok()` false for good, so
-// that a sequence of reads is checked once.
+static_assert(std::endian::native == std::endian::little);
+
+// Loads a number of sizeof(T) bytes from `at`: little-endian, or big-endian if `swap` is true.
+template <class T>
+T load(const std::uint8_t* at, bool swap = false) noexcept {
+  std::array<std::uint8_t, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), at, sizeof(T));
+  if (swap) std::reverse(bytes.begin(), bytes.end());
+  return std::bit_cast<T>(bytes);
+}
+
+// Reads numbers from untrusted bytes. A read beyond the end returns zero and makes is_ok() false
+// permanently, so one check after a sequence of reads suffices.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {}
 
-  bool ok() const noexcept { return ok_; }
+  bool is_ok() const noexcept { return is_ok_; }
   std::size_t position() const noexcept { return position_; }
   std::size_t left() const noexcept { return bytes_.size() - position_; }
 
@@ -27,22 +41,35 @@ class ByteReader {
   std::uint64_t u64() noexcept { return fixed(8); }
   double f64() noexcept { return std::bit_cast<double>(u64()); }
 
-  // At most ten bytes; a longer or overflowing encoding is an error.
+  // Reads a number of type T: little-endian, or big-endian if `swap` is true.
+  template <class T>
+  T read(bool swap = false) noexcept {
+    return take(sizeof(T)) ? load<T>(&bytes_[position_ - sizeof(T)], swap) : T{};
+  }
+
+  // Reads a LEB128 integer of at most ten bytes. A longer or overflowing encoding returns 0 and
+  // makes is_ok() false.
   std::uint64_t varint() noexcept {
     std::uint64_t value = 0;
     for (unsigned shift = 0; shift < 64; shift += 7) {
       const std::uint8_t byte = u8();
       if (shift == 63 && byte > 1) break;
       value |= std::uint64_t{byte & 0x7Fu} << shift;
-      if (byte < 0x80) return ok_ ? value : 0;
+      if (byte < 0x80) return is_ok_ ? value : 0;
     }
-    ok_ = false;
+    is_ok_ = false;
     return 0;
   }
 
-  std::int64_t signed_varint() noexcept {  // zigzag
+  std::int64_t signed_varint() noexcept {  // zigzag-coded LEB128
     const std::uint64_t z = varint();
     return static_cast<std::int64_t>(z >> 1) ^ -static_cast<std::int64_t>(z & 1);
+  }
+
+  // Skips `count` bytes. If fewer are left, skips those and makes is_ok() false.
+  void skip(std::uint64_t count) noexcept {
+    if (count > left()) is_ok_ = false;
+    position_ += std::min<std::uint64_t>(count, left());
   }
 
   std::span<const std::uint8_t> bytes(std::size_t count) noexcept {
@@ -52,7 +79,7 @@ class ByteReader {
 
  private:
   bool take(std::size_t count) noexcept {
-    if (!ok_ || left() < count) return ok_ = false;
+    if (!is_ok_ || left() < count) return is_ok_ = false;
     position_ += count;
     return true;
   }
@@ -68,7 +95,7 @@ class ByteReader {
 
   std::span<const std::uint8_t> bytes_;
   std::size_t position_ = 0;
-  bool ok_ = true;
+  bool is_ok_ = true;
 };
 
 class ByteWriter {
@@ -87,7 +114,9 @@ class ByteWriter {
     varint(static_cast<std::uint64_t>(v) << 1 ^ static_cast<std::uint64_t>(v >> 63));
   }
   void bytes(std::span<const std::uint8_t> b) {
-    for (const std::uint8_t v : b)  // g++ 12 sees an overflow in an insert() at the link
+    // Appends byte by byte because g++ 12 warns of an overflow at link time if this code calls
+    // insert().
+    for (const std::uint8_t v : b)
       u8(v);
   }
 
@@ -103,4 +132,4 @@ class ByteWriter {
   std::vector<std::uint8_t> out_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two doubles in one register (SSE2, NEON, WebAssembly's simd128): every operation is the IEEE
-// operation on either lane, so what is computed two at a time has the bits of one at a time.
+// A pair of doubles in one SIMD register (SSE2, NEON or WebAssembly's simd128). Every operation is
+// the IEEE operation on each element, so the results are bit-identical to scalar code.
 #pragma once
 
 #include <cmath>
@@ -10,14 +10,14 @@
 #include <emmintrin.h>
 #endif
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 using Double2 = double __attribute__((vector_size(16)));
 
 inline Double2 both(double x) {
   return Double2{x, x};
 }
-// The element at `from` and the next.
+// Loads from[0] and from[1].
 inline Double2 load2(const double* from) {
   Double2 v;
   std::memcpy(&v, from, sizeof v);
@@ -41,4 +41,4 @@ inline Double2 sqrt(Double2 x) {
 #endif
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The result type of everything that can fail on data: a value, or an error that a person can act
-// on.
+// The result type of functions that can fail: either a value or an error. The error message tells
+// the user what to do next.
 #pragma once
 
 #include <string>
 #include <tl/expected.hpp>
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 enum class ErrorCode {
-  kBadInput,     // the bytes are not what they claim to be
-  kUnsupported,  // well-formed, but needs a feature this build does not have
-  kLimit,        // a count exceeds the stated limits
-  kState,        // the call is not possible in the present state (a chunk out of order)
-  kIo,           // the operating system refused
+  kBadInput,     // the input is malformed or inconsistent
+  kUnsupported,  // the input is valid, but this build does not support a feature that it needs
+  kLimit,        // a count or a size exceeds its limit
+  kState,  // the call is not allowed in the current state, for example applying a chunk out of
+           // order
+  kIo,     // an error of the operating system, a device or the network
 };
 
 struct Error {
@@ -31,4 +32,4 @@ inline Unexpected fail(ErrorCode code, std::string message) {
   return Unexpected(Error{code, std::move(message)});
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

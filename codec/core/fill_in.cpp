@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/core/fill_in.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 void add_digits(std::string& text, std::uint64_t number) {
@@ -33,4 +33,4 @@ std::string join(std::initializer_list<std::string_view> parts) {
   return joined;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texts of errors, in few bytes of the browser's module.
+// Formats error messages with little code, which keeps the WebAssembly module small.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// The text with one number after the other in the place of each "{}".
+// Returns `text` with each "{}" replaced by the next of `numbers`, in decimal.
 std::string fill_in(const char* text, std::initializer_list<std::uint64_t> numbers);
 std::string join(std::initializer_list<std::string_view> parts);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

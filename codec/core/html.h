@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text as it stands in HTML and XML.
+// Escapes text for HTML and XML.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// `text` in UTF-8, as the content of an element or the value of an attribute in quotes.
+// Escapes UTF-8 text for the content of an element or a quoted attribute value.
 inline std::string escape_html(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -28,4 +28,4 @@ inline std::string escape_html(std::string_view text) {
   return out;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

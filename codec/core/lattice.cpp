@@ -5,7 +5,7 @@
 
 #include "codec/core/bounds.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 std::int32_t to_grid(double value, double origin, double step, int bits) {
@@ -27,4 +27,4 @@ Lattice fit_lattice(std::span<const Vec3> positions, int bits) {
   return {.origin = box.low, .step = step > 0 ? step : 1.0, .bits = bits};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cubic integer grid on which all coding is exact (DESIGN section 2, "Lattice").
+// The integer grid to which positions are rounded before they are coded (codec/FORMAT.md section
+// 1.3). Coding the grid points is lossless.
 #pragma once
 
 #include <span>
 
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Model position = origin + step * lattice coordinate. Coordinates run over [0, 2^bits - 1].
+// Maps lattice coordinates to model positions: origin + step * coordinate. Coordinates lie in [0,
+// 2^bits - 1].
 struct Lattice {
-  Vec3 origin;      // minimum corner of the bounding box, model units
+  Vec3 origin;      // minimum corner of the model's bounding box, model units
   double step = 1;  // model units per lattice unit, > 0 and finite
-  int bits = 12;    // kMinBits..kMaxBits
+  int bits = 12;    // bits per coordinate, from kMinBits to kMaxBits
 
   constexpr bool operator==(const Lattice&) const = default;
   Vec3 to_model(const Vec3i& p) const { return origin + to_vec3(p) * step; }
-  Vec3i to_lattice(const Vec3& p) const;  // rounds half up, clamps to the grid
+  Vec3i to_lattice(const Vec3& p) const;  // the nearest grid point; halves round up
 };
 
-// The grid of `bits` bits over the bounding box of finite `positions`: step = longest side /
-// (2^bits - 1), or 1 where the box is a point.
+// Returns the lattice of `bits` bits per coordinate over the bounding box of `positions`, which
+// must be finite. The step is the longest side / (2^bits - 1), or 1 if the box is a point.
 Lattice fit_lattice(std::span<const Vec3> positions, int bits);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

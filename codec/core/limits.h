@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upper bounds on everything that a file may ask us to allocate. A count is compared with these
-// and with the bytes that are left before any memory is reserved for it.
+// Upper bounds on the counts that a file may state. Each count is checked against these bounds and
+// the remaining bytes before memory is allocated for it.
 #pragma once
 
 #include <cstdint>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct Limits {
   std::uint64_t vertices = 100'000'000;
@@ -17,6 +17,6 @@ struct Limits {
 
 inline constexpr int kMinBits = 10;
 inline constexpr int kMaxBits = 16;
-inline constexpr int kMaxSplitValence = 24;  // a split at a vertex of higher valence is an error
+inline constexpr int kMaxSplitValence = 24;  // largest valence of a vertex that may split
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in text that people and other programs write.
+// Parses decimal numbers from untrusted text.
 #pragma once
 
 #include <charconv>
@@ -7,10 +7,10 @@
 #include <string_view>
 #include <system_error>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// The number that all of `text` is, in decimal digits. Nothing where it is empty, anything else
-// stands before, in or after it ("+1", " 1", "1x"), or it does not fit.
+// Parses all of `text` as a decimal number. Returns nullopt if `text` is empty, if it contains
+// anything besides the number ("+1", " 1", "1x"), or if the number is out of range.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) noexcept {
   Number value{};
@@ -20,4 +20,4 @@ std::optional<Number> parse_number(std::string_view text) noexcept {
   return value;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

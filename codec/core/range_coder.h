@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adaptive binary range coder (G. N. N. Martin, 1979; carry by a pending-byte run).
+// Adaptive binary range coder (G. N. N. Martin, 1979). Carries are propagated through a run of
+// pending bytes.
 #pragma once
 
 #include <array>
@@ -7,10 +8,11 @@
 #include <span>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// One adaptive binary decision: the probability of a 1 in 1/65536, moved by 1/(n + 1.5) of the
-// distance after the n-th observation until the step has shrunk to 1/(limit + 1.5).
+// An adaptive estimate of the probability that a bit is 1, in units of 1/65536. Each bit moves the
+// estimate towards 0 or 1 by 1/(n + 1.5) of the distance. Here n is the number of earlier bits, but
+// at most kLimit.
 struct AdaptiveBit {
   static constexpr int kLimit = 160;
 
@@ -35,7 +37,7 @@ struct AdaptiveBit {
 
 namespace range_coder {
 inline constexpr std::uint32_t kTop = 1u << 24;
-// The share of `range` that codes a 1; never 0 and never all of it.
+// Returns the part of `range` that codes a 1. It is never empty and never the whole range.
 constexpr std::uint32_t share(std::uint32_t range, std::uint16_t one) {
   return (range >> 16) * (one | 1u);
 }
@@ -59,7 +61,7 @@ class RangeEncoder {
     return value;
   }
 
-  // `count` bits of even odds, most significant first.
+  // Codes `count` bits of `value` with equal probabilities, most significant bit first.
   std::uint32_t raw(std::uint32_t value, int count) {
     while (count-- > 0) {
       range_ >>= 1;
@@ -70,7 +72,8 @@ class RangeEncoder {
     return value;
   }
 
-  // Ends the stream. Trailing zero bytes are dropped: the decoder reads zeros beyond the end.
+  // Ends the stream and returns its bytes. Trailing zero bytes are dropped because the decoder
+  // reads zeros beyond the end.
   std::vector<std::uint8_t> finish() {
     for (int i = 0; i < 5; ++i)
       shift();
@@ -83,11 +86,11 @@ class RangeEncoder {
   void shift() {
     if (low_ < 0xFF00'0000u || low_ > 0xFFFF'FFFFu) {
       const auto carry = static_cast<std::uint8_t>(low_ >> 32);
-      if (started_) out_.push_back(static_cast<std::uint8_t>(pending_ + carry));
+      if (has_started_) out_.push_back(static_cast<std::uint8_t>(pending_ + carry));
       for (; run_ > 0; --run_)
         out_.push_back(static_cast<std::uint8_t>(0xFF + carry));
       pending_ = static_cast<std::uint8_t>(low_ >> 24);
-      started_ = true;
+      has_started_ = true;
     } else {
       ++run_;
     }
@@ -97,7 +100,7 @@ class RangeEncoder {
   std::uint64_t low_ = 0;
   std::uint32_t range_ = 0xFFFF'FFFFu;
   std::uint8_t pending_ = 0;
-  bool started_ = false;
+  bool has_started_ = false;
   std::uint64_t run_ = 0;
   std::vector<std::uint8_t> out_;
 };
@@ -148,4 +151,4 @@ class RangeDecoder {
   std::uint32_t code_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

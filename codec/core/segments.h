@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An array that grows at its end by blocks of equal size. Unlike std::vector it never moves what it
-// holds: growing takes no second copy, leaves no hole behind that only smaller things fit, and
-// takes at most one block more than the elements need. Shrinking keeps the blocks.
+// An array that grows at its end in blocks of equal size. Unlike std::vector, it never moves its
+// elements: growing makes no second copy and does not fragment memory. At most one block is partly
+// unused, unless the array has shrunk: shrinking keeps the blocks.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// What is at `place` is read soon. WebAssembly has no such instruction.
+// Prefetches the memory at `place`. Does nothing on WebAssembly, which has no prefetch instruction.
 inline void fetch([[maybe_unused]] const void* place) {
 #ifndef __wasm__
   __builtin_prefetch(place);
@@ -21,7 +21,7 @@ inline void fetch([[maybe_unused]] const void* place) {
 template <class T>
 class Segments {
  public:
-  static constexpr std::size_t kBlock = 2048;  // elements
+  static constexpr std::size_t kBlock = 2048;  // elements per block
 
   Segments() = default;
   Segments(Segments&& other) noexcept
@@ -41,7 +41,7 @@ class Segments {
   void push_back(const T& value) { resize(size_ + 1, value); }
   void pop_back() { --size_; }
 
-  // New elements are copies of `value`.
+  // Sets the number of elements. New elements are copies of `value`.
   void resize(std::size_t size, const T& value) {
     while (blocks_.size() * kBlock < size)
       blocks_.push_back(std::unique_ptr<T[]>(new T[kBlock]));
@@ -50,7 +50,7 @@ class Segments {
     size_ = size;
   }
 
-  // A copy in one piece.
+  // Returns all elements in one contiguous vector.
   std::vector<T> flat() const {
     std::vector<T> out(size_);
     for (std::size_t i = 0; i < size_; ++i)
@@ -63,4 +63,4 @@ class Segments {
   std::size_t size_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

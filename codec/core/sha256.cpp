@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr std::array<std::uint32_t, 64> kRound = {
@@ -17,10 +17,10 @@ constexpr std::array<std::uint32_t, 64> kRound = {
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-using State = std::array<std::uint32_t, 8>;
+using HashState = std::array<std::uint32_t, 8>;
 
-constexpr State kInitial = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                            0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+constexpr HashState kInitial = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
 
 std::array<std::uint32_t, 64> schedule(const std::uint8_t* block) noexcept {
   std::array<std::uint32_t, 64> w{};
@@ -36,7 +36,7 @@ std::array<std::uint32_t, 64> schedule(const std::uint8_t* block) noexcept {
   return w;
 }
 
-void absorb(State& state, const std::uint8_t* block) noexcept {
+void absorb(HashState& state, const std::uint8_t* block) noexcept {
   const auto w = schedule(block);
   auto [a, b, c, d, e, f, g, h] = state;
   for (std::size_t i = 0; i < 64; ++i) {
@@ -48,7 +48,7 @@ void absorb(State& state, const std::uint8_t* block) noexcept {
     h = g, g = f, f = e, e = d + one;
     d = c, c = b, b = a, a = one + two;
   }
-  const State add = {a, b, c, d, e, f, g, h};
+  const HashState add = {a, b, c, d, e, f, g, h};
   for (std::size_t i = 0; i < 8; ++i)
     state[i] += add[i];
 }
@@ -56,7 +56,7 @@ void absorb(State& state, const std::uint8_t* block) noexcept {
 }  // namespace
 
 Sha256 sha256(std::span<const std::uint8_t> bytes) noexcept {
-  State state = kInitial;
+  HashState state = kInitial;
   std::size_t done = 0;
   for (; bytes.size() - done >= 64; done += 64)
     absorb(state, bytes.data() + done);
@@ -103,4 +103,4 @@ bool from_hex(std::string_view text, Sha256& digest) noexcept {
   return true;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 (FIPS 180-4), the name of every stored object.
+// SHA-256 (FIPS 180-4). Stored objects are named by this hash.
 #pragma once
 
 #include <array>
@@ -9,13 +9,14 @@
 #include <string>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 using Sha256 = std::array<std::uint8_t, 32>;
 
 Sha256 sha256(std::span<const std::uint8_t> bytes) noexcept;
 
-std::string to_hex(const Sha256& digest);                       // 64 lower-case digits
-bool from_hex(std::string_view text, Sha256& digest) noexcept;  // false unless exactly that
+std::string to_hex(const Sha256& digest);  // 64 lower-case hexadecimal digits
+// Parses `text` into `digest`. Returns false unless `text` is 64 lower-case hexadecimal digits.
+bool from_hex(std::string_view text, Sha256& digest) noexcept;
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transfer curve between stored colours (sRGB, IEC 61966-2-1) and linear light.
+// Converts between sRGB-coded values (IEC 61966-2-1) and linear light.
 #pragma once
 
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Both map 0..1 to 0..1.
+// Both functions map [0, 1] to [0, 1].
 inline double srgb_to_linear(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
@@ -14,4 +14,4 @@ inline double linear_to_srgb(double c) {
   return c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

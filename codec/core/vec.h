@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three-vectors of doubles (surface space) and of 32-bit integers (lattice space).
+// Vectors with three components: doubles for model space, 32-bit integers for lattice space.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 #include <compare>
 #include <cstdint>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct Vec3 {
   double x = 0, y = 0, z = 0;
@@ -35,7 +35,8 @@ struct Vec3i {
 
   constexpr Vec3i operator+(const Vec3i& o) const { return {x + o.x, y + o.y, z + o.z}; }
   constexpr Vec3i operator-(const Vec3i& o) const { return {x - o.x, y - o.y, z - o.z}; }
-  constexpr auto operator<=>(const Vec3i&) const = default;  // lexicographic: x, then y, then z
+  // lexicographic order: x, then y, then z
+  constexpr auto operator<=>(const Vec3i&) const = default;
 };
 
 constexpr Vec3 to_vec3(const Vec3i& v) {
@@ -43,6 +44,6 @@ constexpr Vec3 to_vec3(const Vec3i& v) {
 }
 
 using Triangle = std::array<std::uint32_t, 3>;
-using Colour = std::array<std::uint8_t, 3>;  // sRGB
+using Colour = std::array<std::uint8_t, 3>;  // sRGB-coded red, green and blue
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-constexpr double kFarthest = 16;  // in longest sides: 2^4 of the 2^24 steps of single precision
+constexpr double kFarthest = 16;  // limit of the coordinates, in longest sides: a rounding error is
+                                  // 2^-24 of the coordinate, so at most 2^-20 of the longest side
 
 double farthest(const Bounds& bounds) {
   const Vec3 &a = bounds.low, &b = bounds.high;
@@ -27,4 +28,4 @@ double most_rounding(const Bounds& bounds) {
   return (std::nextafter(coordinate, std::numeric_limits<float>::infinity()) - coordinate) / 2;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether single precision can hold a mesh.
+// Decides whether single precision is precise enough for the coordinates of a mesh.
 #pragma once
 
 #include "codec/core/bounds.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// True where single precision would move vertices by more than about a millionth of the longest
-// side: coordinates of a map do that to an object.
+// Whether single precision would move vertices by more than about a millionth of the longest side.
+// This happens to objects in map coordinates.
 bool is_far_from_origin(const Bounds& bounds);
 
-// By how much single precision moves a coordinate at most.
+// Returns the largest distance by which single precision moves a coordinate.
 double most_rounding(const Bounds& bounds);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -13,7 +13,7 @@
 
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 static_assert(std::endian::native == std::endian::little);
 
@@ -32,7 +32,7 @@ class FileWriter {
   }
   void text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
 
-  // The shortest digits that read back as the same number.
+  // Writes the number with the fewest digits that read back as the same number.
   template <class T>
   void number(T value) {
     char digits[32];
@@ -53,4 +53,4 @@ class FileWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

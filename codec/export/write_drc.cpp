@@ -7,15 +7,15 @@
 #include <array>
 #include <string>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-// Adds an attribute of three components with one value per vertex.
+// Adds an attribute that has three components and one value per vertex.
 template <class T, class Value>
 void add_attribute(draco::Mesh& target, draco::GeometryAttribute::Type role, draco::DataType type,
-                   bool normalised, std::size_t count, Value value_of) {
+                   bool is_normalised, std::size_t count, Value value_of) {
   draco::GeometryAttribute attribute;
-  attribute.Init(role, nullptr, 3, type, normalised, 3 * sizeof(T), 0);
+  attribute.Init(role, nullptr, 3, type, is_normalised, 3 * sizeof(T), 0);
   const int id = target.AddAttribute(attribute, true, static_cast<std::uint32_t>(count));
   for (std::uint32_t v = 0; v < count; ++v) {
     const std::array<T, 3> value = value_of(v);
@@ -33,9 +33,9 @@ void fill(draco::Mesh& target, const TriangleMesh& mesh) {
                                                      static_cast<float>(p.y),
                                                      static_cast<float>(p.z)};
                        });
-  if (!mesh.colours.empty()) {
+  if (!mesh.attributes.colours.empty()) {
     add_attribute<std::uint8_t>(target, draco::GeometryAttribute::COLOR, draco::DT_UINT8, true,
-                                count, [&](std::uint32_t v) { return mesh.colours[v]; });
+                                count, [&](std::uint32_t v) { return mesh.attributes.colours[v]; });
   }
   target.SetNumFaces(mesh.faces.size());
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -64,4 +64,4 @@ Expected<std::vector<std::uint8_t>> write_drc(const TriangleMesh& mesh, const Dr
   return std::vector<std::uint8_t>(buffer.data(), buffer.data() + buffer.size());
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

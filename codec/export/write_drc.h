@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Writes a mesh as a Draco file.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +8,20 @@
 #include "codec/core/expected.h"
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct DrcOptions {
-  // Of the bounding box, 1..30. The default is as fine as the single precision of other formats:
-  // what it rounds is nothing to the error that a level states.
+  // Bits per coordinate of the bounding box, 1 to 30. The default is as fine as the single
+  // precision of the other formats, so the rounding is negligible compared with a level's error.
   int bits = 24;
-  int effort = 7;  // draco_encoder's -cl: 0 fastest, 10 smallest
+  int effort =
+      7;  // compression level, as in draco_encoder -cl: 0 is fastest, 10 gives the smallest file
 };
 
-// A Draco edgebreaker file. `mesh` has faces, valid indices and no or all colours, and its
-// positions fit a float, as write_mesh() makes sure. Fails (kUnsupported) with Draco's reason.
+// Returns a Draco edgebreaker file [Draco]. `mesh` must have passed the checks of write_mesh(): it
+// has faces, valid indices, no colours or one per vertex, and positions that fit a float. Fails
+// (kUnsupported) with the reason that Draco gives.
 Expected<std::vector<std::uint8_t>> write_drc(const TriangleMesh& mesh,
                                               const DrcOptions& options = {});
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

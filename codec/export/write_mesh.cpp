@@ -13,20 +13,8 @@
 #include "codec/export/writers.h"
 #include "codec/mesh/unit.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
-
-struct Extension {
-  std::string_view name;
-  MeshFormat format;
-};
-
-constexpr std::array<Extension, 6> kExtensions{{{"ply", MeshFormat::kPly},
-                                                {"glb", MeshFormat::kGlb},
-                                                {"obj", MeshFormat::kObj},
-                                                {"stl", MeshFormat::kStl},
-                                                {"drc", MeshFormat::kDrc},
-                                                {"wrl", MeshFormat::kVrml}}};
 
 bool fits_float(const Vec3& p) {
   constexpr double kMost = std::numeric_limits<float>::max();
@@ -37,13 +25,14 @@ Expected<void> check(const TriangleMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
   if (mesh.faces.empty())
     return fail(ErrorCode::kBadInput, "there are no faces to write; ask for a finer level");
-  // GLB and STL count bytes in 32 bits; a face takes up to 50 of them.
+  // GLB and STL store sizes as 32-bit byte counts, and a face takes up to 50 bytes.
   if (mesh.faces.size() > 80'000'000 || vertices > 160'000'000) {
     return fail(ErrorCode::kLimit, "the mesh is too large to export; ask for fewer triangles");
   }
-  if (!mesh.colours.empty() && mesh.colours.size() != vertices) {
+  if (!mesh.attributes.fit(vertices)) {
     return fail(ErrorCode::kBadInput,
-                "the mesh has not one colour per vertex; give as many or none");
+                "an attribute of the mesh has another number of values than there are vertices; "
+                "give one value per vertex, or none");
   }
   for (std::size_t v = 0; v < vertices; ++v) {
     if (!fits_float(mesh.positions[v])) {
@@ -75,15 +64,15 @@ std::optional<MeshFormat> format_of_extension(std::string_view extension) {
   std::string lower(extension);
   for (char& c : lower)
     c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  for (const Extension& known : kExtensions) {
-    if (known.name == lower) return known.format;
+  for (const ExportFormat& known : kExportFormats) {
+    if (known.extension == lower) return known.format;
   }
   return std::nullopt;
 }
 
 Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
                                                std::string_view unit) {
-  if (auto ok = check(mesh); !ok) return Unexpected(ok.error());
+  if (auto ok = check(mesh); !ok) return tl::unexpected(ok.error());
   switch (format) {
     case MeshFormat::kPly:
       return write_ply(mesh, unit);
@@ -99,7 +88,7 @@ Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFor
       return write_vrml(in_metres(mesh, unit));
   }
   return fail(ErrorCode::kUnsupported,
-              "unknown mesh format; choose PLY, GLB, OBJ, STL, DRC or VRML");
+              "unknown mesh format; choose " + std::string(kExportExtensions));
 }
 
 std::string note_on_precision(const TriangleMesh& mesh, MeshFormat format) {
@@ -115,4 +104,4 @@ std::string note_on_precision(const TriangleMesh& mesh, MeshFormat format) {
   return text;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

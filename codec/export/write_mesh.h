@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a mesh as a file of one of the common formats, in memory.
+// Writes a mesh in one of the common file formats, to memory.
 #pragma once
 
 #include <cstdint>
@@ -9,33 +9,79 @@
 #include <vector>
 
 #include "codec/core/expected.h"
+#include "codec/core/fixed_text.h"
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Positions keep single precision (OBJ and VRML: nine digits; DRC: 24 bits of the bounding box).
+// Positions have single precision, except in OBJ and VRML (nine digits) and DRC (24 bits of the
+// bounding box).
 enum class MeshFormat {
-  kPly,   // binary little-endian, uchar colours
-  kGlb,   // glTF 2.0, colours as linear light (as glTF asks) in normalised 16-bit numbers
-  kObj,   // colours as three numbers after the position
-  kStl,   // binary; has no colours and no shared vertices
-  kDrc,   // Draco edgebreaker, colours exact; Draco reorders vertices and faces
-  kVrml,  // VRML 97, one IndexedFaceSet
+  kPly,   // binary little-endian; colours as bytes
+  kGlb,   // glTF 2.0; colours in linear light, as glTF requires, as normalised 16-bit numbers
+  kObj,   // colours as three numbers after each position
+  kStl,   // binary; stores no colours and does not share vertices
+  kDrc,   // Draco edgebreaker; exact colours; Draco reorders vertices and faces
+  kVrml,  // VRML 97 with one IndexedFaceSet
 };
 
-// The format of "ply", "glb", "obj", "stl", "drc", "wrl", in either case, with or without a dot.
+struct ExportFormat {
+  MeshFormat format;
+  std::string_view name, extension, media_type;
+};
+
+// The table of mesh formats that can be written, in the order of MeshFormat. All texts that list
+// the formats are generated from it. `ctest -R lint.formats` checks the texts that cannot be
+// generated.
+inline constexpr ExportFormat kExportFormats[] = {
+    {.format = MeshFormat::kPly,
+     .name = "PLY",
+     .extension = "ply",
+     .media_type = "application/ply"},
+    {.format = MeshFormat::kGlb,
+     .name = "GLB",
+     .extension = "glb",
+     .media_type = "model/gltf-binary"},
+    {.format = MeshFormat::kObj, .name = "OBJ", .extension = "obj", .media_type = "model/obj"},
+    {.format = MeshFormat::kStl, .name = "STL", .extension = "stl", .media_type = "model/stl"},
+    {.format = MeshFormat::kDrc,
+     .name = "DRC",
+     .extension = "drc",
+     .media_type = "application/octet-stream"},
+    {.format = MeshFormat::kVrml, .name = "VRML", .extension = "wrl", .media_type = "model/vrml"},
+};
+
+constexpr const ExportFormat& row_of(MeshFormat format) {
+  return kExportFormats[static_cast<std::size_t>(format)];
+}
+
+// The three texts below: "ply, glb, obj, stl, drc or wrl", ".ply, .glb, …" and
+// "ply,glb,obj,stl,drc,wrl".
+constexpr std::string_view extension_of(const ExportFormat& format) {
+  return format.extension;
+}
+inline constexpr FixedText kExportExtensions = join(kExportFormats, extension_of, ", ", " or ");
+inline constexpr FixedText kExportSuffixes =
+    concatenate(".", join(kExportFormats, extension_of, ", .", ", ."));
+inline constexpr FixedText kExportChoice = join(kExportFormats, extension_of, ",", ",");
+
+// Returns the format with this file name extension, in upper or lower case, with or without the
+// dot. Returns nullopt if there is none.
 std::optional<MeshFormat> format_of_extension(std::string_view extension);
 
-// `unit` is that of the positions, empty where it is unknown. PLY, OBJ and STL state it in a
-// comment; GLB and VRML, which are in metres by their standards, are scaled to metres where it is
-// one of kLengthUnits. Far from the origin PLY, OBJ, GLB and VRML hold double precision; STL and
-// DRC cannot. Fails (kBadInput) on a mesh without faces and where a position does not fit a float,
-// (kLimit) where a format's 32-bit sizes do not suffice.
+// Returns the bytes of the file. `unit` is the unit of the positions, or empty if it is unknown.
+// PLY, OBJ and STL files state the unit in a comment. GLB and VRML require metres, so positions are
+// scaled to metres if `unit` is one of kLengthUnits. If the mesh is far from the origin, PLY, OBJ,
+// GLB and VRML files keep double precision; STL and DRC files cannot.
+//
+// Fails with kBadInput if the mesh has no faces or a position does not fit a float. Fails with
+// kLimit if the file would exceed the 32-bit sizes of a format.
 Expected<std::vector<std::uint8_t>> write_mesh(const TriangleMesh& mesh, MeshFormat format,
                                                std::string_view unit = {});
 
-// What people have to know of a mesh far from the origin in STL or DRC: by how much single
-// precision moves its vertices, as "CAUSE; NEXT STEP". Else empty.
+// Returns a note for the user if the mesh is far from the origin and the format is STL or DRC. The
+// note says by how much single precision moves the vertices, in the form "CAUSE; NEXT STEP".
+// Returns an empty string for other meshes and formats.
 std::string note_on_precision(const TriangleMesh& mesh, MeshFormat format);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -3,7 +3,7 @@
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit) {
   const bool far = is_far_from_origin(bounds_of(mesh.positions));
@@ -13,8 +13,8 @@ FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     out.text("v ");
     far ? out.numbers<double>(mesh.positions[v]) : out.numbers(mesh.positions[v]);
-    if (!mesh.colours.empty()) {
-      const auto [r, g, b] = mesh.colours[v];
+    if (!mesh.attributes.colours.empty()) {
+      const auto [r, g, b] = mesh.attributes.colours[v];
       out.text(" ");
       out.numbers(Vec3{r / 255.0, g / 255.0, b / 255.0});
     }
@@ -29,4 +29,4 @@ FileBytes write_obj(const TriangleMesh& mesh, std::string_view unit) {
   return out.take();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

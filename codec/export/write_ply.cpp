@@ -3,10 +3,10 @@
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 FileBytes write_ply(const TriangleMesh& mesh, std::string_view unit) {
-  const bool coloured = !mesh.colours.empty();
+  const bool coloured = !mesh.attributes.colours.empty();
   const bool far = is_far_from_origin(bounds_of(mesh.positions));
   FileWriter out(300 + mesh.positions.size() * ((far ? 24 : 12) + (coloured ? 3 : 0)) +
                  mesh.faces.size() * 13);
@@ -22,7 +22,7 @@ FileBytes write_ply(const TriangleMesh& mesh, std::string_view unit) {
   out.text("\nproperty list uchar int vertex_indices\nend_header\n");
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     far ? out.put_reals<double>(mesh.positions[v]) : out.put_reals(mesh.positions[v]);
-    if (coloured) out.put(mesh.colours[v]);
+    if (coloured) out.put(mesh.attributes.colours[v]);
   }
   for (const Triangle& face : mesh.faces) {
     out.put(std::uint8_t{3});
@@ -31,4 +31,4 @@ FileBytes write_ply(const TriangleMesh& mesh, std::string_view unit) {
   return out.take();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -5,11 +5,11 @@
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit) {
   FileWriter out(84 + mesh.faces.size() * 50);
-  std::array<char, 80> title{};  // must not start with "solid", which is for the text format
+  std::array<char, 80> title{};  // must not start with "solid", which marks the text format
   std::string text = "binary STL written by Vitrine";
   if (!unit.empty()) text.append(", unit ").append(unit);
   text.copy(title.data(), title.size());
@@ -27,4 +27,4 @@ FileBytes write_stl(const TriangleMesh& mesh, std::string_view unit) {
   return out.take();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

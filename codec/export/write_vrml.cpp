@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// VRML 97 (ISO/IEC 14772-1): one shape, an IndexedFaceSet.
+// Writes VRML 97 [VRML97] with one shape, an IndexedFaceSet.
 #include "codec/export/far_from_origin.h"
 #include "codec/export/file_writer.h"
 #include "codec/export/writers.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr std::string_view kOpening =
@@ -13,8 +13,8 @@ constexpr std::string_view kOpening =
     "Shape {\n"
     "  appearance Appearance { material Material { } }\n"
     "  geometry IndexedFaceSet {\n"
-    "    solid FALSE\n"        // open surfaces are seen from both sides
-    "    creaseAngle 0.785\n"  // 45 degrees: smooth but at sharp edges
+    "    solid FALSE\n"        // makes faces visible from both sides, for open surfaces
+    "    creaseAngle 0.785\n"  // 45 degrees: shading is smooth across edges with smaller angles
     "    coord Coordinate {\n"
     "      point [\n";
 
@@ -33,9 +33,9 @@ FileBytes write_vrml(const TriangleMesh& mesh) {
     out.text("-1\n");
   }
   out.text("    ]\n");
-  if (!mesh.colours.empty()) {
+  if (!mesh.attributes.colours.empty()) {
     out.text("    colorPerVertex TRUE\n    color Color {\n      color [\n");
-    for (const auto& [r, g, b] : mesh.colours) {
+    for (const auto& [r, g, b] : mesh.attributes.colours) {
       out.numbers(Vec3{r / 255.0, g / 255.0, b / 255.0}), out.text(",\n");
     }
     out.text("      ]\n    }\n");
@@ -44,4 +44,4 @@ FileBytes write_vrml(const TriangleMesh& mesh) {
   return out.take();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

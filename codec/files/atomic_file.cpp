@@ -11,7 +11,7 @@
 
 #include "codec/files/file_descriptor.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,7 +52,7 @@ fs::path temporary_name(const fs::path& path) {
   return folder_of(path) / fmt::format(".{}.{:016x}.part", path.filename().string(), random());
 }
 
-// 0, or the error number.
+// Writes all bytes and syncs the file to disk. Returns 0, or the error number (errno).
 int write_all(int fd, std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(fd, bytes.data(), bytes.size());
@@ -106,15 +106,15 @@ Expected<void> write_file_atomically(const fs::path& path, std::span<const std::
 Expected<bool> create_file_atomically(const fs::path& path, std::span<const std::uint8_t> bytes) {
   const fs::path temporary = temporary_name(path);
   int error = write_new(temporary, 0444, bytes);
-  // Unlike a rename, a link never replaces what has the name.
+  // Links instead of renaming, because a link never replaces an existing file.
   if (error == 0 && ::link(temporary.c_str(), path.c_str()) != 0) error = errno;
   ::unlink(temporary.c_str());
   if (error == EEXIST) return false;
   if (error != 0) return refused("write", path, error);
   if (auto synced = sync_folder(folder_of(path)); !synced) {
-    return tl::make_unexpected(synced.error());
+    return tl::unexpected(synced.error());
   }
   return true;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are whole or absent: temporary in the same folder, write, fsync, rename, fsync folder.
-// Whatever fails with kIo fails with kLimit where the disk is full.
+// Writes files atomically: a reader sees the complete new file or no change. Each write creates a
+// temporary file in the same folder, syncs it, gives it its final name, and syncs the folder.
+// Functions that fail with kIo fail with kLimit instead if the disk is full.
 #pragma once
 
 #include <cstdint>
@@ -9,29 +10,32 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Whether a file can be created at `path`, asked before long work. Fails (kIo) where its folder is
-// missing or read-only, or where what has that name is no file: a folder or a device.
+// Checks that `path` can be written; call it before long work. Fails (kIo) if the folder of `path`
+// is missing or read-only, or if `path` is a folder or a device.
 Expected<void> check_writable(const std::filesystem::path& path);
 
-// Replaces `path` by `bytes`. Fails with kIo, and then `path` is as it was and the temporary file,
-// whose name starts with a dot, is gone.
+// Replaces the contents of the file `path` by `bytes`. On failure (kIo), the temporary file is
+// removed, and the file `path` is unchanged unless only the last sync of the folder failed. The
+// name of the temporary file starts with a dot.
 Expected<void> write_file_atomically(const std::filesystem::path& path,
                                      std::span<const std::uint8_t> bytes);
 
-// Creates `path`, read-only, unless it exists: false then, and the file is as it was. Of several
-// that create it at a time one succeeds.
+// Creates the file `path` with read-only permissions and returns true. If the file exists already,
+// leaves it unchanged and returns false. If several callers create the same file at once, exactly
+// one gets true.
 Expected<bool> create_file_atomically(const std::filesystem::path& path,
                                       std::span<const std::uint8_t> bytes);
 
-// What to do where a file or folder cannot be written for that error number.
+// Returns advice for a user whose file or folder cannot be written. `error` is the error number
+// (errno).
 const char* next_step(int error);
 
-// Where a file of that name is; `.` for a bare name.
+// Returns the folder of `path`, or "." if `path` is only a file name.
 std::filesystem::path folder_of(const std::filesystem::path& path);
 
-// Makes the names in `folder` durable.
+// Syncs `folder` to disk, so that new and renamed files in it survive a power failure.
 Expected<void> sync_folder(const std::filesystem::path& folder);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

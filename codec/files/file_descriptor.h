@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Owns a file descriptor; and the three that every process has.
+// An owning file descriptor, and a guard for the three standard streams.
 #pragma once
 
 #include <fcntl.h>
@@ -7,7 +7,7 @@
 
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 class FileDescriptor {
  public:
@@ -30,8 +30,9 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-// Where standard streams are closed, /dev/null takes their numbers: else the next file opened
-// would, and messages meant for people would be written into it. Call it first in main().
+// Opens /dev/null for each standard stream that is closed. Otherwise the next file opened would get
+// the number of that stream, and messages would be written into that file. Call this first in
+// main().
 inline void keep_standard_streams() {
   int fd = 0;
   while (fd >= 0 && fd <= STDERR_FILENO)
@@ -39,4 +40,4 @@ inline void keep_standard_streams() {
   if (fd >= 0) ::close(fd);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

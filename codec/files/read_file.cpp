@@ -9,7 +9,7 @@
 #include "codec/files/atomic_file.h"
 #include "codec/files/file_descriptor.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 Unexpected unreadable(const std::filesystem::path& path, int error) {
@@ -39,4 +39,4 @@ Expected<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path,
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

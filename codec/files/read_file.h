@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads a whole file into memory.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +8,11 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Everything in a file. Fails with kIo, and with kLimit where it is longer than `limit` bytes.
+// Returns the contents of the file `path`. Fails with kIo, or with kLimit if the file is longer
+// than `limit` bytes.
 Expected<std::vector<std::uint8_t>> read_file(const std::filesystem::path& path,
                                               std::uint64_t limit);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

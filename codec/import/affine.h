@@ -6,7 +6,7 @@
 
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct Affine {
   Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{};
@@ -15,13 +15,13 @@ struct Affine {
   Vec3 operator()(const Vec3& p) const { return turn(p) + origin; }
   bool mirrors() const { return dot(cross(x, y), z) < 0; }
 
-  // First `inner`, then this.
+  // Returns the map that applies `inner` first and then this map.
   Affine operator*(const Affine& inner) const {
     return {turn(inner.x), turn(inner.y), turn(inner.z), (*this)(inner.origin)};
   }
 };
 
-// Scale first, then the rotation by the unit quaternion (x, y, z, w), then the translation.
+// Returns the map that scales, then rotates by the unit quaternion (x, y, z, w), then translates.
 inline Affine compose(const Vec3& translation, const std::array<double, 4>& q, const Vec3& scale) {
   const auto [x, y, z, w] = q;
   return {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)} * scale.x,
@@ -30,4 +30,4 @@ inline Affine compose(const Vec3& translation, const std::array<double, 4>& q, c
           translation};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

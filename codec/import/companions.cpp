@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/import/companions.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 std::string companion_key(std::string_view path) {
   const std::size_t slash = path.find_last_of("/\\");
@@ -17,4 +17,4 @@ std::optional<std::span<const std::uint8_t>> find_companion(const Companions& co
   return it == companions.end() ? std::nullopt : std::optional(it->second);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that a mesh file refers to by name: material libraries and pictures.
+// Companions: the files to which a mesh file refers by name, such as material libraries and
+// pictures.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +10,16 @@
 #include <string>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Contents by companion_key() of the file's name.
+// Contents of the companion files. The key is companion_key() of the file's path.
 using Companions = std::map<std::string, std::span<const std::uint8_t>, std::less<>>;
 
-// The last part of a path, in lower case: files name their companions by the paths of another
-// machine, with slashes of either kind.
+// Returns the last part of a path in lower case. Mesh files contain paths from other machines, with
+// slashes or backslashes.
 std::string companion_key(std::string_view path);
 
 std::optional<std::span<const std::uint8_t>> find_companion(const Companions& companions,
                                                             std::string_view path);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <limits>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-// OpenSSL takes padding for zeros, wherever it is, and leaves those zeros in.
+// Decodes base64, or returns nullopt if the text is invalid. OpenSSL decodes padding at any
+// position as zeros and keeps these zeros, so padding is checked and removed here.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   const std::size_t digits = std::min(text.find('='), text.size());
   const std::size_t padding = text.size() - digits;
@@ -33,4 +34,4 @@ std::optional<std::vector<std::uint8_t>> data_in_uri(std::string_view uri) {
   return from_base64(uri.substr(comma + 1));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data that is spelt out in a URI (RFC 2397).
+// Decodes data embedded in a URI (RFC 2397).
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 #include <string_view>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 inline bool is_data_uri(std::string_view uri) {
   return uri.starts_with("data:");
 }
 
-// The bytes of a data: URI in base64 (RFC 4648), fewer than it has characters; nothing where it is
-// another.
+// Decodes a base64 data: URI [RFC2397] [RFC4648]. Returns nullopt for any other URI. The result has
+// fewer bytes than the URI has characters.
 std::optional<std::vector<std::uint8_t>> data_in_uri(std::string_view uri);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

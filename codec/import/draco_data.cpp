@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <string>
 
-#include "codec/import/byte_cursor.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/core/byte_cursor.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint64_t kMostFacesPerByte = 1024;
@@ -18,8 +18,9 @@ Unexpected bad(const std::string& what) {
   return bad_input("the Draco data " + what + "; the file is damaged, export it again");
 }
 
-// Seven bits a byte, the lowest first; the highest bit says that more follow.
-std::uint32_t varint(ByteCursor& in) {
+// Reads a number with seven bits per byte, lowest bits first. The highest bit of a byte is set if
+// more bytes follow.
+std::uint32_t varint(ByteReader& in) {
   std::uint64_t value = 0;
   for (int shift = 0; shift < 35; shift += 7) {
     const auto byte = in.read<std::uint8_t>();
@@ -29,8 +30,9 @@ std::uint32_t varint(ByteCursor& in) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(value, 0xFFFF'FFFF));
 }
 
-// Bytes 0-4 "DRACO", 5-6 version, 7 geometry type (1 mesh), 8 method (1 edgebreaker), 9-10 flags;
-// then the counts of the connectivity, of vertices and faces in either order.
+// A Draco header has "DRACO" in bytes 0-4, the version in 5-6, the geometry type in 7 (1: mesh),
+// the method in 8 (1: edgebreaker) and flags in 9-10. The counts of the connectivity follow:
+// vertices and faces, in an order that depends on the method.
 Expected<void> check_header(std::span<const std::uint8_t> bytes, const Limits& limits) {
   constexpr std::uint8_t kName[] = {'D', 'R', 'A', 'C', 'O'};
   if (bytes.size() < 16 || !std::equal(std::begin(kName), std::end(kName), bytes.begin()) ||
@@ -47,11 +49,11 @@ Expected<void> check_header(std::span<const std::uint8_t> bytes, const Limits& l
                 "the Draco data carries metadata, which is not read; export without it");
   }
   const bool is_edgebreaker = bytes[8] == 1;
-  ByteCursor in(bytes.subspan(is_edgebreaker ? 12 : 11));
+  ByteReader in(bytes.subspan(is_edgebreaker ? 12 : 11));
   const std::uint32_t first = varint(in), second = varint(in);
   const std::uint64_t faces = is_edgebreaker ? second : first;
   const std::uint64_t vertices = is_edgebreaker ? first : second;
-  if (in.overrun() || faces > kMostFacesPerByte * bytes.size() || vertices > 3 * faces) {
+  if (!in.is_ok() || faces > kMostFacesPerByte * bytes.size() || vertices > 3 * faces) {
     return bad("claims " + counted(faces, "face") + " in " + counted(bytes.size(), "byte"));
   }
   if (faces > limits.faces || vertices > limits.vertices) {
@@ -65,7 +67,7 @@ Expected<void> check_header(std::span<const std::uint8_t> bytes, const Limits& l
 
 Expected<std::unique_ptr<draco::Mesh>> decode_draco_data(std::span<const std::uint8_t> bytes,
                                                          const Limits& limits) {
-  if (auto ok = check_header(bytes, limits); !ok) return Unexpected(ok.error());
+  if (auto ok = check_header(bytes, limits); !ok) return tl::unexpected(ok.error());
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
@@ -84,4 +86,4 @@ std::vector<Triangle> faces_of(const draco::Mesh& mesh) {
   return faces;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes in Draco's own buffers: a .drc file, a compressed primitive of a GLB.
+// Decodes meshes from Draco buffers: .drc files and compressed primitives of GLB files.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ namespace draco {
 class Mesh;
 }
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// The counts in the Draco header are compared with the limits and with the data's size before Draco
-// sees it (at most 1024 faces a byte); but Draco itself is not safe on hostile bytes, so this
-// belongs into the sandbox. Fails (kBadInput, kUnsupported, kLimit).
+// Decodes a Draco buffer. First checks the counts in the Draco header against the limits and the
+// size of the data (at most 1024 faces per byte). Draco itself is not safe on hostile bytes, so
+// call this in the sandbox. Fails (kBadInput, kUnsupported, kLimit).
 Expected<std::unique_ptr<draco::Mesh>> decode_draco_data(std::span<const std::uint8_t> bytes,
                                                          const Limits& limits);
 
 std::vector<Triangle> faces_of(const draco::Mesh& mesh);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -7,9 +7,9 @@
 
 #include "codec/import/draco_data.h"
 #include "codec/import/gltf_accessor.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 Unexpected bad(const std::string& what) {
@@ -65,7 +65,7 @@ Expected<void> read_values(const draco::Mesh& mesh, const Json& document, const 
     if (!is_wanted(name) || id > 0xFFFF'FFFF) continue;
     const auto* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
     const auto shape = Accessor::described(document, whole(accessors, name, kAbsent));
-    if (!shape) return Unexpected(shape.error());
+    if (!shape) return tl::unexpected(shape.error());
     if (attribute == nullptr || shape->count() != mesh.num_points() ||
         shape->width() != static_cast<std::uint32_t>(attribute->num_components()) ||
         !copy_values(*attribute, mesh.num_points(), *shape, out.values[name])) {
@@ -88,12 +88,13 @@ Expected<DracoPrimitive> decode_draco_primitive(std::span<const std::uint8_t> co
                                                 const Json& document, const Json& primitive,
                                                 const Limits& limits) {
   const auto decoded = decode_draco_data(compressed, limits);
-  if (!decoded) return Unexpected(Error{decoded.error().code, "GLB: " + decoded.error().message});
+  if (!decoded)
+    return tl::unexpected(Error{decoded.error().code, "GLB: " + decoded.error().message});
   const draco::Mesh& mesh = **decoded;
   DracoPrimitive out;
   out.faces = faces_of(mesh);
-  if (auto ok = read_values(mesh, document, primitive, out); !ok) return Unexpected(ok.error());
+  if (auto ok = read_values(mesh, document, primitive, out); !ok) return tl::unexpected(ok.error());
   return out;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

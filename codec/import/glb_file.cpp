@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/import/glb_file.h"
 
-#include "codec/import/byte_cursor.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/core/byte_cursor.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr int kDeepestJson = 64;
@@ -30,11 +30,11 @@ bool is_too_deep(std::string_view json) {
 }
 
 Expected<std::size_t> checked_length(std::span<const std::uint8_t> bytes) {
-  ByteCursor cursor(bytes);
+  ByteReader cursor(bytes);
   cursor.skip(4);
   const auto version = cursor.read<std::uint32_t>();
   const auto length = cursor.read<std::uint32_t>();
-  if (cursor.overrun()) return cut_short("the file ends within its header");
+  if (!cursor.is_ok()) return cut_short("the file ends within its header");
   if (version != 2) {
     return fail(ErrorCode::kUnsupported,
                 "GLB version " + std::to_string(version) + " is not read; export glTF 2.0");
@@ -57,7 +57,8 @@ Expected<Json> parse(std::string_view json, const Limits& limits) {
   return document;
 }
 
-// Materials and textures that are not understood are left out and named; all else must be read.
+// Whether a required extension can be handled. Materials and textures that are not supported are
+// ignored and reported. All other extensions must be supported.
 bool is_read(std::string_view extension) {
   return extension == "KHR_mesh_quantization" || extension == "KHR_draco_mesh_compression" ||
          extension == "EXT_meshopt_compression" || extension.starts_with("KHR_materials_") ||
@@ -74,8 +75,9 @@ Expected<void> check_extensions(const Json& document) {
   return {};
 }
 
-// As glTF's rules for versions have it: minVersion must be read entirely, and without one the major
-// version. Without either, that of the container stands for both.
+// Applies glTF's version rules. If the document states minVersion, that version must be fully
+// supported. Otherwise the major version must be supported. If the document states neither, only
+// the version of the container is checked.
 Expected<void> check_version(const Json& document) {
   const Json& asset = member(document, "asset");
   const bool has_least = !member(asset, "minVersion").is_null();
@@ -94,7 +96,7 @@ Unexpected bad_glb(std::string what) {
 
 Expected<GlbFile> open_glb(std::span<const std::uint8_t> bytes, const Limits& limits) {
   const auto length = checked_length(bytes);
-  if (!length) return Unexpected(length.error());
+  if (!length) return tl::unexpected(length.error());
   GlbFile file;
   std::string_view json;
   for (std::size_t at = 12; at + 8 <= *length;) {
@@ -109,11 +111,11 @@ Expected<GlbFile> open_glb(std::span<const std::uint8_t> bytes, const Limits& li
     at += 8 + std::size_t{size};
   }
   auto document = parse(json, limits);
-  if (!document) return Unexpected(document.error());
+  if (!document) return tl::unexpected(document.error());
   file.document = *std::move(document);
-  if (auto ok = check_version(file.document); !ok) return Unexpected(ok.error());
-  if (auto ok = check_extensions(file.document); !ok) return Unexpected(ok.error());
+  if (auto ok = check_version(file.document); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_extensions(file.document); !ok) return tl::unexpected(ok.error());
   return file;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

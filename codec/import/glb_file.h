@@ -8,18 +8,19 @@
 #include "codec/core/limits.h"
 #include "codec/import/gltf_json.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct GlbFile {
-  Json document;                         // an object
-  std::span<const std::uint8_t> binary;  // of the input; may be empty
+  Json document;                         // a JSON object
+  std::span<const std::uint8_t> binary;  // part of the input; may be empty
 };
 
-// Fails (kBadInput, kUnsupported, kLimit) on another version, cut or damaged chunks, JSON that is
-// too long or too deep, and on required extensions that are not read.
+// Opens a GLB file. Fails (kBadInput, kUnsupported, kLimit) if the version is not supported, if a
+// chunk is truncated or damaged, if the JSON is too long or too deep, or if a required extension is
+// not supported.
 Expected<GlbFile> open_glb(std::span<const std::uint8_t> bytes, const Limits& limits);
 
-// A fault of the file, with the next step.
+// Returns an error that states a fault of the file and advises the user.
 Unexpected bad_glb(std::string what);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <string>
 
-#include "codec/import/byte_cursor.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/core/byte_cursor.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 Unexpected bad_accessor(std::uint64_t index, std::string what) {
@@ -49,12 +49,13 @@ Expected<Accessor> Accessor::described(const Json& document, std::uint64_t index
   out.width_ = width_of(text(self, "type", ""));
   if (byte_size(out.type_) * out.width_ == 0) return bad_accessor(index, "has an unknown type");
   const Json& normalised = member(self, "normalized");
-  out.normalised_ = normalised.is_boolean() && normalised.get<bool>();
+  out.is_normalised_ = normalised.is_boolean() && normalised.get<bool>();
   out.count_ = whole(self, "count", 0);
   return out;
 }
 
-// Sets where the values are: from `begin` in the view.
+// Makes the accessor read its values from `view`, starting at byte `begin`. Fails if they do not
+// fit into the view.
 Expected<void> Accessor::place(const BufferView& view, std::uint64_t begin, std::uint64_t index) {
   const std::uint64_t size = std::uint64_t{byte_size(type_)} * width_, end = view.bytes.size();
   stride_ = view.stride == 0 ? size : view.stride;
@@ -73,9 +74,9 @@ Expected<Accessor> Accessor::open(const Json& document, GltfBuffer& buffer, std:
   const std::uint64_t view_index = whole(self, "bufferView", kAbsent);
   if (view_index == kAbsent) return bad_accessor(index, "has no buffer view");
   const auto view = buffer.view(view_index);
-  if (!view) return Unexpected(view.error());
+  if (!view) return tl::unexpected(view.error());
   if (auto ok = out->place(*view, whole(self, "byteOffset", 0), index); !ok) {
-    return Unexpected(ok.error());
+    return tl::unexpected(ok.error());
   }
   return out;
 }
@@ -84,14 +85,14 @@ Expected<Accessor> Accessor::over(const Json& document, std::span<const std::uin
                                   std::uint64_t index) {
   auto out = described(document, index);
   if (!out) return out;
-  if (auto ok = out->place({values, 0}, 0, index); !ok) return Unexpected(ok.error());
+  if (auto ok = out->place({values, 0}, 0, index); !ok) return tl::unexpected(ok.error());
   return out;
 }
 
 double Accessor::real(std::uint64_t i, std::uint32_t k) const {
   const std::uint8_t* at = bytes_.data() + i * stride_ + std::uint64_t{k} * byte_size(type_);
   const auto scaled = [&](double value, double most) {
-    return normalised_ ? std::max(value / most, -1.0) : value;
+    return is_normalised_ ? std::max(value / most, -1.0) : value;
   };
   switch (type_) {
     case kByte:
@@ -123,4 +124,4 @@ std::uint32_t Accessor::index(std::uint64_t i) const {
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Typed and bounded access to the numbers of a binary glTF file.
+// Typed, bounds-checked access to the numbers of a binary glTF file.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,27 @@
 
 #include "codec/import/gltf_buffer.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Vectors of `width` components, `stride` bytes apart.
+// A sequence of vectors with `width` components each. Successive vectors begin `stride` bytes
+// apart.
 class Accessor {
  public:
-  // Fails unless accessor `index` lies within its buffer view.
+  // Opens accessor `index`. Fails unless it lies within its buffer view.
   static Expected<Accessor> open(const Json& document, GltfBuffer& buffer, std::uint64_t index);
 
-  // Accessor `index` over `values`, which holds all of them without gaps: a decompressed primitive.
+  // Opens accessor `index`, but takes its values from `values`, the decompressed data of a
+  // primitive. Fails unless the data is long enough for values without gaps.
   static Expected<Accessor> over(const Json& document, std::span<const std::uint8_t> values,
                                  std::uint64_t index);
 
   std::uint64_t count() const { return count_; }
   std::uint32_t width() const { return width_; }
-  bool is_whole() const { return type_ != kFloat; }     // components are integers
-  double real(std::uint64_t i, std::uint32_t k) const;  // normalised where the file says so
-  std::uint32_t index(std::uint64_t i) const;           // of an unsigned integer type
+  bool is_whole() const { return type_ != kFloat; }     // whether the components are integers
+  double real(std::uint64_t i, std::uint32_t k) const;  // component k of vector i; normalised if
+                                                        // the file says so
+  std::uint32_t index(std::uint64_t i) const;           // first component of vector i; requires an
+                                                        // unsigned integer type
 
   enum Type : std::uint32_t {
     kByte = 5120,
@@ -35,9 +39,9 @@ class Accessor {
     kFloat = 5126
   };
   Type type() const { return type_; }
-  static std::uint32_t byte_size(Type type);  // 0 where the type is unknown
+  static std::uint32_t byte_size(Type type);  // 0 if the type is unknown
 
-  // Type, width and count as the document states them, without any values.
+  // Returns an accessor without values that has the type, width and count stated in the document.
   static Expected<Accessor> described(const Json& document, std::uint64_t index);
 
  private:
@@ -47,7 +51,7 @@ class Accessor {
   std::uint64_t count_ = 0, stride_ = 0;
   std::uint32_t width_ = 0;
   Type type_ = kFloat;
-  bool normalised_ = false;
+  bool is_normalised_ = false;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -2,9 +2,9 @@
 #include "codec/import/gltf_buffer.h"
 
 #include "codec/import/meshopt_view.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint64_t kMostExpansionInAll = 1024;
@@ -28,7 +28,7 @@ Expected<BufferView> GltfBuffer::view(std::uint64_t index) {
     return decompressed(compression, index);
   }
   const auto bytes = part(self, index);
-  if (!bytes) return Unexpected(bytes.error());
+  if (!bytes) return tl::unexpected(bytes.error());
   return BufferView{*bytes, whole(self, "byteStride", 0)};
 }
 
@@ -47,10 +47,10 @@ Expected<BufferView> GltfBuffer::decompressed(const Json& extension, std::uint64
   const auto [it, is_new] = decompressed_.try_emplace(index);
   if (is_new) {
     const auto bytes = part(extension, index);
-    if (!bytes) return Unexpected(bytes.error());
+    if (!bytes) return tl::unexpected(bytes.error());
     auto plain = decode_meshopt(extension, *bytes);
     if (!plain) return fail(plain.error().code, named(index, plain.error().message));
-    if (auto ok = spend(plain->size()); !ok) return Unexpected(ok.error());
+    if (auto ok = spend(plain->size()); !ok) return tl::unexpected(ok.error());
     it->second = *std::move(plain);
   }
   return BufferView{it->second, stride};
@@ -63,4 +63,4 @@ Expected<void> GltfBuffer::spend(std::uint64_t bytes) {
               "the GLB's compressed parts make too many bytes; export it without compression");
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

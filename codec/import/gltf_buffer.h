@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The buffer views of a binary glTF file, decompressed where they are compressed.
+// Returns the buffer views of a binary glTF file and decompresses them if necessary.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,25 @@
 
 #include "codec/import/gltf_json.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct BufferView {
   std::span<const std::uint8_t> bytes;
-  std::uint64_t stride = 0;  // of its elements; 0 where they follow without gaps
+  std::uint64_t stride = 0;  // bytes from one element to the next; 0 if there are no gaps
 };
 
 class GltfBuffer {
  public:
-  // `binary` is the file's binary chunk. Both must outlive this.
+  // `binary` is the file's binary chunk. It and the document must outlive this object.
   GltfBuffer(const Json& document, std::span<const std::uint8_t> binary)
       : document_(document), binary_(binary) {}
 
-  // Fails unless the view lies within the binary chunk. The bytes live as long as this.
+  // Returns buffer view `index`. Fails unless it lies within the binary chunk. The bytes live as
+  // long as this object.
   Expected<BufferView> view(std::uint64_t index);
 
-  // Counts `bytes` as made by decompression; fails (kLimit) beyond 1024 times the binary chunk.
+  // Adds `bytes` to the total of decompressed bytes. Fails (kLimit) if the total exceeds 1024 times
+  // the size of the binary chunk.
   Expected<void> spend(std::uint64_t bytes);
   std::uint64_t spent() const { return spent_; }
 
@@ -35,8 +37,9 @@ class GltfBuffer {
 
   const Json& document_;
   std::span<const std::uint8_t> binary_;
-  std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;  // by view
+  // key: index of the buffer view
+  std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;
   std::uint64_t spent_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

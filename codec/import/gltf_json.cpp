@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 const Json kNull;
@@ -45,4 +45,4 @@ bool are_numbers(const Json& array, std::size_t count) {
          std::ranges::all_of(array, [](const Json& entry) { return entry.is_number(); });
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

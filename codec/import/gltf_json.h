@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading of glTF's JSON that never throws, whatever the document holds.
+// Reads glTF's JSON without exceptions, even if the document has unexpected contents.
 #pragma once
 
 #include <array>
@@ -10,20 +10,20 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 using Json = nlohmann::json;
 
-// The member `key`, or null where `object` is no object or has none.
+// Returns the member `key`, or null if `object` is not an object or has no such member.
 const Json& member(const Json& object, std::string_view key);
 
-// Element `index` of the array `key` of the document, or null.
+// Returns element `index` of the document's array `key`, or null if there is none.
 const Json& element(const Json& document, std::string_view key, std::uint64_t index);
 
-// The object of an extension by its name, or null.
+// Returns the JSON object of the extension `name`, or null if there is none.
 const Json& extension(const Json& object, std::string_view name);
 
-// A member as a whole number from 0, `otherwise` where it is absent or something else.
+// Returns the member `key` if it is a non-negative integer, or `otherwise` in all other cases.
 std::uint64_t whole(const Json& object, std::string_view key, std::uint64_t otherwise);
 
 inline constexpr std::uint64_t kAbsent = ~std::uint64_t{0};
@@ -31,10 +31,10 @@ inline constexpr std::uint64_t kAbsent = ~std::uint64_t{0};
 double real(const Json& object, std::string_view key, double otherwise);
 std::string text(const Json& object, std::string_view key, std::string_view otherwise);
 
-// Whether it is an array of `count` numbers.
+// Whether `array` is a JSON array of exactly `count` numbers.
 bool are_numbers(const Json& array, std::size_t count);
 
-// The numbers of an array of exactly N, or `otherwise`.
+// Returns the numbers of an array of exactly N numbers, or `otherwise` for anything else.
 template <std::size_t N>
 std::array<double, N> numbers(const Json& array, const std::array<double, N>& otherwise) {
   if (!are_numbers(array, N)) return otherwise;
@@ -44,4 +44,4 @@ std::array<double, N> numbers(const Json& array, const std::array<double, N>& ot
   return out;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "codec/import/data_uri.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 Wrap wrap_of(const Json& sampler, std::string_view key) {
@@ -29,8 +29,8 @@ void place_texture(const Json& reference, const Json& sampler, BaseColour& out) 
   out.rotation = real(transform, "rotation", 0);
 }
 
-// Which picture a texture shows: the plain one, which all can read, or else that of an extension,
-// so that what it is can be told.
+// Returns the image of a texture. Prefers the plain image, which every reader supports. Without
+// one, returns the image of an extension, so that a message can name its format.
 std::uint64_t source_of(const Json& texture) {
   std::uint64_t source = whole(texture, "source", kAbsent);
   for (const Json& other : member(texture, "extensions")) {
@@ -106,4 +106,4 @@ std::vector<std::string> GltfMaterials::report() const {
   return lines;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

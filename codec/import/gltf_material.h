@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base colours of glTF materials: a factor and a texture map.
+// The base colours of glTF materials. Each is a factor, optionally multiplied by a texture.
 #pragma once
 
 #include <map>
@@ -10,29 +10,30 @@
 #include "codec/import/gltf_buffer.h"
 #include "codec/import/image.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct BaseColour {
   LinearColour factor{1, 1, 1};
-  const Image* image = nullptr;  // null: the factor alone
-  std::uint64_t texcoord = 0;    // which TEXCOORD_n the image takes
+  const Image* image = nullptr;  // null if there is only the factor
+  std::uint64_t texcoord = 0;    // n of the attribute TEXCOORD_n that the image uses
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
-  std::array<double, 2> offset{0, 0}, scale{1, 1};  // KHR_texture_transform
-  double rotation = 0;                              // radians
+  std::array<double, 2> offset{0, 0}, scale{1, 1};  // from KHR_texture_transform
+  double rotation = 0;                              // from KHR_texture_transform, radians
 
   bool is_white() const { return image == nullptr && factor == LinearColour{1, 1, 1}; }
-  LinearColour at(double u, double v) const;  // of the texture coordinates in the file
+  LinearColour at(double u, double v) const;  // (u, v): texture coordinates as in the file
 };
 
 class GltfMaterials {
  public:
-  // Both must outlive this.
+  // Both arguments must outlive this object.
   GltfMaterials(const Json& document, GltfBuffer& buffer) : document_(document), buffer_(buffer) {}
 
-  // Of the primitive's material. The image lives as long as this.
+  // Returns the base colour of the primitive's material. The colour's image lives as long as this
+  // object.
   BaseColour base_colour(const Json& primitive);
 
-  // What became of the document's images, one line each kind.
+  // Reports which images of the document were used for colours or ignored, one line per kind.
   std::vector<std::string> report() const;
 
  private:
@@ -41,9 +42,10 @@ class GltfMaterials {
 
   const Json& document_;
   GltfBuffer& buffer_;
-  std::map<std::uint64_t, std::optional<Image>> images_;  // nothing where it cannot be decoded
+  // key: index of the image; value: nullopt if the image cannot be decoded
+  std::map<std::uint64_t, std::optional<Image>> images_;
   std::vector<std::string> faults_;
   std::uint64_t pixels_left_ = kMostPixels;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "codec/import/glb_file.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 Expected<void> check_place(const Json& node, std::uint64_t index) {
@@ -25,7 +25,8 @@ Expected<void> check_place(const Json& node, std::uint64_t index) {
 Affine transform_of(const Json& node) {
   if (const Json& matrix = member(node, "matrix"); matrix.is_array()) {
     const auto m =
-        numbers<16>(matrix, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});  // column by column
+        // in column-major order
+        numbers<16>(matrix, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
   }
   const auto t = numbers<3>(member(node, "translation"), {0, 0, 0});
@@ -39,7 +40,7 @@ struct Visit {
   Affine parent;
 };
 
-// On top of the stack, so that the first one comes next.
+// Pushes the nodes in reverse order, so that the first node is visited next.
 void push(const Json& nodes, const Affine& parent, std::vector<Visit>& open) {
   const auto first = static_cast<std::ptrdiff_t>(open.size());
   for (const Json& node : nodes) {
@@ -48,15 +49,16 @@ void push(const Json& nodes, const Affine& parent, std::vector<Visit>& open) {
   std::reverse(open.begin() + first, open.end());
 }
 
-std::vector<PlacedMesh> all_meshes(const Json& document) {
+std::vector<MeshInstance> all_meshes(const Json& document) {
   const Json& meshes = member(document, "meshes");
-  std::vector<PlacedMesh> placed;
+  std::vector<MeshInstance> instances;
   for (std::uint64_t m = 0; meshes.is_array() && m < meshes.size(); ++m)
-    placed.push_back({m, {}});
-  return placed;
+    instances.push_back({m, {}});
+  return instances;
 }
 
-// The first scene that shows a mesh. A node met in vain is not searched again, whoever has it.
+// Returns the first scene that shows a mesh. If a node was found to have no mesh, it is not
+// searched again under another parent.
 std::uint64_t scene_with_meshes(const Json& document) {
   const Json& nodes = member(document, "nodes");
   const Json& scenes = member(document, "scenes");
@@ -87,13 +89,13 @@ Unexpected shows_none(std::uint64_t scene, const Json& document) {
 
 }  // namespace
 
-Expected<std::vector<PlacedMesh>> placed_meshes(const Json& document) {
+Expected<std::vector<MeshInstance>> mesh_instances(const Json& document) {
   const std::uint64_t number = whole(document, "scene", 0);
   const Json& scene = element(document, "scenes", number);
   if (!scene.is_object()) return all_meshes(document);
   const Json& nodes = member(document, "nodes");
   std::vector<bool> seen(nodes.is_array() ? nodes.size() : 0, false);
-  std::vector<PlacedMesh> placed;
+  std::vector<MeshInstance> instances;
   std::vector<Visit> open;
   push(member(scene, "nodes"), Affine{}, open);
   while (!open.empty()) {
@@ -103,15 +105,15 @@ Expected<std::vector<PlacedMesh>> placed_meshes(const Json& document) {
     if (seen[visit.node]) return bad_glb("node " + std::to_string(visit.node) + " has two parents");
     seen[visit.node] = true;
     const Json& node = nodes[visit.node];
-    if (auto ok = check_place(node, visit.node); !ok) return Unexpected(ok.error());
+    if (auto ok = check_place(node, visit.node); !ok) return tl::unexpected(ok.error());
     const Affine place = visit.parent * transform_of(node);
     if (const auto mesh = whole(node, "mesh", kAbsent); mesh != kAbsent) {
-      placed.push_back({mesh, place});
+      instances.push_back({mesh, place});
     }
     push(member(node, "children"), place, open);
   }
-  if (placed.empty() && !member(document, "meshes").empty()) return shows_none(number, document);
-  return placed;
+  if (instances.empty() && !member(document, "meshes").empty()) return shows_none(number, document);
+  return instances;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

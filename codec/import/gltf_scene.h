@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which meshes the scene of a glTF document shows, and where.
+// Finds the meshes that the scene of a glTF document shows, and where it places them.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,19 @@
 #include "codec/import/affine.h"
 #include "codec/import/gltf_json.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-struct PlacedMesh {
-  std::uint64_t mesh;  // index; may be out of range
-  Affine place;        // from the mesh's coordinates to the scene's
+struct MeshInstance {
+  std::uint64_t mesh;  // index of the mesh; may be out of range
+  Affine place;        // maps the mesh's coordinates to the scene's
 };
 
-// The meshes of the document's scene (of its first one, where it names none) in depth-first order;
-// all meshes, where they are, in a document without scenes. Fails (kBadInput) where a node does not
-// exist, is met twice, which a cycle would do too, or is not placed by numbers, and where the scene
-// shows none of the meshes there are.
-Expected<std::vector<PlacedMesh>> placed_meshes(const Json& document);
+// Returns the meshes of the document's default scene in depth-first order. If the document names no
+// default, the first scene is used. If it has no scenes, all its meshes are returned without a
+// transform.
+//
+// Fails (kBadInput) if a node does not exist, has two parents, is in a cycle or has an invalid
+// transform. Also fails if meshes exist but the scene shows none of them.
+Expected<std::vector<MeshInstance>> mesh_instances(const Json& document);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

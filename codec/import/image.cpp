@@ -11,16 +11,17 @@
 #include <string>
 #include <string_view>
 
-#include "codec/import/raw_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::uint64_t kMostPixelsPerByte = 1024;
 
-// Formats that are not read, told by what is at a byte of theirs: media types, as glTF gives them.
+// An image format that is not supported. It is recognised by the text `magic` at byte offset `at`;
+// `type` is its media type.
 struct Format {
   std::string_view type;
   std::size_t at;
@@ -106,13 +107,13 @@ std::uint32_t wrapped(std::int64_t i, std::uint32_t size, Wrap wrap) {
   return static_cast<std::uint32_t>(at < n ? at : 2 * n - 1 - at);
 }
 
-// Two neighbouring pixels along one axis and the weight of the second.
-struct Pair {
+// Two neighbouring pixels along one axis. `weight` is the weight of the second pixel.
+struct PixelPair {
   std::uint32_t first, second;
   double weight;
 };
 
-Pair pixels_around(double t, std::uint32_t size, Wrap wrap) {
+PixelPair pixels_around(double t, std::uint32_t size, Wrap wrap) {
   constexpr double kFar = 1e9;
   const double x = (std::abs(t) < kFar ? t : 0) * size - 0.5;
   const double floor = std::floor(x);
@@ -129,7 +130,8 @@ Expected<Image> decode_image(Bytes bytes, std::uint64_t most_pixels) {
 }
 
 LinearColour sample(const Image& image, double u, double v, Wrap wrap_u, Wrap wrap_v) {
-  const Pair x = pixels_around(u, image.width, wrap_u), y = pixels_around(v, image.height, wrap_v);
+  const PixelPair x = pixels_around(u, image.width, wrap_u),
+                  y = pixels_around(v, image.height, wrap_v);
   const auto row = [&](std::uint32_t at) {
     return to_linear(image.at(x.first, at)) * (1 - x.weight) +
            to_linear(image.at(x.second, at)) * x.weight;
@@ -137,4 +139,4 @@ LinearColour sample(const Image& image, double u, double v, Wrap wrap_u, Wrap wr
   return row(y.first) * (1 - y.weight) + row(y.second) * y.weight;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

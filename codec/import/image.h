@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that colour a surface.
+// Decodes pictures and samples their colours.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "codec/core/expected.h"
-#include "codec/import/linear_colour.h"
+#include "codec/repair/linear_colour.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct Image {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> pixels;  // sRGB and alpha, four bytes each, rows from the top
+  std::vector<std::uint8_t> pixels;  // rows from top to bottom; four bytes per pixel: sRGB and
+                                     // alpha
 
   Colour at(std::uint32_t x, std::uint32_t y) const {
     const std::uint8_t* pixel = &pixels[4 * (std::size_t{y} * width + x)];
@@ -21,20 +22,23 @@ struct Image {
   }
 };
 
-inline constexpr std::uint64_t kMostPixels = 1u << 28;  // of all pictures of a model together
+inline constexpr std::uint64_t kMostPixels = 1u << 28;  // maximum number of pixels in all pictures
+                                                        // of a model together
 
-// Decodes a PNG or JPEG, told apart by content. Its size is checked before anything is allocated:
-// at most `most_pixels`, and at most 1024 for each byte. The libraries are not proof against every
-// byte: this belongs into the sandbox. Fails (kBadInput, kUnsupported, kLimit) with the fault
-// and any next step, as in "is image/webp; convert it to PNG or JPEG": the caller names the
-// picture.
+// Decodes a PNG or JPEG picture, recognised by its content. The size is checked before memory is
+// allocated: at most `most_pixels` pixels, and at most 1024 pixels per byte. The libraries are not
+// safe on hostile bytes, so call this in the sandbox.
+//
+// Fails (kBadInput, kUnsupported, kLimit) with a fault and a next step, such as "is image/webp;
+// convert it to PNG or JPEG". The caller adds the picture's name.
 Expected<Image> decode_image(std::span<const std::uint8_t> bytes, std::uint64_t most_pixels);
 
-// What a coordinate outside of [0, 1) means.
+// How to treat a coordinate outside [0, 1).
 enum class Wrap { kRepeat, kMirror, kClamp };
 
-// The colour at (u, v), v from the top: bilinear between the centres of pixels, in linear light.
-// Coordinates that are not finite are taken as 0. `image` has at least one pixel.
+// Returns the colour at (u, v), where v = 0 is the top. Interpolates bilinearly between pixel
+// centres, in linear light. Coordinates that are not finite are treated as 0. `image` must have at
+// least one pixel.
 LinearColour sample(const Image& image, double u, double v, Wrap wrap_u, Wrap wrap_v);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffer views of glTF that are compressed with EXT_meshopt_compression.
+// Decodes glTF buffer views that are compressed with EXT_meshopt_compression.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 #include "codec/import/gltf_json.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// The plain bytes of a view, byteStride for each of its elements. `extension` is the view's JSON
-// object of that name, `compressed` the bytes it refers to. meshoptimizer's decoders are safe for
-// untrusted bytes; the size is checked before it is allocated and is at most 64 times `compressed`
-// (no valid data is denser). Fails (kBadInput, kUnsupported) with the fault alone: the caller adds
-// the place.
+// Returns the decompressed bytes of a view, byteStride bytes per element. `extension` is the JSON
+// object of the extension in that view; `compressed` holds the bytes to which it refers.
+// meshoptimizer's decoders are safe on untrusted bytes. The result is at most 64 times as large as
+// `compressed` (valid data is never denser); this is checked before memory is allocated. Fails
+// (kBadInput, kUnsupported) with the fault only; the caller adds the place.
 Expected<std::vector<std::uint8_t>> decode_meshopt(const Json& extension,
                                                    std::span<const std::uint8_t> compressed);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/import/named_pictures.h"
 
-#include "codec/import/raw_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 const Image* NamedPictures::find(std::string_view name) {
   const auto [it, is_new] = pictures_.try_emplace(std::string(name));
@@ -33,4 +33,4 @@ LinearColour sample_upwards(const Image& picture, double u, double v) {
   return sample(picture, u, 1 - v, Wrap::kRepeat, Wrap::kRepeat);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures that OBJ and PLY files name, decoded once each.
+// Loads the pictures to which OBJ and PLY files refer. Decodes each picture once.
 #pragma once
 
 #include <map>
@@ -11,16 +11,17 @@
 #include "codec/import/companions.h"
 #include "codec/import/image.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 class NamedPictures {
  public:
   explicit NamedPictures(const Companions& companions) : companions_(companions) {}
 
-  // Null where it is missing or cannot be decoded. Lives as long as this.
+  // Returns the picture `name`, or null if it is missing or cannot be decoded. The picture lives as
+  // long as this object.
   const Image* find(std::string_view name);
 
-  // What became of those that were asked for, one line each kind.
+  // Reports which of the requested pictures were used for colours or ignored, one line per kind.
   std::vector<std::string> report() const;
 
  private:
@@ -30,7 +31,7 @@ class NamedPictures {
   std::uint64_t pixels_left_ = kMostPixels;
 };
 
-// The colour of `picture` where the origin of the coordinates is its lower left corner.
+// Returns the colour of `picture` at (u, v), where (0, 0) is the lower left corner.
 LinearColour sample_upwards(const Image& picture, double u, double v);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

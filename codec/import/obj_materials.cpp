@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "codec/import/raw_mesh.h"
 #include "codec/import/text_cursor.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -15,7 +15,8 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// A file name may have blanks, but options such as "-s 1 1 1" go before it.
+// Returns the file name of a map. If options such as "-s 1 1 1" precede it, the name is the last
+// word. Otherwise it is the whole text, which may contain blanks.
 std::string_view map_name(std::string_view rest) {
   rest = trimmed(rest);
   return rest.starts_with('-') ? rest.substr(rest.find_last_of(" \t") + 1) : rest;
@@ -36,7 +37,7 @@ bool ObjMaterials::open_library(std::string_view name) {
       material->map = map_name(text.rest_of_line());
     } else if (keyword == "Kd" && material != nullptr) {
       std::array<double, 3> kd;
-      if (text.number(kd[0]) && text.number(kd[1]) && text.number(kd[2])) {
+      if (text.read_number(kd[0]) && text.read_number(kd[1]) && text.read_number(kd[2])) {
         material->diffuse = to_linear({to_byte(kd[0]), to_byte(kd[1]), to_byte(kd[2])});
       }
     }
@@ -70,4 +71,4 @@ std::vector<std::string> ObjMaterials::report() const {
   return lines;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

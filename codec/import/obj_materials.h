@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The diffuse colours of OBJ materials: `Kd` and `map_Kd` of their libraries.
+// The diffuse colours of OBJ materials: `Kd` and `map_Kd` in material libraries.
 #pragma once
 
 #include <map>
@@ -9,22 +9,23 @@
 
 #include "codec/import/named_pictures.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 class ObjMaterials {
  public:
   explicit ObjMaterials(const Companions& companions)
       : companions_(companions), pictures_(companions) {}
 
-  // Reads a library of materials. False where it is not among the companions.
+  // Reads a material library. Returns false if it is not among the companions.
   bool open_library(std::string_view name);
 
-  // Makes a material the current one; an unknown one is white.
+  // Selects the current material. An unknown material is white.
   void use(std::string_view name);
   bool has_current() const { return current_ != nullptr; }
 
-  // Of the current material at (u, v), whose origin is the lower left corner: the picture alone
-  // where there is one, as most programs show it, else Kd, taken as sRGB.
+  // Returns the colour of the current material at (u, v), where (0, 0) is the lower left corner. If
+  // the material has a picture, returns only the picture's colour, as most programs do. Otherwise
+  // returns Kd, taken as sRGB.
   LinearColour colour_at(double u, double v) const;
 
   std::vector<std::string> report() const;
@@ -33,7 +34,7 @@ class ObjMaterials {
   struct Material {
     LinearColour diffuse{1, 1, 1};
     std::string map;
-    const Image* picture = nullptr;  // looked for when the material is first used
+    const Image* picture = nullptr;  // loaded when the material is first used
     bool is_used = false;
   };
 
@@ -43,4 +44,4 @@ class ObjMaterials {
   const Material* current_ = nullptr;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string_view>
 
-#include "codec/import/raw_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kMostHeaderBytes = 1 << 20;
@@ -162,12 +162,13 @@ Expected<PlyHeader> HeaderParser::parse() {
       header_.line_count = line_number_;
       return std::move(header_);
     }
-    if (auto ok = statement(line); !ok) return Unexpected(ok.error());
+    if (auto ok = statement(line); !ok) return tl::unexpected(ok.error());
   }
   return bad("there is no end_header");
 }
 
-// Every value takes at least its binary size, or in text one digit and one separator.
+// Checks that the data can hold all values. A value takes at least its binary size, or in a text
+// file one digit and one separator.
 Expected<void> check_size(const PlyHeader& header, std::size_t bytes_left) {
   for (const PlyElement& element : header.elements) {
     std::uint64_t bytes = 0;
@@ -197,9 +198,9 @@ Expected<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes) {
   auto header = HeaderParser(text.substr(0, kMostHeaderBytes)).parse();
   if (!header) return header;
   if (auto ok = check_size(*header, bytes.size() - header->data_begin); !ok) {
-    return Unexpected(ok.error());
+    return tl::unexpected(ok.error());
   }
   return header;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

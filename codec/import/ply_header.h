@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The header of a PLY file: which elements with which properties follow, and how.
+// Parses the header of a PLY file: the encoding, the elements and their properties.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
@@ -18,7 +18,7 @@ std::uint32_t byte_size(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type;  // of the value, or of each value of the list
+  PlyType type;  // type of the value, or of each value in a list
   bool is_list = false;
   PlyType count_type = PlyType::kUint8;
 };
@@ -32,12 +32,12 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
-  std::vector<std::string> textures;  // the files that TextureFile comments name
-  std::size_t data_begin = 0;         // byte offset of the first element
-  std::uint64_t line_count = 0;       // with end_header
+  std::vector<std::string> textures;  // names of files in TextureFile comments
+  std::size_t data_begin = 0;         // byte offset of the first element's data
+  std::uint64_t line_count = 0;       // lines of the header, including end_header
 };
 
-// Fails unless the data after the header can hold all the elements that it claims.
+// Parses the header. Fails unless the data after it can hold all the stated elements.
 Expected<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

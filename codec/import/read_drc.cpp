@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "codec/import/draco_data.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 bool read_positions(const draco::Mesh& mesh, std::vector<Vec3>& out) {
@@ -35,7 +35,7 @@ bool is_drc(std::span<const std::uint8_t> bytes) {
 
 Expected<TriangleMesh> read_drc(std::span<const std::uint8_t> bytes, const Limits& limits) {
   const auto decoded = decode_draco_data(bytes, limits);
-  if (!decoded) return Unexpected(decoded.error());
+  if (!decoded) return tl::unexpected(decoded.error());
   RawMesh raw;
   if (!read_positions(**decoded, raw.positions))
     return bad_input("the Draco data has no positions in space; export it again");
@@ -45,4 +45,4 @@ Expected<TriangleMesh> read_drc(std::span<const std::uint8_t> bytes, const Limit
       [](ImportedMesh&& imported) { return std::move(imported.mesh); });
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

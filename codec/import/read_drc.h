@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a .drc file, which read_mesh() does not: no scanner writes them.
+// Reads a .drc file. read_mesh() does not accept these files, because no scanner writes them.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 #include "codec/core/limits.h"
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 bool is_drc(std::span<const std::uint8_t> bytes);
 
-// Positions and faces; colours are left out. Draco is not safe on hostile bytes: call it in the
-// sandbox. Fails (kBadInput, kUnsupported, kLimit).
+// Reads positions and faces, but no colours. Draco is not safe on hostile bytes, so call this in
+// the sandbox. Fails (kBadInput, kUnsupported, kLimit).
 Expected<TriangleMesh> read_drc(std::span<const std::uint8_t> bytes, const Limits& limits = {});
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

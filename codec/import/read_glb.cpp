@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary glTF 2.0: the triangles of all meshes of the scene, in the scene's coordinates.
+// Reads binary glTF 2.0: the triangles of all meshes in the scene, in the scene's coordinates.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -12,7 +12,7 @@
 #include "codec/import/gltf_scene.h"
 #include "codec/import/readers.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr Colour kWhite{255, 255, 255};
@@ -27,32 +27,32 @@ class GlbReader {
         limits_(limits) {}
 
   Expected<RawMesh> read() {
-    const auto placed = placed_meshes(document_);
-    if (!placed) return Unexpected(placed.error());
-    for (const PlacedMesh& mesh : *placed) {
-      if (auto ok = read_mesh(mesh); !ok) return Unexpected(ok.error());
+    const auto instances = mesh_instances(document_);
+    if (!instances) return tl::unexpected(instances.error());
+    for (const MeshInstance& instance : *instances) {
+      if (auto ok = read_mesh(instance); !ok) return tl::unexpected(ok.error());
     }
     return build();
   }
 
  private:
-  // The vertices of a primitive, which others of the same mesh may share: the first one's index
-  // and their number.
+  // The vertices of a primitive: index of the first one, and their number. Primitives of the same
+  // mesh may share them.
   struct Range {
     std::uint32_t first, count;
   };
-  // What makes the vertices of two primitives the same: compressed data, positions, colours,
-  // texture coordinates, material.
+  // The source of a primitive's vertices: indices of the compressed data, positions, colours,
+  // texture coordinates and material. Primitives with equal sources share their vertices.
   using VertexSource = std::array<std::uint64_t, 5>;
 
-  Expected<void> read_mesh(const PlacedMesh& placed) {
+  Expected<void> read_mesh(const MeshInstance& instance) {
     shared_.clear();
-    const Json& primitives = member(element(document_, "meshes", placed.mesh), "primitives");
+    const Json& primitives = member(element(document_, "meshes", instance.mesh), "primitives");
     if (!primitives.is_array()) {
-      return bad_glb("mesh " + std::to_string(placed.mesh) + " does not exist");
+      return bad_glb("mesh " + std::to_string(instance.mesh) + " does not exist");
     }
     for (const Json& primitive : primitives) {
-      if (auto ok = read_primitive(primitive, placed.place); !ok) return ok;
+      if (auto ok = read_primitive(primitive, instance.place); !ok) return ok;
     }
     return {};
   }
@@ -63,20 +63,20 @@ class GlbReader {
     const Json& compression = extension(primitive, "KHR_draco_mesh_compression");
     if (!compression.is_object()) {
       const auto range = vertices_of(primitive, nullptr, kAbsent, place);
-      if (!range) return Unexpected(range.error());
+      if (!range) return tl::unexpected(range.error());
       return read_faces(primitive, mode, *range, place.mirrors());
     }
     const std::uint64_t view = whole(compression, "bufferView", kAbsent);
     const auto decoded = decoded_at(view, primitive);
-    if (!decoded) return Unexpected(decoded.error());
+    if (!decoded) return tl::unexpected(decoded.error());
     const auto range = vertices_of(primitive, *decoded, view, place);
-    if (!range) return Unexpected(range.error());
+    if (!range) return tl::unexpected(range.error());
     return add_faces((*decoded)->faces.size(),
                      [&](std::uint64_t f) { return (*decoded)->faces[f]; }, *range,
                      place.mirrors());
   }
 
-  // Points or lines.
+  // Counts a primitive of points or lines, and its points, instead of reading it.
   void skip(const Json& primitive) {
     ++skipped_primitives_;
     const std::uint64_t index = whole(member(primitive, "attributes"), "POSITION", kAbsent);
@@ -87,15 +87,16 @@ class GlbReader {
     const auto [it, is_new] = decoded_.try_emplace(index);
     if (!is_new) return &it->second;
     const auto view = buffer_.view(index);
-    if (!view) return Unexpected(view.error());
+    if (!view) return tl::unexpected(view.error());
     auto decoded = decode_draco_primitive(view->bytes, document_, primitive, limits_);
-    if (!decoded) return Unexpected(decoded.error());
-    if (auto ok = buffer_.spend(decoded->bytes()); !ok) return Unexpected(ok.error());
+    if (!decoded) return tl::unexpected(decoded.error());
+    if (auto ok = buffer_.spend(decoded->bytes()); !ok) return tl::unexpected(ok.error());
     it->second = *std::move(decoded);
     return &it->second;
   }
 
-  // The attribute's values: out of `decoded` where that holds them, else out of a buffer view.
+  // Returns the values of an attribute: from `decoded` if that has them, otherwise from a buffer
+  // view.
   Expected<Accessor> attribute(const Json& primitive, const std::string& name,
                                const DracoPrimitive* decoded) {
     const std::uint64_t index = whole(member(primitive, "attributes"), name, kAbsent);
@@ -111,7 +112,7 @@ class GlbReader {
     const Json& attributes = member(primitive, "attributes");
     const BaseColour base = materials_.base_colour(primitive);
     const std::string texcoord = "TEXCOORD_" + std::to_string(base.texcoord);
-    // glTF repeats a vertex wherever its normal or texture coordinate jumps.
+    // glTF repeats a vertex where its normal or texture coordinate is discontinuous.
     mesh_.has_seams =
         mesh_.has_seams || attributes.contains("NORMAL") || attributes.contains("TEXCOORD_0");
     const VertexSource source{
@@ -121,10 +122,10 @@ class GlbReader {
     const auto [it, is_new] = shared_.try_emplace(source);
     if (!is_new) return it->second;
     const auto points = attribute(primitive, "POSITION", decoded);
-    if (!points) return Unexpected(points.error());
+    if (!points) return tl::unexpected(points.error());
     if (points->width() != 3) return bad_glb("POSITION is not VEC3");
     if (auto ok = check_room(mesh_.positions.size() + points->count(), "vertices"); !ok) {
-      return Unexpected(ok.error());
+      return tl::unexpected(ok.error());
     }
     it->second = {static_cast<std::uint32_t>(mesh_.positions.size()),
                   static_cast<std::uint32_t>(points->count())};
@@ -133,12 +134,13 @@ class GlbReader {
           place({points->real(i, 0), points->real(i, 1), points->real(i, 2)}));
     }
     if (auto ok = add_colours(primitive, decoded, base, it->second); !ok) {
-      return Unexpected(ok.error());
+      return tl::unexpected(ok.error());
     }
     return it->second;
   }
 
-  // Instances may repeat what the file has once, but never to more than it has bytes.
+  // Bounds the effect of instances: the result must not have more elements than the file has bytes
+  // after decompression.
   Expected<void> check_room(std::uint64_t count, const char* what) const {
     const std::uint64_t room = file_bytes_ + buffer_.spent() + 3;
     if (count <= std::min(room, limits_.faces)) return {};
@@ -146,8 +148,8 @@ class GlbReader {
                                        "; export the mesh without instances");
   }
 
-  // The product of vertex colour, factor and texture, all of them linear light but the texture's
-  // pixels.
+  // Sets the colours to the product of vertex colour, factor and texture. All of these are in
+  // linear light except the pixels of the texture.
   Expected<void> add_colours(const Json& primitive, const DracoPrimitive* decoded,
                              const BaseColour& base, const Range& range) {
     const Json& attributes = member(primitive, "attributes");
@@ -156,7 +158,7 @@ class GlbReader {
     Accessor colours, places;
     if (has_colours) {
       const auto opened = attribute(primitive, "COLOR_0", decoded);
-      if (!opened) return Unexpected(opened.error());
+      if (!opened) return tl::unexpected(opened.error());
       if (opened->width() < 3 || opened->count() != range.count) {
         return bad_glb("COLOR_0 does not match POSITION");
       }
@@ -166,7 +168,7 @@ class GlbReader {
       const std::string name = "TEXCOORD_" + std::to_string(base.texcoord);
       if (!attributes.contains(name)) return bad_glb("a textured primitive lacks " + name);
       const auto opened = attribute(primitive, name, decoded);
-      if (!opened) return Unexpected(opened.error());
+      if (!opened) return tl::unexpected(opened.error());
       if (opened->width() != 2 || opened->count() != range.count) {
         return bad_glb(name + " does not match POSITION");
       }
@@ -174,27 +176,27 @@ class GlbReader {
     }
     mesh_.is_baked = mesh_.is_baked || !base.is_white();
     has_factors_ = has_factors_ || base.factor != LinearColour{1, 1, 1};
-    mesh_.colours.resize(range.first, kWhite);
+    mesh_.attributes.colours.resize(range.first, kWhite);
     for (std::uint64_t i = 0; i < range.count; ++i) {
       LinearColour colour =
           base.image == nullptr ? base.factor : base.at(places.real(i, 0), places.real(i, 1));
       if (has_colours) {
         colour = colour * LinearColour{colours.real(i, 0), colours.real(i, 1), colours.real(i, 2)};
       }
-      mesh_.colours.push_back(to_srgb(colour));
+      mesh_.attributes.colours.push_back(to_srgb(colour));
     }
     return {};
   }
 
   Expected<void> read_faces(const Json& primitive, std::uint64_t mode, const Range& range,
-                            bool mirrored) {
+                            bool is_mirrored) {
     const std::uint64_t indices = whole(primitive, "indices", kAbsent);
     if (indices == kAbsent && mode == 4) mesh_.has_seams = true;  // each corner has its own vertex
     std::uint64_t count = range.count;
     Accessor accessor;
     if (indices != kAbsent) {
       const auto opened = Accessor::open(document_, buffer_, indices);
-      if (!opened) return Unexpected(opened.error());
+      if (!opened) return tl::unexpected(opened.error());
       if (opened->width() != 1 || !opened->is_whole()) {
         return bad_glb("the indices are not integers");
       }
@@ -210,13 +212,14 @@ class GlbReader {
       return {at(mode == 6 ? 0 : f), at(f + 1 + odd), at(f + 2 - odd)};
     };
     const std::uint64_t faces = mode == 4 ? count / 3 : count < 3 ? 0 : count - 2;
-    return add_faces(faces, face, range, mirrored);
+    return add_faces(faces, face, range, is_mirrored);
   }
 
-  // `face(f)` are the vertices of the f-th of `count` faces, numbered within `range`.
+  // Adds `count` faces. `face(f)` returns the three vertices of face f, numbered from 0 within
+  // `range`.
   template <class Face>
   Expected<void> add_faces(std::uint64_t count, const Face& face, const Range& range,
-                           bool mirrored) {
+                           bool is_mirrored) {
     if (auto ok = check_room(faces_.size() + count, "faces"); !ok) return ok;
     for (std::uint64_t f = 0; f < count; ++f) {
       Triangle t = face(f);
@@ -226,7 +229,7 @@ class GlbReader {
       }
       for (std::uint32_t& v : t)
         v += range.first;
-      if (mirrored) std::swap(t[1], t[2]);
+      if (is_mirrored) std::swap(t[1], t[2]);
       faces_.push_back(t);
     }
     return {};
@@ -234,7 +237,8 @@ class GlbReader {
 
   Expected<RawMesh> build() {
     if (mesh_.positions.empty() && skipped_primitives_ > 0) return no_faces(skipped_points_);
-    if (!mesh_.colours.empty()) mesh_.colours.resize(mesh_.positions.size(), kWhite);
+    if (!mesh_.attributes.colours.empty())
+      mesh_.attributes.colours.resize(mesh_.positions.size(), kWhite);
     mesh_.reserve_faces(faces_.size());
     for (const Triangle& face : faces_)
       mesh_.add_triangle(face);
@@ -255,18 +259,27 @@ class GlbReader {
   const Limits& limits_;
   RawMesh mesh_;
   std::vector<Triangle> faces_;
-  std::map<VertexSource, Range> shared_;             // of the mesh that is being read
-  std::map<std::uint64_t, DracoPrimitive> decoded_;  // by buffer view
+  std::map<VertexSource, Range> shared_;             // vertices of the mesh being read
+  std::map<std::uint64_t, DracoPrimitive> decoded_;  // key: index of the buffer view
   std::uint64_t skipped_primitives_ = 0, skipped_points_ = 0;
   bool has_factors_ = false;
 };
 
 }  // namespace
 
-Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const Limits& limits) {
-  const auto file = open_glb(bytes, limits);
-  if (!file) return Unexpected(file.error());
-  return GlbReader(*file, bytes.size(), limits).read();
+bool is_glb(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kMagic = "glTF";
+  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
 }
 
-}  // namespace vitrine
+std::string_view unit_of_glb(std::span<const std::uint8_t>) {
+  return "m";
+}
+
+Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
+  const auto file = open_glb(bytes, options.limits);
+  if (!file) return tl::unexpected(file.error());
+  return GlbReader(*file, bytes.size(), options.limits).read();
+}
+
+}  // namespace vitrine::inline codec

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ: vertices (with the common r g b extension), polygons, and the diffuse colours of
-// their materials.
+// Reads Wavefront OBJ: vertices (with the common r g b extension), polygons, and the diffuse
+// colours of materials.
 #include <algorithm>
+#include <array>
 
 #include "codec/import/obj_materials.h"
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 class ObjReader {
@@ -22,8 +23,8 @@ class ObjReader {
     while (text_.seek_word()) {
       const std::string_view keyword = text_.word();
       bool ok = true;
-      if (keyword == "v") ok = vertex();
-      if (keyword == "f") ok = face();
+      if (keyword == "v") ok = read_vertex();
+      if (keyword == "f") ok = read_face();
       if (keyword == "vt") texture_coordinates();
       if (keyword == "vn") mesh_.has_seams = true;
       if (keyword == "mtllib") open_library(text_.rest_of_line());
@@ -37,15 +38,15 @@ class ObjReader {
   }
 
  private:
-  bool vertex() {
+  bool read_vertex() {
     std::array<float, 4> extra;
     Vec3 p;
-    if (!text_.number(p.x) || !text_.number(p.y) || !text_.number(p.z)) return false;
+    if (!text_.read_number(p.x) || !text_.read_number(p.y) || !text_.read_number(p.z)) return false;
     std::size_t count = 0;
-    while (count < extra.size() && text_.number(extra[count]))
+    while (count < extra.size() && text_.read_number(extra[count]))
       ++count;
     mesh_.positions.push_back(p);
-    if (count < 3) return true;  // a fourth number alone is a weight
+    if (count < 3) return true;  // a single fourth number is a weight
     const std::size_t first = count - 3;
     colours_.resize(mesh_.positions.size() - 1, {1, 1, 1});
     colours_.push_back({extra[first], extra[first + 1], extra[first + 2]});
@@ -54,7 +55,7 @@ class ObjReader {
 
   void texture_coordinates() {
     std::array<float, 2> at{};
-    if (text_.number(at[0])) text_.number(at[1]);
+    if (text_.read_number(at[0])) text_.read_number(at[1]);
     places_.push_back(at);
     mesh_.has_seams = true;
   }
@@ -63,28 +64,28 @@ class ObjReader {
     if (!materials_.open_library(name)) missing_library_ = in_quotes(name);
   }
 
-  // Corners are v, v/vt, v//vn or v/vt/vn; negative numbers count back from the newest vertex.
-  bool face() {
+  // A corner is v, v/vt, v//vn or v/vt/vn. Negative numbers count back from the newest vertex.
+  bool read_face() {
     corners_.clear();
     while (!text_.line_is_done()) {
       std::int64_t v = 0;
-      if (!text_.number(v, '/')) return false;
+      if (!text_.read_number(v, '/')) return false;
       if (v < 0) v += static_cast<std::int64_t>(mesh_.positions.size()) + 1;
       if (v <= 0) return false;
       corners_.push_back(static_cast<std::uint32_t>(std::min<std::int64_t>(v - 1, 0xFFFF'FFFF)));
       std::int64_t vt = 0;
       if (text_.skip('/')) {
-        text_.number(vt, '/');
+        text_.read_number(vt, '/');
         if (text_.skip('/')) text_.word();
       }
       if (materials_.has_current()) add_sample(corners_.back(), vt);
     }
-    is_cut_ = corners_.size() < 3 && text_.at_end();
+    is_cut_ = corners_.size() < 3 && text_.is_at_end();
     mesh_.add_face(corners_, text_.line());
     return !is_cut_;
   }
 
-  // Colours are 0..1, but some programs write 0..255.
+  // Colours should be 0 to 1, but some programs write 0 to 255.
   void convert_colours() {
     if (colours_.empty()) return;
     colours_.resize(mesh_.positions.size(), {1, 1, 1});
@@ -94,13 +95,15 @@ class ObjReader {
         largest = std::max(largest, part);
     }
     const double scale = largest > 1 ? 1.0 / 255 : 1.0;
-    mesh_.colours.reserve(colours_.size());
+    mesh_.attributes.colours.reserve(colours_.size());
     for (const auto& [r, g, b] : colours_) {
-      mesh_.colours.push_back({to_byte(r * scale), to_byte(g * scale), to_byte(b * scale)});
+      mesh_.attributes.colours.push_back(
+          {to_byte(r * scale), to_byte(g * scale), to_byte(b * scale)});
     }
   }
 
-  // Takes the material's colour for a corner; `vt` counts like v, 0 where there is none.
+  // Adds the material's colour at a corner. `vt` is numbered like v; it is 0 if the corner has no
+  // texture coordinate.
   void add_sample(std::uint32_t vertex, std::int64_t vt) {
     if (vertex >= mesh_.positions.size()) return;
     const auto count = static_cast<std::int64_t>(places_.size());
@@ -114,7 +117,7 @@ class ObjReader {
   void finish_materials() {
     if (!means_.empty() && colours_.empty()) {
       means_.resize(mesh_.positions.size());
-      mesh_.colours = means_.take();
+      mesh_.attributes.colours = means_.take();
       mesh_.is_baked = true;
       mesh_.repairs = materials_.report();
     } else if (!means_.empty()) {
@@ -146,15 +149,21 @@ class ObjReader {
   std::vector<std::uint32_t> corners_;
   ObjMaterials materials_;
   std::vector<std::array<float, 2>> places_;  // texture coordinates
-  ColourMeans means_;  // of the materials' colours; empty while there are none
+  ColourMeans means_;                         // mean material colours; empty if there are none yet
   std::string missing_library_;
-  bool is_cut_ = false;  // the last line ends before its third corner
+  bool is_cut_ = false;  // whether the last line ends before its third corner
 };
 
 }  // namespace
 
-Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const Companions& beside) {
-  return ObjReader(bytes, beside).read();
+bool is_obj(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::string_view, 13> kKeywords{
+      "v", "vn", "vt", "vp", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl", "cstype"};
+  return std::ranges::count(kKeywords, first_word(bytes)) > 0;
 }
 
-}  // namespace vitrine
+Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
+  return ObjReader(bytes, options.beside).read();
+}
+
+}  // namespace vitrine::inline codec

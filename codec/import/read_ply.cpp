@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLY: the header says which elements and properties follow; those without a meaning here are
-// stepped over.
+// Reads PLY. The header lists the elements and their properties; those with unknown names are
+// skipped.
 #include <array>
 #include <cmath>
 
-#include "codec/import/byte_cursor.h"
+#include "codec/core/byte_cursor.h"
 #include "codec/import/named_pictures.h"
 #include "codec/import/ply_header.h"
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 class AsciiValues {
@@ -18,28 +18,29 @@ class AsciiValues {
   AsciiValues(std::span<const std::uint8_t> bytes, std::uint64_t first_line)
       : text_(bytes, first_line) {}
 
-  bool failed() const { return failed_; }
+  bool has_failed() const { return has_failed_; }
   std::uint64_t most_values() const { return text_.left() / 2 + 1; }
   std::uint64_t line() const { return text_.line(); }
 
   double real(PlyType) {
     double value = 0;
-    failed_ = failed_ || !text_.seek_word() || !text_.number(value);
+    has_failed_ = has_failed_ || !text_.seek_word() || !text_.read_number(value);
     return value;
   }
-  // Counts and indices: out of range becomes the largest, which is refused later.
+  // Reads a count or an index. A value out of range becomes the largest number, which later checks
+  // refuse.
   std::uint32_t index(PlyType) {
     const double value = real(PlyType::kFloat64);
     return value >= 0 && value < 4294967295.0 ? static_cast<std::uint32_t>(value) : 0xFFFF'FFFFu;
   }
   void skip(PlyType, std::uint64_t count) {
-    for (; count > 0 && !failed_; --count)
+    for (; count > 0 && !has_failed_; --count)
       real(PlyType::kFloat64);
   }
 
  private:
   TextCursor text_;
-  bool failed_ = false;
+  bool has_failed_ = false;
 };
 
 template <bool swap>
@@ -47,7 +48,7 @@ class BinaryValues {
  public:
   explicit BinaryValues(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  bool failed() const { return bytes_.overrun(); }
+  bool has_failed() const { return !bytes_.is_ok(); }
   std::uint64_t most_values() const { return bytes_.left(); }
   static std::uint64_t line() { return 0; }
 
@@ -84,12 +85,12 @@ class BinaryValues {
     }
   }
 
-  ByteCursor bytes_;
+  ByteReader bytes_;
 };
 
 enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kNowhere };
 
-using Row = std::array<double, kNowhere + 1>;
+using SlotValues = std::array<double, kNowhere + 1>;
 
 Slot slot_of(const std::string& name) {
   if (name == "x") return kX;
@@ -103,7 +104,7 @@ Slot slot_of(const std::string& name) {
   return kNowhere;
 }
 
-// From a colour's part to 0..1.
+// Returns the factor that scales a colour component of this type to [0, 1].
 double scale_of(PlyType type) {
   switch (type) {
     case PlyType::kFloat32:
@@ -112,14 +113,14 @@ double scale_of(PlyType type) {
     case PlyType::kUint16:
       return 1.0 / 65535;
     default:
-      return 1.0 / 255;  // wider integers hold bytes too
+      return 1.0 / 255;  // wider integers also hold 0 to 255
   }
 }
 
-// Where each property of a vertex goes.
+// Maps the properties of a vertex to the values that the reader uses.
 struct VertexPlan {
   std::vector<Slot> slots;
-  unsigned found = 0;  // bit per slot
+  unsigned found = 0;  // set of the slots that occur: bit n stands for slot n
   double colour_scale = 1;
   bool has_normal = false;
 
@@ -149,7 +150,7 @@ class BodyReader {
     if (header_.textures.size() == 1) picture_ = pictures_.find(header_.textures[0]);
     for (const PlyElement& element : header_.elements) {
       auto ok = read_element(element);
-      if (!ok) return Unexpected(ok.error());
+      if (!ok) return tl::unexpected(ok.error());
     }
     finish_texture();
     return std::move(mesh_);
@@ -157,9 +158,9 @@ class BodyReader {
 
  private:
   void finish_texture() {
-    if (picture_ != nullptr && !means_.empty() && mesh_.colours.empty()) {
+    if (picture_ != nullptr && !means_.empty() && mesh_.attributes.colours.empty()) {
       means_.resize(mesh_.positions.size());
-      mesh_.colours = means_.take();
+      mesh_.attributes.colours = means_.take();
       mesh_.is_baked = true;
     } else if (picture_ != nullptr || header_.textures.size() > 1) {
       mesh_.repairs.push_back(counted(header_.textures.size(), "texture map") +
@@ -186,7 +187,7 @@ class BodyReader {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties)
         skip(property);
-      if (values_.failed()) return cut_short(element, i);
+      if (values_.has_failed()) return cut_short(element, i);
     }
     return {};
   }
@@ -199,9 +200,9 @@ class BodyReader {
       return bad_input("the PLY file has two vertex elements; export it again with one");
     mesh_.has_seams = plan.has_place() || plan.has_normal;
     mesh_.positions.reserve(element.count);
-    if (plan.has_colour()) mesh_.colours.reserve(element.count);
+    if (plan.has_colour()) mesh_.attributes.colours.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      Row row;
+      SlotValues row;
       for (std::size_t p = 0; p < plan.slots.size(); ++p) {
         const PlyProperty& property = element.properties[p];
         if (property.is_list) {
@@ -210,9 +211,9 @@ class BodyReader {
           row[plan.slots[p]] = values_.real(property.type);
         }
       }
-      if (values_.failed()) return cut_short(element, i);
+      if (values_.has_failed()) return cut_short(element, i);
       mesh_.positions.push_back({row[kX], row[kY], row[kZ]});
-      if (plan.has_colour()) mesh_.colours.push_back(colour(row, plan.colour_scale));
+      if (plan.has_colour()) mesh_.attributes.colours.push_back(colour(row, plan.colour_scale));
       if (plan.has_place() && picture_ != nullptr) {
         add_sample(static_cast<std::uint32_t>(i), row[kU], row[kV]);
       }
@@ -220,11 +221,11 @@ class BodyReader {
     return {};
   }
 
-  static Colour colour(const Row& row, double scale) {
+  static Colour colour(const SlotValues& row, double scale) {
     return {to_byte(row[kRed] * scale), to_byte(row[kGreen] * scale), to_byte(row[kBlue] * scale)};
   }
 
-  // Reads the elements' index lists (the property whose name starts with `list`).
+  // Reads the index lists of an element, from the property whose name starts with `list`.
   Expected<void> read_faces(const PlyElement& element, std::string_view list,
                             void (BodyReader::*add)(const std::vector<std::uint32_t>&)) {
     if (element.name == "face") mesh_.reserve_faces(element.count);
@@ -248,7 +249,7 @@ class BodyReader {
           (this->*add)(corners);
         }
       }
-      if (values_.failed()) return cut_short(element, i);
+      if (values_.has_failed()) return cut_short(element, i);
     }
     return {};
   }
@@ -259,10 +260,10 @@ class BodyReader {
     corners.resize(count);
     for (std::uint32_t& corner : corners)
       corner = values_.index(property.type);
-    return !values_.failed();
+    return !values_.has_failed();
   }
 
-  // u and v for each corner of the face that was read last.
+  // Reads u and v for each corner of the face read last.
   void read_places(const PlyProperty& property, const std::vector<std::uint32_t>& corners) {
     const std::uint32_t count = values_.index(property.count_type);
     if (count != 2 * corners.size()) return values_.skip(property.type, count);
@@ -276,7 +277,7 @@ class BodyReader {
     mesh_.add_face(corners, values_.line());
   }
 
-  // A strip of triangles that alternate in direction; -1 starts a new one.
+  // Adds a strip of triangles of alternating direction. The index -1 starts a new strip.
   void strip_of(const std::vector<std::uint32_t>& strip) {
     std::size_t start = 0;
     for (std::size_t i = 0; i < strip.size(); ++i) {
@@ -306,24 +307,32 @@ class BodyReader {
   Values values_;
   NamedPictures pictures_;
   const Image* picture_ = nullptr;
-  ColourMeans means_;  // empty while there are no texture coordinates
+  ColourMeans means_;  // empty if there are no texture coordinates
   RawMesh mesh_;
 };
 
 }  // namespace
 
-Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const Companions& beside) {
+bool is_ply(std::span<const std::uint8_t> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text.starts_with("ply\n") || text.starts_with("ply\r");
+}
+
+Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
   const auto header = parse_ply_header(bytes);
-  if (!header) return Unexpected(header.error());
+  if (!header) return tl::unexpected(header.error());
   const auto body = bytes.subspan(header->data_begin);
   switch (header->format) {
     case PlyFormat::kAscii:
-      return BodyReader<AsciiValues>(*header, {body, header->line_count + 1}, beside).read();
+      return BodyReader<AsciiValues>(*header, {body, header->line_count + 1}, options.beside)
+          .read();
     case PlyFormat::kLittleEndian:
-      return BodyReader<BinaryValues<false>>(*header, BinaryValues<false>(body), beside).read();
+      return BodyReader<BinaryValues<false>>(*header, BinaryValues<false>(body), options.beside)
+          .read();
     default:
-      return BodyReader<BinaryValues<true>>(*header, BinaryValues<true>(body), beside).read();
+      return BodyReader<BinaryValues<true>>(*header, BinaryValues<true>(body), options.beside)
+          .read();
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

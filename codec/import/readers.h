@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// The readers behind read_mesh(), one file each; all are safe for untrusted bytes.
+// The readers behind read_mesh(), one file per format. They are safe on untrusted bytes, except for
+// Draco data and pictures (see read_mesh.h).
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "codec/core/expected.h"
-#include "codec/core/limits.h"
-#include "codec/import/companions.h"
-#include "codec/import/raw_mesh.h"
+#include "codec/import/read_mesh.h"
+#include "codec/repair/raw_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const Companions& beside);
-Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const Companions& beside);
-Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes);
-Expected<RawMesh> read_off(std::span<const std::uint8_t> bytes);
-Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const Limits& limits);
+Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const ReadOptions& options);
+Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const ReadOptions& options);
+Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes, const ReadOptions& options);
+Expected<RawMesh> read_off(std::span<const std::uint8_t> bytes, const ReadOptions& options);
+Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const ReadOptions& options);
 
-// How the formats without a magic number are told.
+// Each function tells whether the bytes begin like a file of its format.
+bool is_ply(std::span<const std::uint8_t> bytes);
+bool is_obj(std::span<const std::uint8_t> bytes);
+bool is_stl(std::span<const std::uint8_t> bytes);  // also true for a truncated binary file
+bool is_off(std::span<const std::uint8_t> bytes);
+bool is_glb(std::span<const std::uint8_t> bytes);
+
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
+bool is_off_keyword(std::string_view word);
 
-// Of a binary STL file that ends early, what is there: "3 of 12 triangles". Nothing where the bytes
-// do not look like one, or not even its first triangle is there.
-std::optional<std::string> facets_of_cut_stl(std::span<const std::uint8_t> bytes);
-bool is_off(std::string_view first_word);
+// Returns metres, the unit required by the GLB standard.
+std::string_view unit_of_glb(std::span<const std::uint8_t> bytes);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks over text of numbers and words, line by line or ignoring lines. Lines end with LF, CR LF or
-// CR. `#` starts a comment and a backslash at the end of a line joins it with the next.
+// Reads numbers and words from text, line by line or across lines. Lines end with LF, CR LF or CR.
+// `#` starts a comment. A backslash at the end of a line joins it with the next line.
 #pragma once
 
 #include <charconv>
@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 class TextCursor {
  public:
@@ -19,11 +19,11 @@ class TextCursor {
         end_(at_ + bytes.size()),
         line_(first_line) {}
 
-  bool at_end() const { return at_ == end_; }
+  bool is_at_end() const { return at_ == end_; }
   std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
-  std::uint64_t line() const { return line_; }  // from 1
+  std::uint64_t line() const { return line_; }  // number of the current line, from 1
 
-  // True when nothing more stands on this line.
+  // Whether nothing or only a comment is left on this line.
   bool line_is_done() {
     skip_blanks();
     return at_ == end_ || ends_line(*at_) || *at_ == '#';
@@ -35,7 +35,7 @@ class TextCursor {
     if (at_ != end_) step_over_end(), ++line_;
   }
 
-  // Goes to the next word, over lines and comments. False at the end of the text.
+  // Moves to the next word, skipping line ends and comments. Returns false at the end of the text.
   bool seek_word() {
     while (line_is_done()) {
       if (at_ == end_) return false;
@@ -44,7 +44,7 @@ class TextCursor {
     return true;
   }
 
-  // The next word of this line, empty when there is none.
+  // Returns the next word of this line, or an empty text if there is none.
   std::string_view word() {
     if (line_is_done()) return {};
     const char* begin = at_;
@@ -61,10 +61,11 @@ class TextCursor {
     return {begin, static_cast<std::size_t>(at_ - begin)};
   }
 
-  // The number at the cursor, which must be a whole word (or end at `stop`). False and unmoved when
-  // there is none on this line. Works for double, float and integers.
+  // Reads the number at the cursor. The number must be a whole word or be followed by `stop`.
+  // Returns false if there is no such number on this line; the cursor then stays before the word.
+  // Works for double, float and integers.
   template <class Number>
-  bool number(Number& value, char stop = ' ') {
+  bool read_number(Number& value, char stop = ' ') {
     if (line_is_done()) return false;
     const char* begin = at_;
     if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
@@ -76,7 +77,7 @@ class TextCursor {
     return true;
   }
 
-  // Steps over `c` if it stands at the cursor.
+  // If `c` is at the cursor, skips it and returns true.
   bool skip(char c) {
     if (at_ == end_ || *at_ != c) return false;
     ++at_;
@@ -95,7 +96,8 @@ class TextCursor {
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
   }
 
-  // Too small a number is 0; one too large is as large as can be and is refused later.
+  // Returns 0 for a number that is too small, and the largest value for one that is too large.
+  // Later checks refuse the largest value.
   template <class Number>
   static Number out_of_range(Number, const char* begin, const char* end) {
     const std::string_view text(begin, static_cast<std::size_t>(end - begin));
@@ -114,7 +116,8 @@ class TextCursor {
     }
   }
 
-  // At a backslash that only the line's end follows: steps over both.
+  // Skips a backslash at the end of the line, together with the line end. Returns false if there is
+  // none.
   bool join_lines() {
     if (*at_ != '\\' || at_ + 1 == end_ || !ends_line(at_[1])) return false;
     ++at_;
@@ -128,4 +131,9 @@ class TextCursor {
   std::uint64_t line_;
 };
 
-}  // namespace vitrine
+inline std::string_view first_word(std::span<const std::uint8_t> bytes) {
+  TextCursor text(bytes);
+  return text.seek_word() ? text.word() : std::string_view{};
+}
+
+}  // namespace vitrine::inline codec

@@ -8,7 +8,7 @@
 #include "codec/import/readers.h"
 #include "codec/mesh/unit.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kMostHeadBytes = 1 << 16;
@@ -51,7 +51,8 @@ std::string take_lower_word(std::string_view& line) {
   return word;
 }
 
-// What follows the word "unit" or "units": "mm", "is mm", "are in inches", "= 1 mm".
+// Returns the unit in the text after the word "unit" or "units", such as "mm", "is mm", "are in
+// inches" or "= 1 mm".
 std::string_view unit_after(std::string_view line) {
   std::string word = take_lower_word(line);
   for (const std::string_view filler : {"is", "are", "1"}) {
@@ -86,11 +87,11 @@ std::string_view unit_in_ply(std::string_view head) {
   return {};
 }
 
-// The comments above the first line of data; OFF has its keyword before them.
+// Searches the comments above the first line of data. In OFF, a keyword precedes the comments.
 std::string_view unit_in_hash_comments(std::string_view head) {
   while (!head.empty()) {
     const std::string_view line = take_line(head);
-    if (is_off(line) || line.empty()) continue;
+    if (is_off_keyword(line) || line.empty()) continue;
     if (!line.starts_with('#')) break;
     if (const auto unit = unit_in_line(line.substr(1)); !unit.empty()) return unit;
   }
@@ -108,4 +109,4 @@ std::string_view unit_in_comments(std::span<const std::uint8_t> file) {
   return unit_in_hash_comments(head);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+// Finds the unit of length that a mesh file states in its comments.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// The unit of length ("mm", "cm", "m", "in") that the comments at the head of a PLY, OBJ, STL or
-// OFF file state, as in "comment unit mm", "# Units: millimeters" or "UNITS=mm"; empty where none
-// does. What comes after the first 64 KB or the first line of data is not looked at.
+// Returns the unit ("mm", "cm", "m" or "in") stated in the comments at the start of a PLY, OBJ, STL
+// or OFF file, such as "comment unit mm", "# Units: millimeters" or "UNITS=mm". Returns an empty
+// text if no comment states a unit. The search ends after 64 KB or at the first line of data.
 std::string_view unit_in_comments(std::span<const std::uint8_t> file);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 Vec3 on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
@@ -14,7 +14,7 @@ Vec3 on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
 
 }  // namespace
 
-Vec3 closest_point_of_edges(const Corners& t, const Vec3& p) noexcept {
+Vec3 closest_point_of_edges(const TrianglePoints& t, const Vec3& p) noexcept {
   Vec3 best = on_segment(t.a, t.b, p);
   for (const Vec3& q : {on_segment(t.b, t.c, p), on_segment(t.c, t.a, p)}) {
     if (dot(p - q, p - q) < dot(p - best, p - best)) best = q;
@@ -22,4 +22,4 @@ Vec3 closest_point_of_edges(const Corners& t, const Vec3& p) noexcept {
   return best;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

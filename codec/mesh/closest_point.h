@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// The distance from a point to one triangle. Inline: it is nearly all the work of distance queries.
+// The distance from a point to one triangle. The code is inline because distance queries spend
+// nearly all their time in it.
 #pragma once
 
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-struct Corners {
+struct TrianglePoints {
   Vec3 a, b, c;
 };
 
-inline const Vec3& corner(const Corners& t, std::uint32_t k) noexcept {
+inline const Vec3& corner(const TrianglePoints& t, std::uint32_t k) noexcept {
   return k == 0 ? t.a : k == 1 ? t.b : t.c;
 }
 
-// Its length is twice the area.
-inline Vec3 normal_of(const Corners& t) noexcept {
+// Returns the normal vector of the triangle. The vector's length is twice the triangle's area.
+inline Vec3 normal_of(const TrianglePoints& t) noexcept {
   return cross(t.b - t.a, t.c - t.a);
 }
 
-// The closest point on the three edges.
-Vec3 closest_point_of_edges(const Corners& triangle, const Vec3& p) noexcept;
+// Returns the point on the triangle's three edges that is closest to `p`.
+Vec3 closest_point_of_edges(const TrianglePoints& triangle, const Vec3& p) noexcept;
 
-// The point of the triangle that is closest to `p`, by Voronoi regions (Ericson, Real-Time
-// Collision Detection, section 5.1.5). Triangles without area are what they are: segments, points.
-inline Vec3 closest_point(const Corners& t, const Vec3& p) noexcept {
+// Returns the point of the triangle that is closest to `p`. Tests the Voronoi regions of the
+// triangle (Ericson, Real-Time Collision Detection, section 5.1.5). Triangles without area are
+// treated as segments or points.
+inline Vec3 closest_point(const TrianglePoints& t, const Vec3& p) noexcept {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return t.a;
@@ -45,9 +47,9 @@ inline Vec3 closest_point(const Corners& t, const Vec3& p) noexcept {
   return t.a + ab * (vb / area) + ac * (vc / area);
 }
 
-inline double squared_distance(const Corners& triangle, const Vec3& p) noexcept {
+inline double squared_distance(const TrianglePoints& triangle, const Vec3& p) noexcept {
   const Vec3 d = p - closest_point(triangle, p);
   return dot(d, d);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -7,7 +7,7 @@
 
 #include "codec/core/fill_in.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 Unexpected bad(const char* what, std::initializer_list<std::uint64_t> where) {
@@ -29,45 +29,73 @@ Expected<void> check_faces(std::uint32_t vertex_count, std::span<const Triangle>
   return {};
 }
 
-struct DirectedEdge {
-  VertexId to;
-  Corner corner;  // opposite to the edge
-};
+}  // namespace
 
-// Edges by the vertex left, then by that reached, then by corner, to find the twin of each; those
-// that leave v are [start[v], start[v + 1]).
-struct EdgeTable {
+// The directed edges of all faces, sorted by start, then end, then corner. Used to find the
+// opposite half-edge of each edge. The edges that leave vertex v have the indices [start[v],
+// start[v + 1]).
+struct Connectivity::EdgeTable {
+  struct DirectedEdge {
+    VertexId to;
+    Corner corner;  // the corner opposite to this edge
+  };
+
   std::vector<DirectedEdge> edges;
   std::vector<std::uint32_t> start;
+
+  EdgeTable(std::uint32_t vertex_count, std::span<const Triangle> faces);
+
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(start.size() - 1); }
 
   std::span<const DirectedEdge> leaving(VertexId v) const {
     return std::span(edges).subspan(start[v], start[v + 1] - start[v]);
   }
+
+  // Returns the edge from `from` to `to`, or null if there is none.
+  const DirectedEdge* find(VertexId from, VertexId to) const {
+    const auto candidates = leaving(from);
+    const auto found = std::lower_bound(
+        candidates.begin(), candidates.end(), to,
+        [](const DirectedEdge& candidate, VertexId end) { return candidate.to < end; });
+    return found != candidates.end() && found->to == to ? &*found : nullptr;
+  }
+
+  Expected<void> check_distinct() const;
 };
 
-// Two counting sorts, by the end and then by the start: as many edges reach a vertex as leave it.
-EdgeTable edge_table(std::uint32_t vertex_count, std::span<const Triangle> faces) {
+// Sorts by end and then by start, both with counting sort. One table of counts serves both sorts
+// because each vertex has as many incoming edges as outgoing ones.
+Connectivity::EdgeTable::EdgeTable(std::uint32_t vertex_count, std::span<const Triangle> faces)
+    : edges(faces.size() * 3), start(std::size_t{vertex_count} + 1, 0) {
   const auto corners = static_cast<Corner>(faces.size() * 3);
   const auto start_of = [&](Corner c) { return faces[c / 3][next(c) % 3]; };
   const auto end_of = [&](Corner c) { return faces[c / 3][prev(c) % 3]; };
-  EdgeTable table{.edges = std::vector<DirectedEdge>(corners),
-                  .start = std::vector<std::uint32_t>(std::size_t{vertex_count} + 1, 0)};
   for (Corner c = 0; c < corners; ++c)
-    ++table.start[start_of(c)];
+    ++start[start_of(c)];
   std::uint32_t sum = 0;
-  for (std::uint32_t& s : table.start)
+  for (std::uint32_t& s : start)
     sum += std::exchange(s, sum);
-  std::vector<std::uint32_t> free(table.start);
+  std::vector<std::uint32_t> free(start);
   std::vector<Corner> by_end(corners);
   for (Corner c = 0; c < corners; ++c)
     by_end[free[end_of(c)]++] = c;
-  free = table.start;
+  free = start;
   for (const Corner c : by_end)
-    table.edges[free[start_of(c)]++] = {end_of(c), c};
-  return table;
+    edges[free[start_of(c)]++] = {end_of(c), c};
 }
 
-}  // namespace
+Expected<void> Connectivity::EdgeTable::check_distinct() const {
+  for (VertexId from = 0; from < vertex_count(); ++from) {
+    const auto leaving_from = leaving(from);
+    for (std::size_t i = 1; i < leaving_from.size(); ++i) {
+      if (leaving_from[i].to == leaving_from[i - 1].to) {
+        return bad("non-manifold or inconsistently oriented edge at face {}",
+                   {leaving_from[i].corner / 3});
+      }
+    }
+  }
+  return {};
+}
 
 Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
                                            std::span<const Triangle> faces) {
@@ -77,79 +105,77 @@ Expected<Connectivity> Connectivity::close(std::uint32_t vertex_count,
   for (const auto& [a, b, c] : faces)
     mesh.add_face(a, b, c);
 
-  const EdgeTable table = edge_table(vertex_count, faces);
-  for (VertexId from = 0; from < vertex_count; ++from) {
-    const auto edges = table.leaving(from);
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-      if (edges[i].to == edges[i - 1].to) {
-        return bad("non-manifold or inconsistently oriented edge at face {}",
-                   {edges[i].corner / 3});
-      }
-    }
-  }
-  // border[v]: the corner opposite the border edge that leaves v (the real face's direction).
-  std::vector<Corner> border(vertex_count, kNoCorner);
-  for (VertexId from = 0; from < vertex_count; ++from) {
-    for (const DirectedEdge& e : table.leaving(from)) {
-      const auto candidates = table.leaving(e.to);
-      const auto twin = std::lower_bound(
-          candidates.begin(), candidates.end(), from,
-          [](const DirectedEdge& candidate, VertexId to) { return candidate.to < to; });
-      if (twin != candidates.end() && twin->to == from) {
-        mesh.step_[prev(e.corner)].swing = next(twin->corner);
+  const EdgeTable table(vertex_count, faces);
+  if (auto ok = table.check_distinct(); !ok) return tl::unexpected(std::move(ok.error()));
+  const auto border = mesh.glue_twins(table);
+  if (!border) return tl::unexpected(border.error());
+  if (auto ok = mesh.close_loops(*border); !ok) return tl::unexpected(std::move(ok.error()));
+  if (auto ok = mesh.anchor_fans(); !ok) return tl::unexpected(std::move(ok.error()));
+  return mesh;
+}
+
+Expected<std::vector<Corner>> Connectivity::glue_twins(const EdgeTable& table) {
+  std::vector<Corner> border(vertex_count(), kNoCorner);
+  for (VertexId from = 0; from < border.size(); ++from) {
+    for (const EdgeTable::DirectedEdge& e : table.leaving(from)) {
+      if (const EdgeTable::DirectedEdge* twin = table.find(e.to, from)) {
+        step_[prev(e.corner)].swing = next(twin->corner);
         continue;
       }
-      if (border[from] != kNoCorner) {
-        return has_more_fans(from, e.corner);
-      }
+      if (border[from] != kNoCorner) return has_more_fans(from, e.corner);
       border[from] = e.corner;
     }
   }
-  // Close each loop, numbered by its smallest vertex: the loop's real edges run a -> b, so the
-  // closing faces are (b, a, virtual).
-  std::vector<std::uint8_t> closed(vertex_count, false);
-  for (VertexId start = 0; start < vertex_count; ++start) {
-    if (border[start] == kNoCorner || closed[start]) continue;
-    const VertexId loop = kVirtualBit + static_cast<VertexId>(mesh.loop_length_.size());
+  return border;
+}
+
+// A border edge runs from a to b, so the face that closes the loop there is (b, a, virtual).
+Expected<void> Connectivity::close_loops(std::span<const Corner> border) {
+  std::vector<std::uint8_t> is_closed(border.size(), false);
+  for (VertexId start = 0; start < border.size(); ++start) {
+    if (border[start] == kNoCorner || is_closed[start]) continue;
+    const VertexId loop = kVirtualBit + static_cast<VertexId>(loop_length_.size());
     std::uint32_t length = 0;
-    const Corner first = static_cast<Corner>(mesh.step_.size());
-    for (VertexId a = start; !closed[a]; ++length) {
-      closed[a] = true;
+    const Corner first = static_cast<Corner>(step_.size());
+    for (VertexId a = start; !is_closed[a]; ++length) {
+      is_closed[a] = true;
       const Corner c = border[a];
-      const VertexId b = mesh.vertex(prev(c));
+      const VertexId b = vertex(prev(c));
       if (border[b] == kNoCorner) return bad("boundary is not a closed loop at face {}", {c / 3});
-      const Corner base = static_cast<Corner>(mesh.step_.size());
-      mesh.add_face(b, a, loop);
-      mesh.glue(base + 2, c);
-      // Edge (virtual, b) of this face is shared with the next one, which leaves from b; the
-      // corner opposite to it here is a's, there it is its own b corner.
-      if (length > 0) mesh.glue(base - 3 + 1, base);
+      const Corner base = static_cast<Corner>(step_.size());
+      add_face(b, a, loop);
+      glue(base + 2, c);
+      // This face shares the edge (virtual, a) with the previous face. The corners opposite to this
+      // edge are the second corner of the previous face and the first corner of this face.
+      if (length > 0) glue(base - 3 + 1, base);
       a = b;
     }
-    mesh.glue(static_cast<Corner>(mesh.step_.size()) - 3 + 1, first);
-    mesh.loop_length_.push_back(length);
+    glue(static_cast<Corner>(step_.size()) - 3 + 1, first);
+    loop_length_.push_back(length);
   }
-  std::vector<std::uint32_t> corners(vertex_count, 0);
-  for (Corner c = 0; c < mesh.step_.size(); ++c) {
-    const VertexId v = mesh.vertex(c);
+  return {};
+}
+
+Expected<void> Connectivity::anchor_fans() {
+  std::vector<std::uint32_t> corners(vertex_count(), 0);
+  for (Corner c = 0; c < step_.size(); ++c) {
+    const VertexId v = vertex(c);
     if (is_virtual(v)) continue;
     ++corners[v];
-    if (mesh.corner_at_[v] == kNoCorner) mesh.corner_at_[v] = c;
+    if (corner_at_[v] == kNoCorner) corner_at_[v] = c;
   }
-  for (VertexId v = 0; v < vertex_count; ++v) {
-    const Corner first = mesh.corner_at_[v];
+  for (VertexId v = 0; v < corners.size(); ++v) {
+    const Corner first = corner_at_[v];
     if (first == kNoCorner) return bad("vertex {} belongs to no face", {v});
     std::uint32_t fan = 0;
     Corner c = first;
     do {
       ++fan;
-      c = mesh.swing(c);
+      c = swing(c);
     } while (c != first && fan <= corners[v]);
-    if (fan != corners[v]) {
-      return has_more_fans(v, first);
-    }
+    if (fan != corners[v]) return has_more_fans(v, first);
   }
-  return mesh;
+  return {};
 }
 
 std::uint32_t Connectivity::ring(VertexId v, std::span<Corner> corners) const {
@@ -206,9 +232,9 @@ VertexId Connectivity::split(VertexId v, std::span<const Corner> corners, std::u
 void Connectivity::collapse(Corner c) {
   // Face B = (v1, v2, apex12); face A = (v2, v1, apex21) lies across the edge (v1, v2).
   const Corner b1 = c, b2 = next(c), b3 = prev(c);
-  const Corner a3 = opposite(b3), a2 = next(a3), a1 = prev(a3);  // a2 at v2, a1 at v1
+  const Corner a3 = opposite(b3), a2 = next(a3), a1 = prev(a3);  // a1 is at v1, a2 at v2
   const VertexId v1 = vertex(b1), v2 = vertex(b2), apex12 = vertex(b3), apex21 = vertex(a3);
-  // Every corner of v2 becomes one of v1.
+  // Reassign every corner of v2 to v1.
   Corner k = b2;
   do {
     set_vertex(k, v1);
@@ -229,7 +255,7 @@ void Connectivity::collapse(Corner c) {
 }
 
 void Connectivity::unsplit(VertexId v) {
-  const Corner b = static_cast<Corner>(step_.size()) - 3;  // (v, w, qj)
+  const Corner b = static_cast<Corner>(step_.size()) - 3;  // corner of v in the face (v, w, q_j)
   if (vertex(b) != v) return;
   collapse(b);
   step_.resize(step_.size() - 6, {});
@@ -265,7 +291,7 @@ void Connectivity::erase(VertexId v) {
     const Corner corner = c;
     c = swing(c);
     for (const Corner k : {corner, next(corner), prev(corner)}) {
-      if (vertex(k) == kNoCorner) break;  // it went with another of its vertices
+      if (vertex(k) == kNoCorner) break;  // already removed with another vertex of this face
       add_valence(vertex(k), -1);
       set_vertex(k, kNoCorner);
     }
@@ -273,4 +299,4 @@ void Connectivity::erase(VertexId v) {
   corner_at_[v] = kNoCorner;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half-edge connectivity of a closed triangle mesh in flat arrays (a corner table).
+// Connectivity of a closed triangle mesh as a corner table in flat arrays.
 //
-// Every boundary loop is closed by one virtual vertex, so that each vertex has a full one-ring and
-// no operation has a boundary case. Corner c belongs to face c / 3; the face of the corners
-// 3f, 3f+1, 3f+2 lists its vertices counter-clockwise; the edge opposite to a corner is named by
-// it.
+// Each boundary loop is closed by faces that meet at one virtual vertex. Every vertex therefore has
+// a full one-ring, and no operation needs a special case for boundaries. Face f has the corners 3f,
+// 3f + 1 and 3f + 2, which list its vertices counter-clockwise. An edge of a face is named by the
+// corner opposite to it.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@
 #include "codec/core/segments.h"
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 using VertexId = std::uint32_t;
 using Corner = std::uint32_t;
 
-inline constexpr VertexId kVirtualBit = 0x8000'0000u;  // kVirtualBit + k closes boundary loop k
+inline constexpr VertexId kVirtualBit = 0x8000'0000u;  // vertex kVirtualBit + k closes boundary
+                                                       // loop k
 inline constexpr Corner kNoCorner = 0xFFFF'FFFFu;
 
 constexpr bool is_virtual(VertexId v) {
@@ -36,10 +37,11 @@ constexpr Corner prev(Corner c) {
 
 class Connectivity {
  public:
-  // Closes `faces` over the vertices [0, vertex_count). Loops are numbered by their smallest
-  // vertex. Fails (kBadInput) and names the first offending face unless every index is in range,
-  // every edge has one or two faces of opposite direction, every vertex has exactly one fan and no
-  // face repeats a vertex.
+  // Builds the connectivity of `faces` over the vertices [0, vertex_count) and closes the boundary
+  // loops, which are numbered in order of their smallest vertices. Fails (kBadInput), naming the
+  // first offending face, unless all of this holds: every index is in range, no face repeats a
+  // vertex, every edge belongs to one face, or to two faces that traverse it in opposite
+  // directions, and the faces of every vertex form exactly one fan.
   static Expected<Connectivity> close(std::uint32_t vertex_count, std::span<const Triangle> faces);
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(corner_at_.size()); }
@@ -47,29 +49,31 @@ class Connectivity {
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(step_.size() / 3); }
 
   VertexId vertex(Corner c) const { return step_[prev(c)].to; }
-  VertexId neighbour(Corner c) const { return step_[c].to; }  // vertex(next(c))
-  // The corner across c's opposite edge.
+  VertexId neighbour(Corner c) const { return step_[c].to; }  // equals vertex(next(c))
+  // Returns the corner that faces corner c across the edge opposite to c.
   Corner opposite(Corner c) const { return prev(swing(prev(c))); }
-  Corner corner_at(VertexId real) const { return corner_at_[real]; }  // kNoCorner where removed
+  // Returns one of the vertex's corners, or kNoCorner if the vertex was removed.
+  Corner corner_at(VertexId real) const { return corner_at_[real]; }
   std::uint32_t loop_length(VertexId virt) const { return loop_length_[virt & ~kVirtualBit]; }
   bool is_dead(std::uint32_t face) const { return step_[3 * face].to == kNoCorner; }
-  // A face with a virtual corner closes a boundary loop and is not part of the surface.
+  // False for a face with a virtual corner: such a face closes a boundary loop and is not part of
+  // the surface.
   bool is_real(std::uint32_t face) const {
     return !is_virtual(step_[3 * face].to) && !is_virtual(step_[3 * face + 1].to) &&
            !is_virtual(step_[3 * face + 2].to);
   }
 
-  // The next corner at the same vertex, counter-clockwise.
+  // Returns the next corner at the same vertex, counter-clockwise.
   Corner swing(Corner c) const { return step_[c].swing; }
 
-  // Writes the corners at `v` counter-clockwise, starting at corner_at(v); corner i has
-  // neighbour(corner) = the ring's i-th vertex. Returns the valence, or 0 where it exceeds
-  // `corners.size()`.
+  // Writes the corners at `v` to `corners`, counter-clockwise and starting at corner_at(v). The
+  // i-th vertex of the ring is neighbour(corners[i]). Returns the valence, or 0 if the valence
+  // exceeds corners.size().
   std::uint32_t ring(VertexId v, std::span<Corner> corners) const;
 
-  // Vertex split. `corners` is the ring of v from any start, i != j positions in it. A new vertex
-  // w = vertex_count() takes the faces between ring vertices i and j, counter-clockwise; the two
-  // new faces are (v, q_i, w) and (v, w, q_j), appended in this order.
+  // Splits the vertex v. `corners` is the ring of v, starting anywhere; i != j are positions in it.
+  // The new vertex w = vertex_count() takes the faces from ring vertex i counter-clockwise to ring
+  // vertex j. Two new faces are appended: (v, q_i, w), then (v, w, q_j).
   //
   //        q_j                 q_j
   //       / | \               / | \        .
@@ -80,42 +84,57 @@ class Connectivity {
   //        q_i                 q_i
   VertexId split(VertexId v, std::span<const Corner> corners, std::uint32_t i, std::uint32_t j);
 
-  // Edge collapse, the inverse: `c` is a corner of v1 in the face (v1, v2, apex). v2 and its two
-  // faces die, v1 stays. The caller has checked the link condition.
+  // Collapses an edge, the inverse of split(). `c` is the corner of v1 in the face (v1, v2, apex).
+  // Removes v2 and the two faces at the edge (v1, v2); v1 remains. The caller must have checked the
+  // link condition.
   void collapse(Corner c);
 
-  // Takes back the newest split; v is the vertex that was split. O(valence).
+  // Undoes the most recent split if it split the vertex `v`; otherwise does nothing. Takes time
+  // proportional to the valence.
   void unsplit(VertexId v);
 
-  // Adds the components of `part`, of which no face is dead: its vertices, faces and loops are
-  // numbered behind those that are there.
+  // Appends the components of `part`, which must have no removed faces. The vertices, faces and
+  // loops of `part` are numbered after the existing ones.
   void append(Connectivity part);
-  // Takes back the newest vertices, faces and loops, which are whole components.
+  // Removes the newest vertices, faces and loops. The arguments are counts. The removed elements
+  // must be whole components.
   void drop(std::uint32_t vertices, std::uint32_t faces, std::uint32_t loops);
-  // The faces of `v` die, and v with them; its component is valid again once all of it is gone.
+  // Removes `v` and its faces. The mesh is invalid until the whole component has been removed.
   void erase(VertexId v);
 
  private:
   void set_vertex(Corner c, VertexId v) { step_[prev(c)].to = v; }
-  // Makes a and b opposite.
+  // Records that the corners a and b are opposite to each other.
   void glue(Corner a, Corner b) {
     step_[prev(a)].swing = next(b);
     step_[prev(b)].swing = next(a);
   }
+  struct EdgeTable;
+  // First step of close(): records that the two corners across each inner edge are opposite to each
+  // other. Returns one corner per vertex: the corner opposite to the border edge that leaves the
+  // vertex, or kNoCorner if no border edge leaves it.
+  Expected<std::vector<Corner>> glue_twins(const EdgeTable& table);
+  // Second step of close(): closes each boundary loop with faces that meet at a new virtual vertex.
+  Expected<void> close_loops(std::span<const Corner> border);
+  // Last step of close(): records one corner of each vertex. Fails unless all faces of each vertex
+  // form one fan.
+  Expected<void> anchor_fans();
+
   void add_face(VertexId a, VertexId b, VertexId c);
   void add_valence(VertexId v, int delta);
   void anchor(VertexId v, Corner c);
 
-  // Walks round vertices are what all work consists of. The table has what a step of one reads,
-  // side by side: the vertex at the other end of the edge and the next corner; not the corner's own
-  // vertex, nor the opposite corner, which would be one and two turns within a face.
+  // Nearly all operations walk around vertices. The table therefore stores, side by side, the two
+  // values that one step of a walk reads: the vertex at the other end of the edge, and the next
+  // corner at the same vertex. A corner's own vertex and opposite corner are not stored because
+  // they follow from the other corners of the face.
   struct Step {
-    VertexId to = kNoCorner;  // that of next(c); kNoCorner in all three where the face is dead
+    VertexId to = kNoCorner;  // vertex(next(c)); kNoCorner at all three corners of a removed face
     Corner swing = kNoCorner;
   };
-  Segments<Step> step_;                     // per corner
-  Segments<Corner> corner_at_;              // per real vertex
-  std::vector<std::uint32_t> loop_length_;  // per virtual vertex
+  Segments<Step> step_;                     // one entry per corner
+  Segments<Corner> corner_at_;              // per vertex that is not virtual: one of its corners
+  std::vector<std::uint32_t> loop_length_;  // per virtual vertex: number of edges of its loop
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-// The half-edge runs from one vertex to the other.
-struct Ends {
+// The start and the end of a half-edge.
+struct EdgeEnds {
   std::uint32_t from, to;
 };
 
-Ends ends(std::span<const Triangle> faces, std::uint32_t half_edge) {
+EdgeEnds ends(std::span<const Triangle> faces, std::uint32_t half_edge) {
   const Triangle& f = faces[half_edge / 3];
   return {f[half_edge % 3], f[(half_edge + 1) % 3]};
 }
@@ -36,16 +36,16 @@ std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triang
                                                           std::size_t vertex_count) {
   const std::vector<std::uint32_t> start = bucket_starts(faces, vertex_count);
   std::vector<std::uint32_t> size(vertex_count, 0);
-  // A half-edge waits in the bucket of its smaller vertex until the one across comes by.
+  // Each half-edge stays in the bucket of its smaller vertex until its opposite half-edge is found.
   std::vector<std::uint32_t> waiting(3 * faces.size());
   std::vector<std::array<std::uint32_t, 3>> across(faces.size());
   for (std::uint32_t h = 0; h < 3 * faces.size(); ++h) {
-    const Ends own = ends(faces, h);
+    const EdgeEnds own = ends(faces, h);
     across[h / 3][h % 3] = h;
     std::uint32_t* const bucket = waiting.data() + start[std::min(own.from, own.to)];
     std::uint32_t& n = size[std::min(own.from, own.to)];
     std::uint32_t* const twin = std::find_if(bucket, bucket + n, [&](std::uint32_t other) {
-      const Ends e = ends(faces, other);
+      const EdgeEnds e = ends(faces, other);
       return e.from == own.to && e.to == own.from;
     });
     if (twin == bucket + n) {
@@ -58,4 +58,4 @@ std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triang
   return across;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

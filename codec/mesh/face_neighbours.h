@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangle lies across each edge, for any triangle soup (Connectivity asks for a manifold).
+// Finds the neighbouring triangle across each edge of a mesh that need not be a manifold.
+// (Connectivity requires a manifold.)
 #pragma once
 
 #include <array>
@@ -9,12 +10,13 @@
 
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Half-edge 3 f + k runs from corner k of face f to corner k + 1. across[f][k] is the half-edge on
-// the other side of it, itself where there is none (faces < 2^32 / 3). Only faces that run along
-// the edge in opposite directions are paired, as found where there are more than two.
+// Half-edge 3 f + k runs from corner k to corner k + 1 of face f. The result across[f][k] is the
+// opposite half-edge, or the half-edge itself if it has no opposite. Only half-edges of opposite
+// direction are paired. If an edge has more than two faces, they are paired in the order of the
+// faces. There must be fewer than 2^32 / 3 faces.
 std::vector<std::array<std::uint32_t, 3>> face_neighbours(std::span<const Triangle> faces,
                                                           std::size_t vertex_count);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 float round_down(double v) {
@@ -36,7 +36,7 @@ struct Centre {
   std::uint32_t face;
 };
 
-// The axis along which the centres spread most.
+// Returns the axis along which the centres have the largest extent.
 std::size_t widest_axis(std::span<const Centre> centres) {
   std::array<float, 3> low = centres[0].at, high = low;
   for (const Centre& c : centres) {
@@ -51,7 +51,8 @@ std::size_t widest_axis(std::span<const Centre> centres) {
   return axis;
 }
 
-// Orders centres so that halving a range recursively halves it in space.
+// Sorts the centres so that each half of the array, and recursively each half of a half, holds the
+// centres on one side of a plane.
 void order(std::span<Centre> centres) {
   if (centres.size() <= TriangleBvh::kLeafSize) return;
   const std::size_t axis = widest_axis(centres), half = centres.size() / 2;
@@ -108,7 +109,8 @@ void TriangleBvh::add_faces(const TriangleMesh& mesh) {
   faces_ = own_faces_;
 }
 
-// Fills `node` for the triangles [first, first + count), children first: boxes come from below.
+// Fills `node` for the triangles [first, first + count). Builds the children first because the
+// node's box is computed from their boxes.
 void TriangleBvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
   if (count <= kLeafSize) {
     own_nodes_[node].first = first, own_nodes_[node].count = count;
@@ -140,7 +142,7 @@ void TriangleBvh::bound_children(Node& node) const {
 void TriangleBvh::bound_box(Node& node, std::uint32_t first, std::uint32_t count) const {
   Vec3 low = positions_[faces_[first][0]], high = low;
   for (std::uint32_t i = first; i < first + count; ++i) {
-    const Corners t = triangle(i);
+    const TrianglePoints t = triangle(i);
     for (const Vec3& p : {t.a, t.b, t.c}) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
@@ -150,16 +152,16 @@ void TriangleBvh::bound_box(Node& node, std::uint32_t first, std::uint32_t count
   node.high = {round_up(high.x), round_up(high.y), round_up(high.z)};
 }
 
-SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
-  struct Entry {
+ClosestTriangle TriangleBvh::closest(const Vec3& p, ClosestTriangle best) const {
+  struct PendingNode {
     std::uint32_t node;
     double squared;
   };
-  std::array<Entry, 64> stack;  // one entry per level of a balanced tree
+  std::array<PendingNode, 64> stack;  // large enough, because the tree is balanced
   std::size_t size = 0;
   if (!empty()) stack[size++] = {0, 0};
   while (size > 0) {
-    const Entry top = stack[--size];
+    const PendingNode top = stack[--size];
     if (top.squared >= best.squared) continue;
     const Node& node = nodes_[top.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -167,7 +169,7 @@ SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
       if (squared < best.squared) best = {squared, i};
     }
     if (node.count > 0) continue;
-    std::array<Entry, 2> child;
+    std::array<PendingNode, 2> child;
     for (std::uint32_t k = 0; k < 2; ++k)
       child[k] = {node.first + k, squared_distance(nodes_[node.first + k], p, slack_)};
     auto& [near, far] = child;
@@ -178,4 +180,4 @@ SurfacePoint TriangleBvh::closest(const Vec3& p, SurfacePoint best) const {
   return best;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest-point queries on a triangle mesh: a bounding volume hierarchy in one flat array.
+// Finds the triangle of a mesh that is closest to a point. The bounding volume hierarchy is one
+// flat array.
 #pragma once
 
 #include <array>
@@ -12,50 +13,53 @@
 #include "codec/mesh/closest_point.h"
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-struct SurfacePoint {
-  double squared = std::numeric_limits<double>::infinity();  // distance to the query point
-  std::uint32_t triangle = 0xFFFF'FFFFu;                     // of the TriangleBvh
+struct ClosestTriangle {
+  double squared = std::numeric_limits<double>::infinity();  // squared distance to the query point
+  std::uint32_t triangle = 0xFFFF'FFFFu;  // index of the triangle in the TriangleBvh
 };
 
 class TriangleBvh {
  public:
   struct Node {
-    std::array<float, 3> low, high;  // rounded outwards
-    std::uint32_t first;             // a leaf's first triangle, or the left child (right is next)
-    std::uint32_t count;             // of triangles in a leaf; 0 in an inner node
+    std::array<float, 3> low, high;  // corners of the bounding box, rounded outwards
+    std::uint32_t first;  // in a leaf, the first triangle; in an inner node, the left child, which
+                          // the right child follows
+    std::uint32_t count;  // number of triangles in a leaf; 0 in an inner node
   };
   static constexpr std::uint32_t kLeafSize = 4;
 
-  // Face indices are in range, positions finite.
+  // Builds the hierarchy. Face indices must be in range and positions finite.
   explicit TriangleBvh(const TriangleMesh& mesh);
   TriangleBvh(TriangleBvh&&) = default;
   TriangleBvh& operator=(TriangleBvh&&) = default;
-  // Over the same faces with their vertices moved: borrows all but the positions from `shape`,
-  // which outlives this and was made from a mesh. `moved` follows shape.positions(). Queries stay
-  // fast where vertices moved little.
+  // Makes a hierarchy of the same faces with moved vertices. Borrows everything except the
+  // positions from `shape`, which must outlive this object and must have been built from a mesh.
+  // `moved` holds the new positions in the order of shape.positions(). Queries stay fast if the
+  // vertices moved little.
   TriangleBvh(const TriangleBvh& shape, std::vector<Vec3> moved);
 
   bool empty() const { return faces_.empty(); }
   std::uint32_t size() const { return static_cast<std::uint32_t>(faces_.size()); }
-  // [0] is the root. The boxes are those of the shape, where there is one.
+  // The nodes of the tree; the root is nodes()[0]. In an object with moved vertices, these are the
+  // nodes of its shape, whose boxes bound the vertices before the move.
   std::span<const Node> nodes() const { return nodes_; }
-  // Triangles are counted in leaf order.
-  Corners triangle(std::uint32_t t) const {
+  // Returns the corners of triangle t. Triangles are numbered in the order of the leaves.
+  TrianglePoints triangle(std::uint32_t t) const {
     const Triangle& f = faces_[t];
     return {positions_[f[0]], positions_[f[1]], positions_[f[2]]};
   }
   const Vec3& point(std::uint32_t t, std::uint32_t k) const { return positions_[faces_[t][k]]; }
-  // The triangles as faces over vertices that are numbered as they come by.
+  // The triangles as vertex indices. Vertices are numbered in order of first use.
   std::span<const Triangle> faces() const { return faces_; }
   std::span<const Vec3> positions() const { return positions_; }
-  // What each of these vertices was in the mesh. Empty where there is a shape.
+  // For each vertex, its index in the mesh. Empty in an object with moved vertices.
   std::span<const std::uint32_t> vertices() const { return vertices_; }
 
-  // The closest triangle, or `bound` as given where none is closer than it. A good bound, such as
-  // the distance to a triangle near by, makes the query several times faster.
-  SurfacePoint closest(const Vec3& p, SurfacePoint bound = {}) const;
+  // Returns the closest triangle, or `bound` if no triangle is closer than `bound`. A tight bound,
+  // such as the distance to a nearby triangle, makes the query several times faster.
+  ClosestTriangle closest(const Vec3& p, ClosestTriangle bound = {}) const;
 
  private:
   void add_faces(const TriangleMesh& mesh);
@@ -65,11 +69,12 @@ class TriangleBvh {
 
   std::vector<Node> own_nodes_;
   std::vector<Triangle> own_faces_;
-  std::span<const Node> nodes_;      // own, or the shape's; the faces, too
-  std::span<const Triangle> faces_;  // over positions_, so that neighbours lie close in memory
+  std::span<const Node> nodes_;      // refers to own_nodes_ or to the shape's nodes
+  std::span<const Triangle> faces_;  // refers to own_faces_ or to the shape's faces
   std::vector<Vec3> positions_;
   std::vector<std::uint32_t> vertices_;
-  double slack_ = 0;  // how far a triangle may reach out of its box
+  // Largest distance, in model units, by which a moved triangle may extend beyond its box.
+  double slack_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

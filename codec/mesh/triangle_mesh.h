@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared currency: an indexed triangle mesh in model units, and the same on the lattice.
+// Indexed triangle meshes, in model units or on the lattice. All modules exchange meshes in these
+// types.
 #pragma once
 
 #include <string>
@@ -7,28 +8,29 @@
 
 #include "codec/core/lattice.h"
 #include "codec/core/vec.h"
+#include "codec/mesh/vertex_attributes.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// `colours` is empty or has one entry per vertex. Faces are counter-clockwise seen from outside.
+// A mesh in model units. The corners of a face run counter-clockwise, seen from outside.
 struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<Triangle> faces;
-  std::vector<Colour> colours;
+  VertexAttributes attributes;
 };
 
-// A mesh whose positions are integers on a grid. Positions may repeat and faces may have no area:
-// quantisation does that, and the connectivity is kept as it is.
+// A mesh whose positions are lattice points. Quantisation keeps the connectivity, so several
+// vertices may have the same position and faces may have no area.
 struct LatticeMesh {
   Lattice lattice;
   std::vector<Vec3i> positions;
   std::vector<Triangle> faces;
-  std::vector<Colour> colours;
+  VertexAttributes attributes;
 };
 
-// Rounds the positions to `lattice`; connectivity and colours are copied.
+// Rounds the positions of `mesh` to `lattice`. Copies the faces and attributes.
 LatticeMesh quantise(const TriangleMesh& mesh, const Lattice& lattice);
 
 TriangleMesh to_model(const LatticeMesh& mesh);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The units of length that a model's coordinates may have: "mm", "cm", "m" and "in".
+// The supported length units of model coordinates: "mm", "cm", "m" and "in".
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct LengthUnit {
   std::string_view name;
@@ -16,7 +16,7 @@ struct LengthUnit {
 inline constexpr std::array<LengthUnit, 4> kLengthUnits{
     {{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}}};
 
-// How many metres one `unit` is; nothing where the unit is unknown or empty.
+// Returns the length of `unit` in metres, or nullopt if `unit` is empty or unknown.
 constexpr std::optional<double> metres_per(std::string_view unit) {
   for (const LengthUnit& known : kLengthUnits) {
     if (known.name == unit) return known.metres;
@@ -24,4 +24,4 @@ constexpr std::optional<double> metres_per(std::string_view unit) {
   return std::nullopt;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

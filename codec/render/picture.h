@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+// A picture as an array of pixels in memory.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct Picture {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> pixels;  // rows from the top; sRGB and opacity, four bytes a pixel
+  std::vector<std::uint8_t> pixels;  // rows from top to bottom; four bytes per pixel: sRGB and
+                                     // opacity
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 Expected<std::vector<std::uint8_t>> write_png(const Picture& picture) {
   png_image png{};
@@ -26,4 +26,4 @@ Expected<std::vector<std::uint8_t>> write_png(const Picture& picture) {
   return file;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+// Writes a picture as a PNG file.
 #pragma once
 
 #include "codec/core/expected.h"
 #include "codec/render/picture.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// The bytes of a PNG file. Fails (kUnsupported) with libpng's reason.
+// Returns the bytes of the PNG file. Fails (kUnsupported) with the reason that libpng gives.
 Expected<std::vector<std::uint8_t>> write_png(const Picture& picture);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

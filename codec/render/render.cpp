@@ -8,10 +8,10 @@
 
 #include "codec/core/srgb.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-constexpr int kSamples = 3;  // per pixel and axis
+constexpr int kSamples = 3;  // samples per pixel on each axis
 constexpr double kMargin = 0.03;
 
 Vec3 unit(const Vec3& v) {
@@ -19,7 +19,7 @@ Vec3 unit(const Vec3& v) {
   return l > 0 ? v * (1 / l) : Vec3{0, 0, 1};
 }
 
-const Vec3 kToward = unit({0.35, 0.15, 1});  // from the model to the eye
+const Vec3 kToward = unit({0.35, 0.15, 1});  // direction from the model to the eye
 const Vec3 kRight = unit(cross({0, 1, 0}, kToward));
 const Vec3 kUp = cross(kToward, kRight);
 
@@ -31,8 +31,8 @@ Vec3 linear(const Colour& c) {
   return {srgb_to_linear(c[0] / 255.0), srgb_to_linear(c[1] / 255.0), srgb_to_linear(c[2] / 255.0)};
 }
 
-// Light that falls on a surface with the normal `n` (view space), white being 1: a lamp over the
-// left shoulder, and the sky and the floor of a bright room.
+// Returns the light on a surface with the normal `n` in view space; 1 is white. There is a lamp at
+// the upper left behind the viewer, and ambient light from the sky and the floor.
 Vec3 light(const Vec3& n) {
   static const Vec3 lamp = unit({-0.6, 0.9, 1.0});
   static const Vec3 lamp_colour = linear({0xff, 0xfa, 0xf2}) * 0.72;
@@ -42,8 +42,9 @@ Vec3 light(const Vec3& n) {
   return lamp_colour * std::max(0.0, dot(n, lamp)) + sky * high + floor * (1 - high);
 }
 
-struct Corner {
-  Vec3 at;  // samples right and down from the corner of the picture, and towards the eye
+struct ShadedCorner {
+  Vec3 at;  // x to the right and y down from the picture's top left corner, z towards the eye; in
+            // samples
   Vec3 normal, colour;
 };
 
@@ -58,7 +59,8 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-// Doubled area of a triangle in the picture, negative where it runs counter-clockwise.
+// Returns twice the area of the triangle in the picture; negative if the corners run
+// counter-clockwise.
 double area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -71,7 +73,7 @@ class Canvas {
         depth_(std::size_t{width_} * height_, kFar),
         light_(depth_.size()) {}
 
-  void draw(const std::array<Corner, 3>& t) {
+  void draw(const std::array<ShadedCorner, 3>& t) {
     const double whole = area(t[0].at, t[1].at, t[2].at);
     if (whole == 0) return;
     const auto [left, right] = range(t[0].at.x, t[1].at.x, t[2].at.x, width_);
@@ -95,7 +97,7 @@ class Canvas {
  private:
   static constexpr float kFar = -std::numeric_limits<float>::infinity();
 
-  // The samples whose middles may lie between three coordinates.
+  // Returns the range of samples whose centres may lie between the coordinates a, b and c.
   static std::array<std::uint32_t, 2> range(double a, double b, double c, std::uint32_t size) {
     const auto inside = [&](double t) {
       return static_cast<std::uint32_t>(std::clamp(t, 0.0, static_cast<double>(size)));
@@ -104,7 +106,8 @@ class Canvas {
             inside(std::floor(std::max({a, b, c}) - 0.5) + 1)};
   }
 
-  void draw_sample(const std::array<Corner, 3>& t, double whole, std::uint32_t x, std::uint32_t y) {
+  void draw_sample(const std::array<ShadedCorner, 3>& t, double whole, std::uint32_t x,
+                   std::uint32_t y) {
     const Vec3 p{x + 0.5, y + 0.5, 0};
     const double u = area(p, t[1].at, t[2].at) / whole, v = area(t[0].at, p, t[2].at) / whole;
     const double w = 1 - u - v;
@@ -169,12 +172,13 @@ Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest) {
 Picture render(const TriangleMesh& mesh, const Framing& frame) {
   static const Vec3 stone = linear({0xd8, 0xd3, 0xcb});
   const std::vector<Vec3> normals = vertex_normals(mesh);
-  const double samples = kSamples / frame.pixel;  // per model unit
+  const double samples = kSamples / frame.pixel;  // samples per model unit
   const auto corner = [&](std::uint32_t v) {
     const Vec3 p = to_view(mesh.positions[v] - frame.centre) * samples;
-    return Corner{{kSamples * frame.width / 2.0 + p.x, kSamples * frame.height / 2.0 - p.y, p.z},
-                  unit(to_view(normals[v])),
-                  mesh.colours.empty() ? stone : linear(mesh.colours[v])};
+    return ShadedCorner{
+        {kSamples * frame.width / 2.0 + p.x, kSamples * frame.height / 2.0 - p.y, p.z},
+        unit(to_view(normals[v])),
+        mesh.attributes.colours.empty() ? stone : linear(mesh.attributes.colours[v])};
   };
   Canvas canvas(frame);
   for (const Triangle& f : mesh.faces)
@@ -182,4 +186,4 @@ Picture render(const TriangleMesh& mesh, const Framing& frame) {
   return canvas.develop();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of a mesh without a graphics card: in parallel projection, from the side, in the light
-// and of the stone that the viewer page begins with.
+// Renders a picture of a mesh on the CPU, with a parallel projection from the side. The light and
+// the stone colour match the initial view of the viewer page.
 #pragma once
 
 #include <cstdint>
@@ -8,21 +8,22 @@
 #include "codec/mesh/triangle_mesh.h"
 #include "codec/render/picture.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// The part of the model that a picture shows.
+// The part of the model that a picture shows, and the size of the picture.
 struct Framing {
-  Vec3 centre;                          // in the middle of the picture, model units
-  double pixel = 1;                     // side of a pixel, model units, > 0
-  std::uint32_t width = 1, height = 1;  // pixels, >= 1
+  Vec3 centre;                          // the point at the centre of the picture, model units
+  double pixel = 1;                     // length of a pixel's side, model units, > 0
+  std::uint32_t width = 1, height = 1;  // size in pixels, each >= 1
 };
 
-// The frame around the whole of `mesh`, with a narrow margin: the longer side has `longest` pixels,
-// the other one at least half of that.
+// Returns a framing that shows the whole of `mesh` with a narrow margin. The longer side of the
+// picture has `longest` pixels, the other at least half as many.
 Framing frame_around(const TriangleMesh& mesh, std::uint32_t longest);
 
-// Smoothly shaded, seen from both sides, transparent around the model. Vertex colours are the
-// stone's colours where there are any. Positions are finite, face indices in range.
+// Renders `mesh` with smooth shading on a transparent background. Faces are visible from both
+// sides. Meshes without vertex colours get the stone colour. Positions must be finite and face
+// indices in range.
 Picture render(const TriangleMesh& mesh, const Framing& frame);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

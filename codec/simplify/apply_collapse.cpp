@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simplify/apply_collapse.h"
 
-#include "codec/progressive/colour.h"
-
-namespace vitrine {
+namespace vitrine::inline codec {
 
 Collapse apply_collapse(Surface& surface, const EdgeStar& edge, const Pick& pick) {
   const auto [v1, v2] = std::pair(edge.v1, edge.v2);
@@ -13,16 +11,17 @@ Collapse apply_collapse(Surface& surface, const EdgeStar& edge, const Pick& pick
                 .apex21 = edge.apex21,
                 .p1 = surface.position[v1],
                 .p2 = surface.position[v2],
-                .c1 = {},
-                .c2 = {}};
+                .a1 = {},
+                .a2 = {}};
   surface.mesh.collapse(pick.corner);
   surface.position[v1] = pick.target;
   surface.quadric[v1] += surface.quadric[v2];
-  if (!surface.colour.empty()) {
-    done.c1 = surface.colour[v1], done.c2 = surface.colour[v2];
-    surface.colour[v1] = merge_colours(done.c1, done.c2);
+  for (std::size_t i = 0; i < surface.attributes.size(); ++i) {
+    std::vector<Vec3i>& values = surface.attributes[i].values;
+    done.a1[i] = values[v1], done.a2[i] = values[v2];
+    values[v1] = merge_values(done.a1[i], done.a2[i]);
   }
   return done;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

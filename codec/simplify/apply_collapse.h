@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Performs and records a collapse that has been chosen.
+// Performs an edge collapse and returns the record from which a vertex split can undo it.
 #pragma once
 
-#include "codec/progressive/hierarchy.h"
+#include "codec/format/hierarchy.h"
 #include "codec/simplify/collapse_rules.h"
 #include "codec/simplify/surface.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct Pick {
-  Corner corner;  // of v1 in the face (v1, v2, apex12)
-  Vec3i target;   // v~
+  Corner corner;  // corner of v1 in the face (v1, v2, apex12)
+  Vec3i target;   // position of the merged vertex v~
 };
 
-// `edge` is the one at pick.corner, and legal. v1 moves to v~ and takes v2's quadric and half of
-// its colour; `surface.live` stays as it is.
+// Collapses `edge`, which must be the edge at pick.corner and must pass keeps_manifold(). Moves v1
+// to v~, adds v2's quadric to v1's, and merges the attributes of both vertices. Does not change
+// `surface.live`.
 Collapse apply_collapse(Surface& surface, const EdgeStar& edge, const Pick& pick);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

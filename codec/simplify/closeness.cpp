@@ -8,12 +8,12 @@
 
 #include "codec/mesh/closest_point.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-// A star and where its real neighbours are.
-struct Ring {
-  Ring(const Surface& surface, const Star& around) : star(around) {
+// A one-ring, with the position of each neighbour. Virtual neighbours get (0, 0, 0).
+struct StarGeometry {
+  StarGeometry(const Surface& surface, const Star& around) : star(around) {
     for (const VertexId v : star.neighbours())
       point.push_back(is_virtual(v) ? Vec3{} : surface.point(v));
   }
@@ -22,24 +22,27 @@ struct Ring {
   boost::container::static_vector<Vec3, Star::kCapacity> point;
 };
 
-// The faces around an edge, before or after it has collapsed.
+// The faces around an edge, either before or after its collapse.
 class Patch {
  public:
-  // A ring around a place, but for what is at the vertex `without`.
-  struct Part {
-    const Ring& ring;
+  // The faces between the point `centre` and a ring, except those with the vertex `without` or a
+  // virtual vertex.
+  struct Fan {
+    const StarGeometry& ring;
     Vec3 centre;
     VertexId without;
   };
-  Patch(const Part& one, const Part& two) {
+  Patch(const Fan& one, const Fan& two) {
     add(one);
     start_[1] = size();
     add(two);
   }
 
-  std::span<const Corners> faces() const { return face_; }
+  std::span<const TrianglePoints> faces() const { return face_; }
 
-  // Points come in the order of the faces, so that the search goes on where the last one ended.
+  // Whether `p` is at most the square root of `squared` away from some face of the patch. Callers
+  // pass points in the order of the faces, so each search starts at the face where the previous
+  // search ended.
   bool is_near(const Vec3& p, double squared) {
     for (std::uint32_t i = 0; i < size(); ++i) {
       if (squared_distance(face_[last_], p) <= squared) return true;
@@ -48,9 +51,10 @@ class Patch {
     return false;
   }
 
-  // The middles of a ring's edges. `part`: the ring's own.
-  bool has_near(const Part& edges, std::uint32_t part, double squared) {
-    last_ = start_[part] < size() ? start_[part] : 0;  // where that part has no faces
+  // Whether the midpoints of the edges from `edges.centre` to its ring are near this patch. `fan`
+  // is the index of this patch's fan with the same ring.
+  bool has_near(const Fan& edges, std::uint32_t fan, double squared) {
+    last_ = start_[fan] < size() ? start_[fan] : 0;  // 0 if that fan has no faces
     for (std::uint32_t i = 0; i < edges.ring.star.valence; ++i) {
       const VertexId v = edges.ring.star.vertex[i];
       if (v == edges.without || is_virtual(v)) continue;
@@ -59,10 +63,10 @@ class Patch {
     return true;
   }
 
-  // The middles of the faces of another patch.
+  // Whether the centroids of the other patch's faces are near this patch.
   bool has_near(const Patch& other, double squared) {
     last_ = 0;
-    return std::ranges::all_of(other.faces(), [&](const Corners& f) {
+    return std::ranges::all_of(other.faces(), [&](const TrianglePoints& f) {
       return is_near((f.a + f.b + f.c) * (1.0 / 3), squared);
     });
   }
@@ -70,34 +74,35 @@ class Patch {
  private:
   std::uint32_t size() const { return static_cast<std::uint32_t>(face_.size()); }
 
-  void add(const Part& part) {
-    const Star& star = part.ring.star;
+  void add(const Fan& fan) {
+    const Star& star = fan.ring.star;
     std::uint32_t i = star.valence - 1;
     for (std::uint32_t j = 0; j < star.valence; i = j++) {
       const VertexId v = star.vertex[i], w = star.vertex[j];
-      if (is_virtual(v) || is_virtual(w) || v == part.without || w == part.without) continue;
-      face_.push_back({part.centre, part.ring.point[i], part.ring.point[j]});
+      if (is_virtual(v) || is_virtual(w) || v == fan.without || w == fan.without) continue;
+      face_.push_back({fan.centre, fan.ring.point[i], fan.ring.point[j]});
     }
   }
 
-  boost::container::static_vector<Corners, 2 * Star::kCapacity> face_;
-  std::array<std::uint32_t, 2> start_{};  // of each part
+  boost::container::static_vector<TrianglePoints, 2 * Star::kCapacity> face_;
+  std::array<std::uint32_t, 2> start_{};  // per fan: index of its first face
   std::uint32_t last_ = 0;
 };
 
-// True if two patches with the same boundary lie in a thin slab and face one way. Then each covers
-// a point of the slab's plane as often as their boundary winds around it, and where one of them is
-// the other is straight above or below.
+// Whether two patches with the same boundary lie in a thin slab and all of their faces point the
+// same way. If so, both patches cover each point of the slab's plane equally often (as often as
+// their boundary winds around it). Each patch therefore lies straight above or below the other.
 bool share_slab(const Patch& one, const Patch& other, double thickness) {
   Vec3 normal;
-  for (const Corners& t : one.faces())
+  for (const TrianglePoints& t : one.faces())
     normal += normal_of(t);
   const Vec3 origin = one.faces()[0].a;
   double low = 0, high = 0;
   for (const Patch* patch : {&one, &other}) {
-    for (const Corners& t : patch->faces()) {
+    for (const TrianglePoints& t : patch->faces()) {
       if (dot(normal_of(t), normal) <= 0) return false;
-      for (const Vec3& p : {t.a, t.b}) {  // the next face around the centre has the third
+      for (const Vec3& p : {t.a, t.b}) {  // t.c is skipped, because another face of the patch has
+                                          // it as t.b
         const double height = dot(p - origin, normal);
         low = std::min(low, height), high = std::max(high, height);
       }
@@ -110,22 +115,24 @@ bool share_slab(const Patch& one, const Patch& other, double thickness) {
 
 bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& target, double reach) {
   const Vec3 p1 = surface.point(edge.v1), p2 = surface.point(edge.v2), to = surface.middle(target);
-  const Ring ring1(surface, edge.star1), ring2(surface, edge.star2);
+  const StarGeometry ring1(surface, edge.star1), ring2(surface, edge.star2);
   Patch after({ring1, to, edge.v2}, {ring2, to, edge.v1});
-  Patch before({ring1, p1, edge.v1}, {ring2, p2, edge.v1});  // the faces at the edge: in ring1
+  // The first fan includes the two faces at the edge, so the second fan leaves them out.
+  Patch before({ring1, p1, edge.v1}, {ring2, p2, edge.v1});
   if (after.faces().empty()) return false;
-  const bool inside = !edge.star1.on_border && !edge.star2.on_border;
+  const bool inside = !edge.star1.is_on_border && !edge.star2.is_on_border;
   if (inside && share_slab(after, before, reach)) return true;
   const double squared = reach * reach;
   if (!after.is_near(p1, squared) || !after.is_near(p2, squared)) return false;
-  // Edges that go and come in pairs are half as far apart as their ends.
-  const auto move = [&](const Patch::Part& from, std::uint32_t part, VertexId other) {
+  // If an end of the edge moves by at most 2 * reach, the midpoints of its edges move by at most
+  // `reach`, so they need no check.
+  const auto move = [&](const Patch::Fan& from, std::uint32_t fan, VertexId other) {
     return length(to - from.centre) <= 2 * reach ||
-           (after.has_near(from, part, squared) &&
-            before.has_near({from.ring, to, other}, part, squared));
+           (after.has_near(from, fan, squared) &&
+            before.has_near({from.ring, to, other}, fan, squared));
   };
   return move({ring1, p1, edge.v1}, 0, edge.v2) && move({ring2, p2, edge.v2}, 1, edge.v1) &&
          before.has_near(after, squared);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

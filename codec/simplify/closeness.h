@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a collapse takes the surface from where it is. Quadrics do not tell: they know planes,
-// not faces, so a needle that is cut, the rim of a thin wall, and a diagonal that turns cost
-// nothing.
+// Checks that a collapse keeps the surface close to its previous state. Quadrics cannot check this,
+// because they measure distances to planes, not to faces. A quadric sees no error in a collapse
+// that shortens a needle, erodes the rim of a thin wall or swaps a diagonal.
 #pragma once
 
 #include "codec/simplify/collapse_rules.h"
 #include "codec/simplify/surface.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// True if ends and middles of the edges that go stay within `reach` (lattice units) of the faces
-// around v~, and middles of the edges and faces that come within `reach` of those that go.
+// Whether the surfaces before and after a collapse are close to each other, within `reach` (lattice
+// units). Measures from the ends and midpoints of the removed edges to the new faces around v~, and
+// from the midpoints of the new edges and the centroids of the new faces to the removed faces.
 bool keeps_near(const Surface& surface, const EdgeStar& edge, const Vec3i& target, double reach);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simplify/collapse_rules.h"
 
-#include "codec/progressive/placement.h"
+#include "codec/format/placement.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-constexpr double kLeastCosine = 0.2;  // between the normals of a face before and after
+constexpr double kLeastCosine = 0.2;  // minimum cosine of the angle between a face's normals before
+                                      // and after a collapse
 
 bool has_valence_3(const Connectivity& mesh, Corner c) {
   const VertexId v = mesh.vertex(c);
@@ -50,7 +51,7 @@ Star::Star(const Connectivity& mesh, VertexId v) {
   valence = mesh.ring(v, corner);
   for (std::uint32_t i = 0; i < valence; ++i) {
     vertex[i] = mesh.neighbour(corner[i]);
-    on_border |= is_virtual(vertex[i]);
+    is_on_border |= is_virtual(vertex[i]);
   }
 }
 
@@ -67,7 +68,7 @@ bool keeps_manifold(const Connectivity& mesh, const EdgeStar& edge) {
   if (a.valence == 0 || b.valence == 0 || a.valence + b.valence > kMaxSplitValence + 4)
     return false;
   const bool border_edge = is_virtual(edge.apex12) || is_virtual(edge.apex21);
-  if (a.on_border && b.on_border && !border_edge) return false;
+  if (a.is_on_border && b.is_on_border && !border_edge) return false;
   if (common_neighbours(a, b) != 2) return false;
   for (std::uint32_t i = 0; i < a.valence; ++i) {
     if (a.vertex[i] != edge.v2) continue;
@@ -104,4 +105,4 @@ bool keeps_orientation(const Surface& surface, const EdgeStar& edge, const Vec3i
          fan_survives(surface, edge.star2, edge.v2, edge.v1, to);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

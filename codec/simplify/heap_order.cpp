@@ -8,26 +8,28 @@
 
 #include "codec/simplify/apply_collapse.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-struct Pair {
+struct EdgeCost {
   double cost;
   VertexId a, b;        // a < b
-  std::uint32_t stamp;  // of both ends together when the cost was found
+  std::uint32_t stamp;  // sum of the two vertices' stamps when the cost was computed
 
-  bool operator<(const Pair& o) const {  // std::priority_queue gives the largest first
+  bool operator<(const EdgeCost& o) const {  // reversed, because std::priority_queue pops the
+                                             // largest element first
     return std::tie(o.cost, o.a, o.b) < std::tie(cost, a, b);
   }
 };
 
-// Which level a collapse belongs to, by what it meets (both one-rings) and what it changes (v1,
-// v2).
+// Computes the level of each collapse. A collapse meets all vertices of both one-rings and changes
+// v1 and v2.
 class Dependencies {
  public:
   explicit Dependencies(std::size_t vertices) : changed_(vertices), met_(vertices) {}
 
-  // Levels count from 1, the finest.
+  // Returns the finest level to which the collapse can be added. Levels are numbered from 1, the
+  // finest.
   std::uint32_t level_of(const EdgeStar& edge) const {
     std::uint32_t last = std::max(met_[edge.v1], met_[edge.v2]);
     for_each_met(edge, [&](VertexId v) { last = std::max(last, changed_[v]); });
@@ -44,7 +46,7 @@ class Dependencies {
   static void for_each_met(const EdgeStar& edge, const Visit& visit) {
     for (const Star* star : {&edge.star1, &edge.star2}) {
       for (VertexId v : star->neighbours()) {
-        if (!is_virtual(v)) visit(v);  // v1 and v2 are each other's neighbours
+        if (!is_virtual(v)) visit(v);  // includes v1 and v2, each being a neighbour of the other
       }
     }
   }
@@ -63,7 +65,7 @@ class HeapOrder {
 
   std::vector<CollapseLevel> run(std::uint32_t target_vertices) {
     std::size_t left = surface_.live.size();
-    // A pair that was refused may have become legal: look again until nothing moves.
+    // An edge that was refused may become legal later, so repeat until a pass collapses nothing.
     for (std::size_t before = left + 1; left > target_vertices && left < before;) {
       before = left;
       push_all();
@@ -97,7 +99,7 @@ class HeapOrder {
 
   std::size_t empty_heap(std::size_t left, std::uint32_t target_vertices) {
     while (!heap_.empty() && left > target_vertices) {
-      const Pair pair = heap_.top();
+      const EdgeCost pair = heap_.top();
       heap_.pop();
       const bool current = surface_.mesh.corner_at(pair.a) != kNoCorner &&
                            surface_.mesh.corner_at(pair.b) != kNoCorner &&
@@ -117,7 +119,7 @@ class HeapOrder {
                : kNoCorner;
   }
 
-  bool collapse(const Pair& pair) {
+  bool collapse(const EdgeCost& pair) {
     const Corner corner = corner_towards(pair.a, pair.b);
     if (corner == kNoCorner) return false;
     const EdgeStar edge(surface_.mesh, corner);
@@ -126,7 +128,7 @@ class HeapOrder {
     Vec3i target = target_in(level, edge);
     while (level <= levels_.size() && levels_[level - 1].contains(target))
       target = target_in(++level, edge);
-    if (level > most_levels_ || !rules_.allow(target)) return false;
+    if (level > most_levels_ || !rules_.allows(target)) return false;
     if (!keeps_orientation(surface_, edge, target)) return false;
 
     depends_.enter(edge, level);
@@ -155,10 +157,10 @@ class HeapOrder {
   Surface& surface_;
   const LevelRules& rules_;
   Dependencies depends_;
-  std::vector<std::uint32_t> stamp_;  // per vertex: how often it has moved
+  std::vector<std::uint32_t> stamp_;  // per vertex: number of times it has moved
   std::uint32_t most_levels_;
-  std::priority_queue<Pair> heap_;
-  std::vector<std::map<Vec3i, Collapse>> levels_;  // by v~
+  std::priority_queue<EdgeCost> heap_;
+  std::vector<std::map<Vec3i, Collapse>> levels_;  // per level: its collapses, sorted by v~
 };
 
 }  // namespace
@@ -169,4 +171,4 @@ std::vector<CollapseLevel> collapse_by_heap(Surface& surface, const LevelRules& 
   return HeapOrder(surface, rules, most_levels).run(target_vertices);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

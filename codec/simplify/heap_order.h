@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's own loop (section 3.3): the cheapest pair of all collapses, one at a time, from a
-// heap. The reference that collapses in batches (matching.h) are compared with.
+// Collapses one edge at a time, always the cheapest one in a heap: the loop of [WLL] section 3.3.
+// Serves as the reference for collapses in batches (matching.h).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "codec/progressive/hierarchy.h"
+#include "codec/format/hierarchy.h"
 #include "codec/simplify/matching.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Collapses until `target_vertices` are left or no pair is legal. The record is grouped into levels
-// by dependency: a collapse goes to the first level from the fine end in which nothing that it
-// meets has changed and nothing that it changes is met, so levels are independent sets, each in
-// ascending order of its v~, no two the same. Levels from fine to coarse, at most `most_levels`.
-// `rules` says placement and bounds; parity and regions follow from the grouping.
+// Collapses edges until `target_vertices` vertices are left or no edge is legal. Groups the
+// collapses into levels of independent collapses. A collapse depends on an earlier one if either of
+// them changes a vertex in a one-ring of the other. Each collapse goes to the finest level that is
+// coarser than all collapses on which it depends and that does not contain its v~ yet.
+//
+// Returns at most `most_levels` levels from fine to coarse, each in ascending order of v~ without
+// duplicates. Uses only the placement and the bounds of `rules`. The parity follows from the number
+// of the level, and there is only one region.
 std::vector<CollapseLevel> collapse_by_heap(Surface& surface, const LevelRules& rules,
                                             std::uint32_t target_vertices,
                                             std::uint32_t most_levels);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

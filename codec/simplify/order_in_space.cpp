@@ -6,12 +6,12 @@
 
 #include "codec/simplify/radix_sort.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-constexpr int kBits = 10;  // of each coordinate
+constexpr int kBits = 10;  // bits per coordinate
 
-// Two zeros behind each of the ten bits.
+// Inserts two zero bits after each of the ten bits.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | bits << 16) & 0x0300'00FFu;
   bits = (bits | bits << 8) & 0x0300'F00Fu;
@@ -55,7 +55,8 @@ void order_in_space(TriangleMesh& mesh) {
   std::vector<KeyedIndex> scratch, order = along_curve(mesh.positions);
   radix_sort(order, scratch);
   permute(mesh.positions, order);
-  if (!mesh.colours.empty()) permute(mesh.colours, order);
+  mesh.attributes =
+      mesh.attributes.gather(order.size(), [&](std::size_t i) { return order[i].index; });
   std::vector<std::uint32_t> renamed(order.size());
   for (std::uint32_t v = 0; v < order.size(); ++v)
     renamed[order[v].index] = v;
@@ -69,4 +70,4 @@ void order_in_space(TriangleMesh& mesh) {
   permute(mesh.faces, order);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

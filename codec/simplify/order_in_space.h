@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of a mesh in memory. Edges collapse by cost, all over the mesh: the work is mostly
-// waiting for memory, unless what is near in space is near there, too.
+// Sorts the vertices and faces of a mesh so that neighbours in space are close in memory, too. The
+// simplifier collapses edges by cost, all over the mesh, so memory latency would dominate
+// otherwise.
 #pragma once
 
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
-// Renumbers the vertices along a Z-order curve (Morton) and sorts the faces by their smallest
-// vertex. Positions are finite, face indices in range.
+// Renumbers the vertices along a Z-order curve [Morton66] and sorts the faces by their smallest
+// vertex. Positions must be finite and face indices in range.
 void order_in_space(TriangleMesh& mesh);
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

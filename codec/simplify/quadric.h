@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quadric error metric (Garland and Heckbert 1997): the weighted sum of squared distances to
-// planes.
+// Quadric error metric [GH97]: a weighted sum of squared distances to planes.
 #pragma once
 
 #include "codec/core/vec.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct Quadric {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // weight * normal * normal^T
-  double x = 0, y = 0, z = 0;                             // weight * normal * offset
-  double c = 0;                                           // weight * offset^2
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // sum of weight * normal * normal^T
+  double x = 0, y = 0, z = 0;                             // sum of weight * normal * offset
+  double c = 0;                                           // sum of weight * offset^2
 
-  // Planes have unit normals, so the trace is the weight of all planes.
+  // Returns the total weight of the planes. It equals the trace of the matrix, because the normals
+  // have unit length.
   double weight() const { return xx + yy + zz; }
 
   Quadric& operator+=(const Quadric& o) {
@@ -21,13 +21,15 @@ struct Quadric {
     return *this;
   }
 
-  // The error at p; rounding may make it slightly negative.
+  // Returns the error at p: the weighted sum of squared distances to the planes. Rounding may make
+  // the result slightly negative.
   double at(const Vec3& p) const {
     return p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z + x)) +
            p.y * (yy * p.y + 2 * (yz * p.z + y)) + p.z * (zz * p.z + 2 * z) + c;
   }
 
-  // How much of it the best step along the slope would take away (one step of steepest descent).
+  // Returns by how much the error decreases if p moves along the gradient to the minimum on that
+  // line (one step of steepest descent).
   double mendable(const Vec3& p) const {
     const Vec3 slope{xx * p.x + xy * p.y + xz * p.z + x, xy * p.x + yy * p.y + yz * p.z + y,
                      xz * p.x + yz * p.y + zz * p.z + z};
@@ -38,7 +40,7 @@ struct Quadric {
   }
 };
 
-// The plane through `p` with the unit `normal`.
+// Returns the quadric of the plane through `p` with the unit vector `normal`.
 inline Quadric plane_quadric(const Vec3& normal, const Vec3& p, double weight) {
   const double offset = -dot(normal, p);
   const Vec3 n = normal * weight;
@@ -46,4 +48,4 @@ inline Quadric plane_quadric(const Vec3& normal, const Vec3& p, double weight) {
           n.z * normal.z, n.x * offset,   n.y * offset,   n.z * offset,   weight * offset * offset};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

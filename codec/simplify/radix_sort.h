@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stable radix sort of keyed indices.
+// Stable radix sort of pairs of a key and an index.
 #pragma once
 
 #include <array>
@@ -7,14 +7,15 @@
 #include <utility>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct KeyedIndex {
   std::uint32_t key;
   std::uint32_t index;
 };
 
-// Sorts by key; equal keys keep their order. `scratch` is grown as needed.
+// Sorts `items` by key. Items with equal keys keep their order. Resizes `scratch`, the working
+// memory.
 inline void radix_sort(std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& scratch) {
   constexpr int kBits = 11, kPasses = 3;
   constexpr std::uint32_t kBuckets = 1u << kBits;
@@ -38,4 +39,4 @@ inline void radix_sort(std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& 
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

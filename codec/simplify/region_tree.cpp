@@ -5,19 +5,19 @@
 #include <numeric>
 #include <set>
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint32_t kMostLeaves = 32'768;
-constexpr std::uint32_t kSomeFork = 1;  // until the levels are known
+constexpr std::uint32_t kSomeFork = 1;  // placeholder until the fork levels are known
 
 std::int32_t coordinate(const Vec3i& p, std::uint8_t axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-class Builder {
+class RegionTreeBuilder {
  public:
-  Builder(std::span<const Vec3i> positions, std::uint32_t capacity, RegionLabels& labels)
+  RegionTreeBuilder(std::span<const Vec3i> positions, std::uint32_t capacity, RegionLabels& labels)
       : positions_(positions), capacity_(capacity), labels_(labels) {}
 
   void build(std::span<std::uint32_t> vertices) {
@@ -39,7 +39,7 @@ class Builder {
   }
 
  private:
-  // A plane with vertices on both sides; false where all are at one place.
+  // Finds a plane that has vertices on both sides. Returns false if all vertices coincide.
   bool choose(std::span<std::uint32_t> vertices, RegionPlane& plane) const {
     Vec3i low = positions_[vertices[0]], high = low;
     for (const std::uint32_t v : vertices) {
@@ -74,8 +74,10 @@ RegionLabels label_regions(std::span<const Vec3i> positions, std::uint32_t capac
   labels.leaf.resize(count);
   std::vector<std::uint32_t> vertices(count);
   std::iota(vertices.begin(), vertices.end(), 0u);
-  // Medians halve, so no leaf has less than about half of the capacity, unless many coincide.
-  Builder(positions, std::max(capacity, count / (kMostLeaves / 2)), labels).build(vertices);
+  // Each fork halves the number of vertices, so a leaf has at least about half the capacity, unless
+  // many vertices coincide.
+  RegionTreeBuilder(positions, std::max(capacity, count / (kMostLeaves / 2)), labels)
+      .build(vertices);
   labels.tree.link();
   return labels;
 }
@@ -113,7 +115,8 @@ void RegionJoiner::join(std::span<const VertexId> live, std::uint32_t most,
       if (joins) joined_[i] = calls_;
     }
     if (!is_region(i)) continue;
-    // Children come first, so the largest region that holds a leaf names it.
+    // Nodes are visited from the leaves to the root, so each leaf ends up with the number of the
+    // largest region that contains it.
     std::fill_n(name.begin() + node.first, node.leaves, static_cast<std::uint16_t>(node.first));
   }
   for (const VertexId v : live)
@@ -124,11 +127,11 @@ bool RegionJoiner::finish(std::uint32_t levels) {
   for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
     RegionNode& node = tree_.nodes[i];
     if (node.fork == 0) continue;
-    // The n-th call came before the level `levels` + 1 - n was collapsed.
+    // The n-th call of join() preceded the collapses of level `levels` + 1 - n.
     if (joined_[i] == 0 || joined_[i] > levels) return false;
     node.fork = levels + 2 - joined_[i];
   }
   return tree_.link();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

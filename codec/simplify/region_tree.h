@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts the vertices of the fine mesh into the leaves of a kd-tree, and joins these again as the
-// mesh gets coarser.
+// Divides the vertices of the fine mesh into the leaves of a kd-tree. Joins these leaves into
+// larger regions as the mesh gets coarser.
 #pragma once
 
 #include <cstdint>
@@ -8,39 +8,39 @@
 #include <vector>
 
 #include "codec/core/vec.h"
+#include "codec/format/region_tree.h"
 #include "codec/mesh/connectivity.h"
-#include "codec/progressive/region_tree.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 struct RegionLabels {
-  RegionTree tree;                  // the forks' levels are not known yet
-  std::vector<std::uint16_t> leaf;  // per position
+  RegionTree tree;                  // RegionJoiner::finish() sets the levels of the forks
+  std::vector<std::uint16_t> leaf;  // per position: its leaf
 };
 
-// A node of more than `capacity` (>= 1) vertices forks at the median along the longest side of
-// their box, unless all are at one place. With capacities that ask for more than 32,768 leaves a
-// larger one is taken.
+// Assigns each position to a leaf. A node with more than `capacity` (>= 1) vertices forks at the
+// median along the longest side of their box, unless all vertices coincide. If `capacity` would
+// give more than 32,768 leaves, a larger capacity is used.
 RegionLabels label_regions(std::span<const Vec3i> positions, std::uint32_t capacity);
 
-// Per leaf those that it shares an edge with, ascending.
+// Returns for each leaf the leaves that share an edge with it, in ascending order.
 std::vector<std::vector<std::uint32_t>> leaf_adjacency(std::span<const Triangle> faces,
                                                        const RegionLabels& labels);
 
-// Follows the levels from fine to coarse.
+// Joins regions level by level, from fine to coarse.
 class RegionJoiner {
  public:
-  // `tree` outlives this.
+  // `tree` must outlive this object.
   explicit RegionJoiner(RegionTree& tree) : tree_(tree), joined_(tree.nodes.size(), 0) {}
 
-  // Before a level is collapsed: joins siblings that have at most `most` of the live vertices in
-  // all. `region` names each live vertex' region and follows.
+  // Joins sibling regions that together have at most `most` live vertices. Call this before the
+  // collapses of each level. `region` holds the region of each vertex and is updated.
   void join(std::span<const VertexId> live, std::uint32_t most, std::vector<std::uint16_t>& region);
 
-  bool is_whole() const { return is_region(0); }  // one region is left
+  bool is_whole() const { return is_region(0); }  // whether only one region is left
 
-  // Once all of `levels` are collapsed: enters the levels of the forks. False where the tree does
-  // not fit the format: in the coarsest level the model must be one region.
+  // Sets the levels of the forks. Call this once, after all of the `levels` levels are collapsed.
+  // Returns false if the coarsest level has more than one region, which the format does not allow.
   bool finish(std::uint32_t levels);
 
  private:
@@ -49,8 +49,9 @@ class RegionJoiner {
   }
 
   RegionTree& tree_;
-  std::vector<std::uint32_t> joined_;  // per node: how many calls of join() it took; 0: not yet
+  std::vector<std::uint32_t>
+      joined_;  // per node: number (from 1) of the join() call that joined it; 0 if not joined
   std::uint32_t calls_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -6,8 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "codec/progressive/colour.h"
-#include "codec/progressive/placement.h"
+#include "codec/format/placement.h"
 #include "codec/simplify/apply_collapse.h"
 #include "codec/simplify/heap_order.h"
 #include "codec/simplify/matching.h"
@@ -15,16 +14,17 @@
 #include "codec/simplify/small_components.h"
 #include "codec/simplify/surface.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-constexpr std::uint32_t kRegularLevels = 4;  // finest levels, which keep sampling regular
-// Short edges go first, above all in the finest level, whose costs are noise; coarser ones that
-// leave them out altogether need more bytes.
+constexpr std::uint32_t kRegularLevels =
+    4;  // number of levels that keep a regular sampling, from the finest on
+// Weight of the edge length in the cost. It makes short edges collapse first, above all in the
+// finest level, where the other costs are noise. Without it, coarser levels need more bytes.
 constexpr double kFinestLengthWeight = 5e-3, kLengthWeight = 1e-3;
-constexpr double kCellPerError = 1;  // side of a cell against the rms distance from the planes
-// A level that removes less than this share of the vertices is the last one: what is left is
-// locked by topology, and each level has its price.
+constexpr double kCellPerError = 1;  // side of a cell, in units of the rms distance from the planes
+// If a level removes less than 1/50 of the vertices, it is the last one: topology prevents most
+// collapses, and each further level costs bytes.
 constexpr std::uint32_t kLeastShare = 50;
 
 Surface make_surface(const LatticeMesh& fine, Connectivity mesh, std::span<const Vec3> original) {
@@ -34,9 +34,7 @@ Surface make_surface(const LatticeMesh& fine, Connectivity mesh, std::span<const
     if (original.empty()) return to_vec3(fine.positions[v]);
     return (original[v] - fine.lattice.origin) * per_unit;
   });
-  s.colour.reserve(fine.colours.size());
-  for (const Colour& c : fine.colours)
-    s.colour.push_back(to_ycocg(c));
+  s.attributes = lattice_attributes(fine.attributes);
   s.live.resize(s.position.size());
   std::iota(s.live.begin(), s.live.end(), 0u);
   return s;
@@ -52,16 +50,16 @@ class Simplifier {
     high_ = {side - 1 + margin, side - 1 + margin, side - 1 + margin};
   }
 
-  // Simplifies, and records the levels, coarse to fine. False where the coarsest level is more than
-  // one region.
+  // Simplifies the surface and writes the levels to `out`, from coarse to fine. Returns false if
+  // the coarsest level has more than one region.
   bool run(Hierarchy& out) {
     out.levels = options_.order == CollapseOrder::kHeap ? run_heap() : run_batches();
-    births_.resize(out.levels.size());
-    out.births = std::move(births_);
+    insertions_.resize(out.levels.size());
+    out.insertions = std::move(insertions_);
     out.shift = std::move(shifts_);
     out.refined = std::move(refined_);
     std::ranges::reverse(out.levels);
-    std::ranges::reverse(out.births);
+    std::ranges::reverse(out.insertions);
     std::ranges::reverse(out.shift);
     std::ranges::reverse(out.refined);
     return regions_.finish(static_cast<std::uint32_t>(out.levels.size()));
@@ -72,25 +70,25 @@ class Simplifier {
     return surface_.live.size() <= options_.target_vertices + options_.target_vertices / 4;
   }
 
-  // Levels from fine to coarse, here and below.
+  // This and the functions below order levels from fine to coarse.
   std::vector<CollapseLevel> run_batches() {
     std::vector<CollapseLevel> levels;
-    // The format wants the model whole in the coarsest level, which may so be empty.
+    // The format requires a coarsest level with one region, so that level may have no collapses.
     bool enough = is_small(), shedding = false;
     while (levels.size() + 1 < Limits{}.levels && !(enough && regions_.is_whole())) {
       const std::size_t before = surface_.live.size();
       const bool was_whole = regions_.is_whole(), was_shedding = shedding;
       const auto from_finest = static_cast<std::uint32_t>(levels.size());
       join_regions(from_finest, enough);
-      std::vector<Component> births = shed_components(shedding);
+      std::vector<Component> insertions = shed_components(shedding);
       CollapseLevel level = collapse_level(rules(from_finest));
-      if (!level.empty() || !births.empty() || !was_whole) {
+      if (!level.empty() || !insertions.empty() || !was_whole) {
         levels.push_back(std::move(level));
-        births_.push_back(std::move(births));
+        insertions_.push_back(std::move(insertions));
         coarsen_lattice();
         report();
       }
-      // Where collapses get no further, the smallest components go.
+      // If collapses alone remove too few vertices, also remove the smallest components.
       const bool stuck = (before - surface_.live.size()) * kLeastShare < before;
       shedding |= stuck && small_.vertices() * kLeastShare >= surface_.live.size();
       enough = is_small() || (stuck && (was_shedding || !shedding));
@@ -98,7 +96,9 @@ class Simplifier {
     return levels;
   }
 
-  // `many`: collapses alone get no further.
+  // Removes components that the level's error hides. If `many` is true, then also removes the
+  // smallest components until half of the vertices are left, because collapses alone remove too
+  // few.
   std::vector<Component> shed_components(bool many) {
     if (small_.vertices() == 0) return {};
     const std::size_t now = surface_.live.size();
@@ -115,8 +115,8 @@ class Simplifier {
     return levels;
   }
 
-  // The lattice may be as coarse as the level is inexact: finer bits would be paid for before they
-  // can be seen. What is cut off here comes back with the splits of the level.
+  // Makes the lattice as coarse as the level's error, because finer bits would cost bytes before
+  // they are visible. The splits of the level restore the bits that are removed here.
   void coarsen_lattice() {
     const std::uint32_t before = surface_.shift;
     const std::uint32_t wanted = splits_see_other_regions_ ? before : coarsest_shift();
@@ -133,7 +133,7 @@ class Simplifier {
     refined_.push_back(std::move(refined));
   }
 
-  // From the planes of the surface before it was rounded, lattice units.
+  // Returns the rms distance from the planes of the surface before rounding, in lattice units.
   double rms_error() const {
     double error = 0, weight = 0;
     for (VertexId v : surface_.live) {
@@ -152,7 +152,7 @@ class Simplifier {
   }
 
   void join_regions(std::uint32_t from_finest, bool in_one) {
-    // The leaves are the regions of the finest level.
+    // The regions of the finest level are the leaves, so they are never joined.
     const bool join_all = in_one && from_finest > 0;
     regions_.join(surface_.live, join_all ? UINT32_MAX : options_.region_vertices, surface_.region);
   }
@@ -162,9 +162,9 @@ class Simplifier {
     const auto live = static_cast<std::uint32_t>(surface_.live.size());
     return {.placement = options_.placement,
             .parity = static_cast<std::int32_t>(from_finest & 1),
-            .by_region = !regions_.is_whole(),
+            .keeps_regions = !regions_.is_whole(),
             .length_weight = from_finest == 0 ? kFinestLengthWeight : kLengthWeight,
-            .regular = from_finest < kRegularLevels,
+            .is_regular = from_finest < kRegularLevels,
             .most = live - std::min(live, options_.target_vertices),
             .low = cell_of(low_, surface_.shift),
             .high = cell_of(high_, surface_.shift)};
@@ -174,7 +174,7 @@ class Simplifier {
     CollapseLevel level;
     const std::vector<Pick>& picks = matcher_.match(rules);
     level.reserve(picks.size());
-    // The collapses before may have changed the surroundings since the match.
+    // Earlier collapses of this level may have changed the neighbourhood, so check again.
     for (const Pick& pick : picks) {
       const EdgeStar edge(surface_.mesh, pick.corner);
       if (keeps_manifold(surface_.mesh, edge) && matcher_.keeps_shape(edge, pick.target)) {
@@ -194,25 +194,26 @@ class Simplifier {
 
   Surface& surface_;
   const SimplifyOptions& options_;
-  Matcher matcher_;
+  CollapseMatcher matcher_;
   Vec3i low_, high_;
   RegionJoiner regions_;
   SmallComponents small_;
-  bool splits_see_other_regions_ = false;  // v~ of the level depends on their exact places
+  bool splits_see_other_regions_ = false;  // whether v~ depends on exact positions in other regions
   std::vector<std::uint32_t> shifts_{0};
   std::vector<std::vector<Refined>> refined_;
-  std::vector<std::vector<Component>> births_;
+  std::vector<std::vector<Component>> insertions_;
 };
 
 void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out) {
   out.base.lattice = lattice;
   out.base_ids = surface.live;
+  add_columns(out.base_attributes, surface.attributes);
   std::vector<std::uint32_t> index(surface.position.size());
   for (std::uint32_t i = 0; i < surface.live.size(); ++i) {
     const VertexId v = surface.live[i];
     index[v] = i;
     out.base.positions.push_back(surface.position[v]);
-    if (!surface.colour.empty()) out.base_colours.push_back(surface.colour[v]);
+    append_row(out.base_attributes, surface.attributes, v);
   }
   const Connectivity& mesh = surface.mesh;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
@@ -222,7 +223,7 @@ void compact_base(const Surface& surface, const Lattice& lattice, Hierarchy& out
   }
 }
 
-// Nothing where the coarsest level is more than one region.
+// Simplifies `fine`. Returns nullopt if the coarsest level would have more than one region.
 Expected<std::optional<Hierarchy>> try_simplify(const LatticeMesh& fine,
                                                 const SimplifyOptions& options,
                                                 std::span<const Vec3> original) {
@@ -258,4 +259,4 @@ Expected<Hierarchy> simplify(const LatticeMesh& fine, const SimplifyOptions& opt
   return std::move(**try_simplify(fine, whole, original));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

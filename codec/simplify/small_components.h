@@ -1,43 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which small components leave the mesh on the way to the base, and when: each level does without
-// those that are smaller than its error, or without as many as keep the base from getting small.
+// Chooses the small components to remove on the way to the base mesh. A level omits the components
+// that are smaller than its error. It omits more of them if the base mesh would not get small
+// enough otherwise.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "codec/progressive/hierarchy.h"
+#include "codec/format/hierarchy.h"
 #include "codec/simplify/surface.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 class SmallComponents {
  public:
-  // All components of the fine mesh but the one with the largest box.
+  // Considers all components of the fine mesh except the one with the largest box.
   explicit SmallComponents(const Surface& surface);
 
   struct Need {
-    double error;          // of the level at hand, lattice units
-    std::size_t vertices;  // that the mesh should have at most
+    double error;          // rms error of the current level, lattice units
+    std::size_t vertices;  // maximum number of vertices that the mesh should have
   };
-  // Takes components out of the surface that collapses do not make smaller any more and that are in
-  // one region: those that the level hides, then the smallest ones until there are few enough
-  // vertices. They come back as they are at this level.
+  // Removes components from the surface: first those that the level's error hides, then the
+  // smallest ones until the mesh has few enough vertices. A component is removed only if it lies in
+  // one region, and if it is tiny or collapses no longer shrink it. Returns the removed components
+  // as they were in this level.
   std::vector<Component> leave(Surface& surface, const Need& need);
 
-  std::size_t vertices() const { return vertices_; }  // of those that have not left, at most
+  // Returns an upper bound on the number of vertices that remain in the considered components.
+  std::size_t vertices() const { return vertices_; }
 
  private:
-  struct Part {
-    std::size_t begin, size;  // in members_
-    bool shrank = true;       // since it was last looked at
+  struct MemberRange {
+    std::size_t begin, size;  // index in members_ of the component's first vertex; number of its
+                              // vertices
+    bool has_shrunk = true;   // whether the last update() found fewer vertices than the one before
   };
 
   void update(const Surface& surface);
 
-  std::vector<VertexId> members_;  // the vertices of each part, ascending
-  std::vector<Part> parts_;
+  std::vector<VertexId> members_;  // vertices of each component, ascending
+  std::vector<MemberRange> ranges_;
   std::size_t vertices_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/simplify/surface.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 namespace {
 
-constexpr double kBorderWeight = 2;  // of a border plane, against the squared length of its edge
+constexpr double kBorderWeight = 2;  // weight of a border plane per squared length of its edge
 
 class Accumulator {
  public:
@@ -21,7 +21,7 @@ class Accumulator {
  private:
   Vec3 at(Corner c) const { return position_(mesh_.vertex(c)); }
 
-  Vec3 face_normal(Corner c) const {  // twice the area long
+  Vec3 face_normal(Corner c) const {  // the length of the result is twice the face's area
     return cross(at(next(c)) - at(c), at(prev(c)) - at(c));
   }
 
@@ -58,4 +58,4 @@ std::vector<Quadric> surface_quadrics(const Connectivity& mesh, const PositionOf
   return Accumulator(mesh, position).run();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cache as nginx has one: the least recently used goes first, files take whole blocks of the disk,
-// and room is made by a manager that looks now and then, not at each request.
-const kBlock = 4096, kHeader = 1024;  // bytes; nginx keeps the answer's header in the same file
+// A model of nginx's cache. It removes the least recently used files first. Each file occupies
+// whole disk blocks. A manager frees space at intervals, not at each request.
+// Bytes of a disk block, and bytes of the response header with which a cache file begins.
+const kBlock = 4096, kHeader = 1024;
 
-/** What a chunk of `bytes` takes of the cache's room. */
+/** Returns the disk space that a chunk of `bytes` occupies in the cache. */
 export function room(bytes) {
   return Math.ceil((bytes + kHeader) / kBlock) * kBlock;
 }
 
 export class DiskCache {
-  #files = new Map();  // the least recently used first
+  #files = new Map();  // size of each file, the least recently used file first
   #used = 0;
 
   constructor(capacity) {
     this.capacity = capacity;
   }
 
-  /** Whether `key` was there; it is afterwards. */
+  /** Requests a file and caches it. Returns whether it was cached before. */
   ask(key, bytes) {
     const size = this.#files.get(key);
     this.#files.delete(key);
@@ -25,7 +26,7 @@ export class DiskCache {
     return size !== undefined;
   }
 
-  /** What the manager does when it looks. */
+  /** Frees space, as the manager does at intervals. */
   makeRoom() {
     for (const [key, size] of this.#files) {
       if (this.#used < this.capacity) return;
@@ -35,10 +36,11 @@ export class DiskCache {
   }
 }
 
-/** What of `looks` at `models` the cache answers and what it asks its origin for. A look's head always
- *  reaches the origin, a stream does whole. The manager looks after each `managed` chunk requests. */
+/** Simulates `looks` at `models` through the cache. Returns the number of looks, the numbers of chunks
+ *  and bytes that visitors requested, and how many of them came from the origin. Streams bypass the
+ *  cache; their bytes are counted separately. The manager runs after every `managed` chunk requests. */
 export function serve(looks, models, cache, managed) {
-  const first = [0];  // numbers of the models' first chunks
+  const first = [0];  // number of each model's first chunk
   for (const chunks of models) first.push(first.at(-1) + chunks.length);
   const sum = { looks: 0, chunks: 0, bytes: 0, originChunks: 0, originBytes: 0, streamBytes: 0 };
   for (const { model, chunks, streamed } of looks) {

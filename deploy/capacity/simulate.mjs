@@ -1,8 +1,8 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: Apache-2.0
-// How many viewers a machine serves, alone and with a cache in front: simulate.mjs [FILE.json]
-// FILE holds what of the scenario below is other. tests/deploy/capacity.test.mjs holds the simulation
-// to what a real nginx asks of a real daemon.
+// Simulates how many viewers a machine can serve without a cache and with caches of several sizes.
+// Usage: simulate.mjs [FILE.json]; the values in FILE override those of the scenario below.
+// tests/deploy/capacity.test.mjs compares the simulation with a real nginx in front of a real daemon.
 import { readFileSync } from "node:fs";
 import { DiskCache, room, serve } from "./cache.mjs";
 import { catalogue, chance, looks } from "./visitors.mjs";
@@ -10,20 +10,22 @@ import { catalogue, chance, looks } from "./visitors.mjs";
 const kScenario = {
   seed: 1,
   models: { count: 1000, bytes: 1.8e6, chunkBytes: 16384 },
-  // exponent: of Zipf's law. looks: models a visit. seconds: of a look. streams: share of looks over WebSocket.
+  // exponent: exponent of Zipf's law. looks: mean number of models per visit. seconds: mean time
+  // per look. streams: share of looks that use a WebSocket.
   visitor: {
     exponent: 0.8, looks: 4, seconds: 30, streams: 0.1,
     lines: [{ share: 0.2, bytesPerSecond: 1e5 }, { share: 0.5, bytesPerSecond: 1e6 }, { share: 0.3, bytesPerSecond: 5e6 }],
   },
-  visits: 8000,  // simulated; the second half is counted
-  caches: [0.05, 0.1, 0.25, 0.5, 1.01],  // as shares of what all chunks take in one
-  managed: 5000,  // chunk requests between two looks of the cache's manager
-  answers: { count: 4, bytes: 40e3 },  // of a look that no cache keeps: page, model, manifest, head
-  // Of one core and one gigabit: CAPACITY.md.
+  visits: 8000,  // simulated visits; only the second half is counted
+  caches: [0.05, 0.1, 0.25, 0.5, 1.01],  // cache sizes as shares of the space for all chunks
+  managed: 5000,  // chunk requests between two runs of the cache's manager
+  answers: { count: 4, bytes: 40e3 },  // uncached responses per look: page, model, manifest, head
+  // Rates measured for one core, and the byte rate of one gigabit per second (CAPACITY.md).
   machine: { chunksPerSecond: 73220, answersPerSecond: 88570, bytesPerSecond: 117e6 },
 };
 
-/** What the origin has to do for a look, and how many viewers one of each resource serves. */
+/** Returns the share of bytes from the cache, the origin's bytes per look, and the numbers of viewers
+ *  that one core and one gigabit per second can serve. */
 export function load(sum, { answers, machine, visitor }) {
   const chunks = sum.originChunks / sum.looks;
   const streamed = sum.streamBytes / sum.looks;

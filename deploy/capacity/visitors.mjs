@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who comes and what they look at: popularity by Zipf's law, as many models a visit as chance has it,
-// each for a while, over lines of several speeds.
+// Simulated visitors. A visitor chooses models by Zipf's law and looks at a random number of them,
+// each for a random time. The connections of visitors have several speeds.
 
-/** Numbers from 0 to 1, the same for the same seed (mulberry32). */
+/** Returns a generator of random numbers from 0 to 1 (mulberry32). A seed always gives the same numbers. */
 export function chance(seed) {
   return () => {
     seed = (seed + 0x6d2b79f5) | 0;
@@ -12,17 +12,18 @@ export function chance(seed) {
   };
 }
 
-/** `count` models of `bytes` each on average, between a third and three times that, in chunks of about
- *  `chunkBytes`. A model is the list of its chunks' bytes, the coarsest first. */
+/** Returns `count` models. A model is the list of the sizes of its chunks, the coarsest first. The models
+ *  have `bytes` on average; the largest has nine times the size of the smallest. Chunks have `chunkBytes`. */
 export function catalogue({ count, bytes, chunkBytes }, random) {
-  const mean = 8 / 3 / Math.log(9);  // of what 3 ** (2 x - 1) is for x from 0 to 1
+  const mean = 8 / 3 / Math.log(9);  // the mean of 3 ** (2 x - 1) for x from 0 to 1
   return Array.from({ length: count }, () => {
     const chunks = Math.max(1, Math.round((bytes * 3 ** (2 * random() - 1)) / mean / chunkBytes));
     return Array(chunks).fill(chunkBytes);
   });
 }
 
-/** Draws an index from 0 to count - 1; that of rank r is (r + 1) ** -exponent as likely as the first. */
+/** Returns a function that draws an index from 0 to count - 1 by Zipf's law. Index r is
+ *  (r + 1) ** -exponent times as likely as index 0. */
 function zipf(count, exponent, random) {
   const sums = new Float64Array(count);
   for (let rank = 0, sum = 0; rank < count; ++rank) sums[rank] = sum += (rank + 1) ** -exponent;
@@ -38,14 +39,14 @@ function zipf(count, exponent, random) {
   };
 }
 
-/** Draws one of `lines`, {share, bytesPerSecond}; shares add up to 1. */
+/** Draws one of the connections `lines`, {share, bytesPerSecond}. Shares are probabilities and add up to 1. */
 function line(lines, random) {
   let left = random();
   return lines.find(({ share }) => (left -= share) < 0) ?? lines.at(-1);
 }
 
-/** The looks of `visits` visits, in their order: which model, how many of its chunks came, and whether
- *  over a stream. `visitor`: {exponent, looks, seconds, streams, lines}; looks and seconds are means. */
+/** Generates the looks of `visits` visits. A look states the model, how many of its chunks arrived, and
+ *  whether they came over a stream. simulate.mjs describes the members of `visitor`. */
 export function* looks(models, visits, visitor, random) {
   const pick = zipf(models.length, visitor.exponent, random);
   for (let visit = 0; visit < visits; ++visit) {

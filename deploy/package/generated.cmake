@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the programs themselves tell: the configuration, and the manual pages out of --help.
+# Generates the configuration file from --print-config and the manual pages from --help.
 set(root "$ENV{DESTDIR}")
 
-# Defaults are commented out: a later version may have better ones.
+# Defaults are commented out, so that a later version can change them.
 execute_process(COMMAND env -i ${bin}/vitrined --data=/var/lib/vitrine --access-log=/var/log/vitrine/access.log --print-config
                 OUTPUT_VARIABLE settings COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX REPLACE "; from default([^\n]*)\n" "\\1\n#" settings "${settings}")
 string(REGEX REPLACE "; from --[^;\n]*" "" settings "${settings}")
-file(WRITE ${root}/etc/vitrine.conf "# Settings of vitrined; `systemctl reload vitrined` has them read again.\n\n${settings}")
+file(WRITE ${root}/etc/vitrine.conf "# Settings of vitrined; `systemctl reload vitrined` reads them again.\n\n${settings}")
 
 function(manual_page program section name)
   set(page ${root}/usr/share/man/man${section}/${program}.${section})

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# The Debian package: `cmake --workflow --preset package` writes it to build/release. It has what
-# serves and scans; the simulated scanner is for those who have the source.
-set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # what is packed is what was built
+# Builds the Debian package: `cmake --workflow --preset package` writes the package to
+# build/release. The package contains the programs that serve and scan, but not the simulated
+# scanner.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # packs the existing build without building again
 set(here ${CMAKE_CURRENT_LIST_DIR})
 set(documents /usr/share/doc/vitrine)
 
@@ -12,6 +13,9 @@ install(FILES ${here}/sysusers DESTINATION /usr/lib/sysusers.d RENAME vitrine.co
 install(FILES ${here}/tmpfiles DESTINATION /usr/lib/tmpfiles.d RENAME vitrine.conf)
 install(FILES ${here}/logrotate DESTINATION /etc/logrotate.d RENAME vitrine)
 install(FILES ${here}/copyright NOTICE README.md DESTINATION ${documents})
+foreach(part acquisition codec server web)
+  install(FILES ${part}/README.md DESTINATION ${documents}/${part})
+endforeach()
 install(DIRECTORY deploy/nginx deploy/monitoring DESTINATION ${documents}/examples)
 install(CODE "set(bin \"${CMAKE_RUNTIME_OUTPUT_DIRECTORY}\")\nset(source \"${CMAKE_SOURCE_DIR}\")")
 install(SCRIPT ${here}/generated.cmake)

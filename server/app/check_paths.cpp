@@ -10,7 +10,7 @@
 #include "codec/files/atomic_file.h"
 #include "server/jobs/place_of.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,7 +20,7 @@ Expected<void> named(std::string_view key, const Expected<void>& checked) {
   return fail(checked.error().code, fmt::format("{}: {}", key, checked.error().message));
 }
 
-// A pipe or a terminal takes a log as well as a file does.
+// Checks that the access log can be written. The log may also be a pipe or a terminal.
 Expected<void> check_log(const fs::path& log) {
   std::error_code unknown;
   if (log == "-") return {};
@@ -44,4 +44,4 @@ Expected<void> check_paths(const Settings& settings) {
   return named("access-log", check_log(settings.access_log));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

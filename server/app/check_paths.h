@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the paths of a configuration can be used, asked without serving.
+// Checks that the paths of a configuration can be used, without starting the daemon.
 #pragma once
 
 #include "codec/core/expected.h"
 #include "server/config/settings.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Looks at the data folder, or where it would be made, and at the files that are to be written.
-// Creates nothing. Fails (kIo) with the key and the path.
+// Checks the data folder and the files that the daemon will write. If the data folder does not
+// exist, checks the folder in which it would be created. Creates no file or folder. The error (kIo)
+// names the key and the path.
 Expected<void> check_paths(const Settings& settings);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -12,20 +12,20 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "server/api/job_json.h"
+#include "server/api/path_parameters.h"
+#include "server/api/routes.h"
+#include "server/api/services.h"
 #include "server/app/check_paths.h"
 #include "server/app/daemon_lock.h"
 #include "server/app/descriptor_limit.h"
 #include "server/app/port_file.h"
 #include "server/app/service_manager.h"
-#include "server/app/streams.h"
 #include "server/config/command_line.h"
 #include "server/config/live_settings.h"
 #include "server/config/read_file.h"
 #include "server/config/reload.h"
 #include "server/http/http_server.h"
-#include "server/http/job_json.h"
-#include "server/http/routes.h"
-#include "server/http/services.h"
 #include "server/jobs/clock.h"
 #include "server/jobs/open_scanners.h"
 #include "server/jobs/place_of.h"
@@ -34,30 +34,33 @@
 #include "server/store/installation.h"
 #include "server/transport/live_tls.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::size_t kAdminConnections = 64;
 constexpr std::chrono::minutes kCollectEvery{10};
-constexpr std::chrono::milliseconds kStaleness{100};  // of what is known of models
+constexpr std::chrono::milliseconds kStaleness{100};  // how long cached models may be out of date
 constexpr std::chrono::seconds kScannerLease{30};
-constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);  // who may be told later
-constexpr std::size_t kMaxExports = 64;  // each holds a decoded mesh while it runs
+// Time after a job's end at which a webhook that the settings do not allow is given up.
+constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);
+// Largest number of exports that run or wait at a time. A running export holds a decoded mesh.
+constexpr std::size_t kMaxExports = 64;
 
 Unexpected of_admin(const Error& error) {
   return fail(error.code, "--admin-listen: " + error.message);
 }
 
-// Asked before the data folder is made, so that a start that fails leaves nothing.
+// Checks that the daemon can listen on its addresses. Called before the data folder is created, so
+// that a failed start leaves nothing behind.
 Expected<void> check_addresses(const Settings& settings) {
-  if (settings.roles.serve) {
+  if (settings.roles.serves) {
     if (auto usable = check_address(settings.listen); !usable) return usable;
   }
   const auto usable = check_address(settings.admin_listen);
   return usable ? Expected<void>{} : of_admin(usable.error());
 }
 
-// The configuration in force, and how it is read again.
+// The current configuration, and a function that reads the configuration again.
 struct Configuration {
   CommandLine line;
   std::function<Expected<CommandLine>()> reread;
@@ -70,7 +73,7 @@ std::string url_of(const Endpoint& endpoint, std::uint16_t port, bool encrypted)
                      v6 ? "]" : "", port);
 }
 
-// Null where the settings want none.
+// Opens the certificate and the key. Returns null if the settings do not enable TLS.
 Expected<std::shared_ptr<LiveTls>> open_tls(const Settings& settings) {
   const TlsFiles files{settings.tls_certificate, settings.tls_key};
   if (files == TlsFiles{}) return nullptr;
@@ -83,7 +86,7 @@ Expected<std::shared_ptr<LiveTls>> open_tls(const Settings& settings) {
   return LiveTls::open(files);
 }
 
-// Everything that serves, in the order in which it may depend on what comes before.
+// Owns all parts of the daemon. Each member may depend on those declared before it.
 class Daemon {
  public:
   Daemon(Configuration configuration, Installation installation, DataFolderLock lock,
@@ -107,45 +110,50 @@ class Daemon {
             {*installation_.store, *installation_.catalogue, uploads_, quota_, live_.get()->data}),
         collector_({*installation_.store, *installation_.catalogue, *installation_.jobs, uploads_,
                     events_, live_.get()->collect_after}),
-        scans_({*installation_.store,
-                *installation_.catalogue,
-                *installation_.jobs,
-                events_,
-                live_.get()->data,
-                "/proc/self/exe",
-                std::chrono::seconds(10),
-                [this](JobRun& run) { return publishing_.work(run); },
-                &quota_,
-                {live_.get()->roles.build, live_.get()->roles.scan, lock_.id,
-                 [this](const std::string& scanner) { return claims_->has_jobs_of(scanner); }},
-                claims_.get()},
+        scans_({.store = *installation_.store,
+                .catalogue = *installation_.catalogue,
+                .jobs = *installation_.jobs,
+                .events = events_,
+                .data = live_.get()->data,
+                .publishing = [this](JobRun& run) { return publishing_.work(run); },
+                .quota = &quota_,
+                .taken = {.builds = live_.get()->roles.builds,
+                          .scans = live_.get()->roles.scans,
+                          .holder = lock_.id,
+                          .drives =
+                              [this](const std::string& scanner) {
+                                return claims_->has_jobs_of(scanner);
+                              }},
+                .claims = claims_.get()},
                std::move(scanners)),
         exports_(live_.get()->export_cache_bytes),
         pages_(web_assets()),
-        metrics_(Router(public_routes()).templates()),
+        metrics_(path_templates(public_routes())),
         tokens_(*installation_.catalogue),
-        services_{*installation_.store,
-                  *installation_.catalogue,
-                  tokens_,
-                  models_,
-                  scans_,
-                  uploads_,
-                  quota_,
-                  collector_,
-                  webhooks_,
-                  exports_,
-                  pages_,
-                  live_,
-                  metrics_,
-                  access_log_,
-                  events_},
+        services_{.store = *installation_.store,
+                  .catalogue = *installation_.catalogue,
+                  .tokens = tokens_,
+                  .models = models_,
+                  .scans = scans_,
+                  .uploads = uploads_,
+                  .quota = quota_,
+                  .collector = collector_,
+                  .webhooks = webhooks_,
+                  .exports = exports_,
+                  .pages = pages_,
+                  .settings = live_,
+                  .metrics = metrics_,
+                  .log = access_log_,
+                  .errors = events_},
         connections_(connections_within_limit(live_.get()->max_connections)),
         threads_(live_.get()->threads > 0 ? live_.get()->threads
                                           : std::max(1u, std::thread::hardware_concurrency())),
         io_(static_cast<int>(threads_)),
-        workers_(threads_, kMaxExports),
-        public_(io_, services_, workers_, public_options()),
-        admin_(io_, services_, workers_, admin_options()),
+        workers_({.threads = threads_,
+                  .waiting_threads = Services::kWaitingThreads,
+                  .max_computations = kMaxExports}),
+        public_(io_, http_dependencies(), public_options()),
+        admin_(io_, http_dependencies(), admin_options()),
         control_(asio::make_strand(io_)),
         signals_(control_, SIGTERM, SIGINT),
         reload_signals_(control_, SIGHUP, SIGUSR1),
@@ -154,18 +162,19 @@ class Daemon {
 
   Expected<void> open() {
     if (lock_.is_copy) {
-      events_.event(Severity::kWarning,
-                    "the data folder is a copy: this daemon is another than the one of the "
-                    "original, and waits until what that one held is free");
+      events_.event(
+          Severity::kWarning,
+          "the data folder is a copy of another daemon's: this daemon gets a new identity "
+          "and waits until the leases of the original expire");
     }
-    if (live_.get()->roles.serve) {
+    if (live_.get()->roles.serves) {
       if (const auto kept = write_quota(live_.get()->data, live_.get()->quota_bytes); !kept)
         events_.event(Severity::kWarning, kept.error().message);
-      if (auto bound = bind(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
+      if (auto bound = listen(public_, live_.get()->listen, live_.get()->port_file, ""); !bound)
         return bound;
     }
     if (auto bound =
-            bind(admin_, live_.get()->admin_listen, live_.get()->admin_port_file, "admin ");
+            listen(admin_, live_.get()->admin_listen, live_.get()->admin_port_file, "admin ");
         !bound)
       return bound;
     if (!live_.get()->webhook_hosts.empty())
@@ -176,16 +185,16 @@ class Daemon {
 
   void run() {
     if (connections_ < live_.get()->max_connections) {
-      events_.event(
-          Severity::kWarning,
-          fmt::format("only {} connections fit the limit on open files; raise it", connections_));
+      events_.event(Severity::kWarning,
+                    fmt::format("the limit on open files allows only {} connections; raise it",
+                                connections_));
     }
     models_.refresh_by([this](std::function<void()> refresh) {
-      asio::post(workers_.executor(Place::kWorker, ""), std::move(refresh));
+      asio::post(workers_.executor(Executor::kWorker, ""), std::move(refresh));
     });
     wait_for_signal();
     wait_for_reload();
-    if (live_.get()->roles.serve) public_.start();
+    if (live_.get()->roles.serves) public_.start();
     admin_.start();
     collector_.start(kCollectEvery);
     services_.ready = true;
@@ -211,7 +220,8 @@ class Daemon {
   }
 
  private:
-  // What is thrown where nobody catches it (memory has run out) costs one visitor, not all.
+  // Serves connections until the daemon stops. An uncaught exception, such as lack of memory, ends
+  // one connection, not all.
   void serve_connections() {
     for (;;) {
       try {
@@ -227,30 +237,37 @@ class Daemon {
     constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
     const JobRecord& ended = job.record;
     const auto told = [this, id = ended.id] {
-      if (const auto kept = installation_.jobs->set_told(id); !kept)
+      if (const auto kept = installation_.jobs->set_notified(id); !kept)
         events_.event(Severity::kError, kept.error().message);
     };
-    // Another daemon may have newer settings, for a while.
+    // Another daemon may have newer settings that allow the webhook, so this daemon gives up only
+    // after a while.
     const bool is_old = now_in_milliseconds() - ended.ended > kUnwanted.count();
     if (!webhooks_.allows(ended.webhook) && is_old) {
       events_.event(Severity::kWarning,
-                    fmt::format("webhook {} is not told: webhook-hosts has it no more",
+                    fmt::format("webhook {} is not called: webhook-hosts no longer names it",
                                 origin_of(ended.webhook)));
       return told();
     }
-    webhooks_.tell(
+    webhooks_.call(
         ended.webhook, job_json(job).dump(-1, ' ', false, kReplace),
-        [this, id = ended.id] { return scans_.jobs().may_tell(id); }, told);
+        [this, id = ended.id] { return scans_.jobs().may_notify(id); }, told);
   }
 
-  StreamHost stream_host() { return {services_, workers_, public_.rate_limit(), crowd_}; }
+  HttpDependencies http_dependencies() {
+    return {.tokens = tokens_,
+            .workers = workers_,
+            .metrics = metrics_,
+            .access_log = access_log_,
+            .events = events_};
+  }
 
   HttpOptions public_options() {
-    return {.routes = public_routes(),
-            .recorded = true,
+    return {.routes = bind(public_routes(), services_),
+            .parameters = parameter_patterns(),
+            .is_recorded = true,
             .max_connections = connections_,
-            .patience = live_.get()->idle_timeout,
-            .stream = [this](StreamCall call) { return stream(std::move(call), stream_host()); },
+            .idle_timeout = live_.get()->idle_timeout,
             .tls = tls_,
             .max_connections_per_address = live_.get()->max_connections_per_address > 0
                                                ? live_.get()->max_connections_per_address
@@ -262,17 +279,16 @@ class Daemon {
   }
 
   HttpOptions admin_options() {
-    return {.routes = admin_routes(),
-            .recorded = false,
+    return {.routes = bind(admin_routes(), services_),
+            .is_recorded = false,
             .max_connections = kAdminConnections,
-            .patience = live_.get()->idle_timeout,
-            .stream = {}};
+            .idle_timeout = live_.get()->idle_timeout};
   }
 
-  Expected<void> bind(HttpServer& server, const Endpoint& endpoint,
-                      const std::filesystem::path& port_file, std::string_view what) {
+  Expected<void> listen(HttpServer& server, const Endpoint& endpoint,
+                        const std::filesystem::path& port_file, std::string_view what) {
     const auto port = server.listen(endpoint);
-    if (!port) return what.empty() ? Unexpected(port.error()) : of_admin(port.error());
+    if (!port) return what.empty() ? tl::unexpected(port.error()) : of_admin(port.error());
     if (auto written = write_port_file(port_file, *port); !written) return written;
     events_.event(Severity::kInfo, fmt::format("{}listening on {}", what,
                                                url_of(endpoint, *port, what.empty() && tls_)));
@@ -288,16 +304,18 @@ class Daemon {
   void wait_for_reload() {
     reload_signals_.async_wait([this](const boost::system::error_code& error, int signal) {
       if (error) return;
-      if (signal == SIGHUP && at_terminal_ && ::isatty(STDIN_FILENO) == 0) {  // it was closed
+      if (signal == SIGHUP && at_terminal_ &&
+          ::isatty(STDIN_FILENO) == 0) {  // the terminal was closed
         signals_.cancel();
         return drain();
       }
-      wait_for_reload();  // first, as what follows may throw
+      wait_for_reload();  // first, as the calls below may throw
       signal == SIGHUP ? reload() : reopen_log(live_.get()->access_log);
     });
   }
 
-  // Reads the configuration again. What can fail comes first: a fault leaves all as it was.
+  // Reads the configuration again. The steps that can fail come first, so that an error changes
+  // nothing.
   void reload() {
     tell_service_manager(ServicePhase::kReloading);
     if (const auto done = try_reload(); !done) {
@@ -309,16 +327,16 @@ class Daemon {
 
   Expected<void> try_reload() {
     const auto fresh = configuration_.reread();
-    if (!fresh) return Unexpected(fresh.error());
-    auto next = vitrine::reload(configuration_.line, *fresh);
-    if (!next) return Unexpected(next.error());
+    if (!fresh) return tl::unexpected(fresh.error());
+    auto next = vitrine::server::reload(configuration_.line, *fresh);
+    if (!next) return tl::unexpected(next.error());
     if (auto opened = access_log_.reopen(next->line.settings.access_log); !opened) return opened;
     configuration_.line = std::move(next->line);
     live_.replace(configuration_.line.settings);
     apply_limits();
     events_.event(Severity::kInfo, "configuration read again; new: " + list_keys(next->changed));
     if (!next->waiting.empty()) {
-      events_.event(Severity::kWarning, "restart to have the new " + list_keys(next->waiting));
+      events_.event(Severity::kWarning, "restart to apply the new " + list_keys(next->waiting));
     }
     return {};
   }
@@ -335,10 +353,11 @@ class Daemon {
   void reopen_log(const std::filesystem::path& file) {
     const auto opened = access_log_.reopen(file);
     events_.event(opened ? Severity::kInfo : Severity::kError,
-                  opened ? "access log opened anew" : opened.error().message);
+                  opened ? "access log reopened" : opened.error().message);
   }
 
-  // Connections and workers both have to get on, or the service manager starts the daemon anew.
+  // Tells the service manager at intervals that the daemon is alive. If the connections' threads or
+  // the workers make no progress, these messages stop and the service manager restarts the daemon.
   void keep_watchdog() {
     const auto interval = watchdog_interval();
     if (!interval) return;
@@ -346,15 +365,15 @@ class Daemon {
     watchdog_.async_wait([this](const boost::system::error_code& error) {
       if (error) return;
       keep_watchdog();
-      asio::post(workers_.executor(Place::kWorker, ""), [] { tell_alive(); });
+      asio::post(workers_.executor(Executor::kWorker, ""), [] { tell_alive(); });
     });
   }
 
   void drain() {
     services_.ready = false;
-    reload_signals_.cancel();  // which are of no use any more, and are not heeded
+    reload_signals_.cancel();  // reload signals are ignored from now on
     tell_service_manager(ServicePhase::kStopping);
-    events_.event(Severity::kInfo, "stopping: finishing what is under way");
+    events_.event(Severity::kInfo, "stopping: finishing open transfers");
     signals_.async_wait([this](const boost::system::error_code& error, int) {
       if (!error) io_.stop();
     });
@@ -362,17 +381,19 @@ class Daemon {
     deadline_.async_wait([this](const boost::system::error_code& error) {
       if (!error) io_.stop();
     });
-    // Meanwhile, so that laser and motor are off soon: what scans goes on at the next start.
-    asio::post(workers_.executor(Place::kDevice, ""), [this] { scans_.stop(); });
+    // Stops scans while connections drain, so that laser and motor are switched off soon. Scans
+    // resume at the next start.
+    asio::post(workers_.executor(Executor::kDevice, ""), [this] { scans_.stop(); });
     public_.drain([this] { io_.stop(); });
   }
 
-  Configuration configuration_;  // of control_, once signals are awaited
+  // Once the daemon waits for signals, used only on control_.
+  Configuration configuration_;
   LiveSettings live_;
-  const std::shared_ptr<LiveTls> tls_;  // null: without TLS
+  const std::shared_ptr<LiveTls> tls_;  // null if the daemon does not use TLS
   const bool at_terminal_ = ::isatty(STDIN_FILENO) == 1;
   const Installation installation_;
-  const DataFolderLock lock_;  // of the data folder
+  const DataFolderLock lock_;
   Log access_log_;
   const std::unique_ptr<ScannerClaims> claims_;
   const Log events_ = Log::to_stderr();
@@ -386,7 +407,6 @@ class Daemon {
   ExportCache exports_;
   const WebPages pages_;
   Metrics metrics_;
-  Crowd crowd_;
   Authenticator tokens_;
   Services services_;
   const std::uint32_t connections_;
@@ -395,7 +415,7 @@ class Daemon {
   Workers workers_;
   HttpServer public_;
   HttpServer admin_;
-  asio::strand<asio::io_context::executor_type> control_;  // of what follows
+  asio::strand<asio::io_context::executor_type> control_;  // runs the handlers of the members below
   asio::signal_set signals_;
   asio::signal_set reload_signals_;
   asio::steady_timer deadline_;
@@ -414,17 +434,23 @@ int print(const std::string& text) {
 }
 
 std::span<const std::filesystem::path> scanners_of(const Settings& settings) {
-  if (!settings.roles.scan) return {};
+  if (!settings.roles.scans) return {};
   return settings.scanners;
 }
 
 int serve(Configuration configuration) {
   const Settings& settings = configuration.line.settings;
-  if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
+  // Checks the settings first, so that a wrong setting is reported even if another program uses the
+  // port.
   auto tls = open_tls(settings);
   if (!tls) return report(tls.error());
+  // Checks the files; uses no device.
+  if (const auto valid = open_scanners(scanners_of(settings), {}); !valid)
+    return report(valid.error());
+  if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
   if (const auto made = make_data_folder(settings.data); !made) return report(made.error());
-  auto lock = lock_data_folder(settings.data);  // before another daemon's catalogue is migrated
+  // Locks the folder before open_installation(), which may migrate the catalogue.
+  auto lock = lock_data_folder(settings.data);
   if (!lock) return report(lock.error());
   auto installation = open_installation(place_of(settings));
   if (!installation) return report(installation.error());
@@ -446,7 +472,8 @@ int serve(Configuration configuration) {
 int check(const Settings& settings) {
   if (const auto usable = check_paths(settings); !usable) return report(usable.error());
   if (const auto tls = open_tls(settings); !tls) return report(tls.error());
-  if (const auto scanners = open_scanners(settings.scanners, {}); !scanners)  // uses no device
+  // Checks the files; uses no device.
+  if (const auto scanners = open_scanners(settings.scanners, {}); !scanners)
     return report(scanners.error());
   return print("the configuration is valid\n");
 }
@@ -474,4 +501,4 @@ int run_daemon(std::span<const std::string_view> arguments,
   return kExitDone;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -14,30 +14,32 @@
 
 #include "codec/core/sha256.h"
 #include "codec/files/read_file.h"
-#include "server/catalogue/model_id.h"
+#include "server/catalogue/id.h"
 #include "server/store/installation.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// The same for as long as the file stays where it is: a copy is another file, or on another
-// machine.
+// Returns a hash of the file's inode and the machine's ID. A copy of the file gives another hash,
+// since it has another inode or is on another machine.
 std::string whereabouts(const FileDescriptor& file) {
   struct stat status {};
   ::fstat(file.get(), &status);
-  const auto machine = read_file("/etc/machine-id", 64);  // a container has none
+  const auto machine = read_file("/etc/machine-id", 64);  // a container may have no machine ID
   std::string place = fmt::format("{} ", status.st_ino);
   if (machine) place.append(machine->begin(), machine->end());
   return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(place.data()), place.size()}));
 }
 
-// "ID PLACE" as the file has it; nothing where it is new.
+// Returns the file's content: the daemon's ID and the result of whereabouts() when the file was
+// written, which is empty in files of earlier versions. Returns nullopt if the file has no valid
+// ID.
 std::optional<std::pair<std::string, std::string>> kept_in(const FileDescriptor& file) {
   char text[128] = {};
   const ssize_t length = ::pread(file.get(), text, sizeof text - 1, 0);
   const std::string_view all(text, static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
   const auto id = all.substr(0, all.find(' '));
-  if (!ModelId::parse(id)) return std::nullopt;
+  if (!parse_ulid(id)) return std::nullopt;
   return std::pair(std::string(id), std::string(all.substr(std::min(id.size() + 1, all.size()))));
 }
 
@@ -70,12 +72,12 @@ Expected<DataFolderLock> lock_data_folder(const std::filesystem::path& folder) {
   const auto kept = kept_in(file);
   const std::string place = whereabouts(file);
   if (kept && kept->second == place) return DataFolderLock{std::move(file), kept->first};
-  // One that an earlier version has made has no place yet.
+  // A file with an ID but no place was written by an earlier version and is not a copy.
   const bool is_copy = kept && !kept->second.empty();
-  const std::string id = kept && !is_copy ? kept->first : ModelId::generate().to_string();
+  const std::string id = kept && !is_copy ? kept->first : to_string(generate_ulid());
   if (auto written = keep(file, id + ' ' + place); !written)
     return refused(written.error().message);
   return DataFolderLock{std::move(file), id, is_copy};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

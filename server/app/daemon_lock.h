@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two daemons never share a data folder by accident.
+// Ensures that no two daemons use the same data folder, and detects copied folders.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,17 @@
 #include "codec/core/expected.h"
 #include "codec/files/file_descriptor.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct DataFolderLock {
   FileDescriptor file;
-  std::string id;        // of the daemon of this folder: the same at its next start
-  bool is_copy = false;  // of another daemon's folder, whose id this one does not take
+  std::string id;        // ID of the daemon; stays the same when the daemon restarts
+  bool is_copy = false;  // whether the folder is a copy of another daemon's; `id` is then new
 };
 
-// Holds `folder`, which exists, for this process until the result is gone, however the process
-// ends. Fails with kState where another daemon has it, kIo where the file system refuses.
+// Locks an existing folder. The lock lasts until the result is destroyed or the process ends for
+// any reason. Fails with kState if another daemon holds the lock, and with kIo if the file system
+// refuses.
 Expected<DataFolderLock> lock_data_folder(const std::filesystem::path& folder);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

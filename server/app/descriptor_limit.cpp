@@ -5,10 +5,11 @@
 
 #include <algorithm>
 
-namespace vitrine {
+namespace vitrine::server {
 
 std::uint32_t connections_within_limit(std::uint32_t wanted) {
-  constexpr rlim_t kOthers = 512;  // 256 models, 64 admin connections, and the rest
+  // Descriptors kept for 256 models, 64 admin connections and other files.
+  constexpr rlim_t kOthers = 512;
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
   const rlim_t needed = wanted + kOthers;
@@ -22,4 +23,4 @@ std::uint32_t connections_within_limit(std::uint32_t wanted) {
   return static_cast<std::uint32_t>(std::min<rlim_t>(wanted, fitting));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many connections the process has file descriptors for.
+// Adapts the number of connections to the process's limit on file descriptors.
 #pragma once
 
 #include <cstdint>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Raises the process's limit on descriptors as far as `wanted` connections need it and the system
-// allows, and returns how many of them fit, at least 1. Open models, the catalogue and the logs
-// have their share first: a flood of connections must not keep a model from being opened.
+// Raises the process's descriptor limit as far as `wanted` connections need and the system allows.
+// Returns how many connections fit, at least 1. Reserves descriptors for models, the catalogue and
+// the logs, so that a flood of connections does not prevent a model from being opened.
 std::uint32_t connections_within_limit(std::uint32_t wanted);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -4,16 +4,16 @@
 
 #include "codec/files/file_descriptor.h"
 #include "server/app/daemon.h"
-#include "server/jobs/build_child.h"
+#include "server/sandbox/build_child.h"
 
 extern char** environ;
 
 int main(int argc, char** argv) {
   vitrine::keep_standard_streams();
   const std::vector<std::string_view> arguments(argv + 1, argv + argc);
-  vitrine::become_build_child(arguments);
+  vitrine::server::become_build_child(arguments);
   std::vector<std::string_view> environment;
   for (char** entry = environ; *entry != nullptr; ++entry)
     environment.emplace_back(*entry);
-  return vitrine::run_daemon(arguments, environment);
+  return vitrine::server::run_daemon(arguments, environment);
 }

@@ -5,7 +5,7 @@
 
 #include "codec/files/atomic_file.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 Expected<void> write_port_file(const std::filesystem::path& file, std::uint16_t port) {
   if (file.empty()) return {};
@@ -14,4 +14,4 @@ Expected<void> write_port_file(const std::filesystem::path& file, std::uint16_t 
                                {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

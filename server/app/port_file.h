@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells others which port was bound.
+// Writes the bound port to a file for other programs.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,10 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Writes the port and a newline; the file appears whole or not at all. An empty path does nothing.
+// Writes the port and a newline. Other programs never see an incomplete file. Returns at once
+// if the path is empty.
 Expected<void> write_port_file(const std::filesystem::path& file, std::uint16_t port);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -6,10 +6,11 @@
 
 #include <string>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// systemd compares the time with that of its own signal (Type=notify-reload).
+// Returns the message that reports a reload. It contains the present time, which systemd compares
+// with the time at which it sent the reload signal (Type=notify-reload).
 std::string reloading() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
@@ -35,4 +36,4 @@ void tell_alive() {
   ::sd_notify(0, "WATCHDOG=1");
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What systemd is told (sd_notify(3)); where it has not started this process, nobody is told.
+// Notifies systemd of the state of the service (sd_notify(3)). Without systemd, the functions have
+// no effect.
 #pragma once
 
 #include <chrono>
 #include <optional>
 
-namespace vitrine {
+namespace vitrine::server {
 
 enum class ServicePhase { kReady, kReloading, kStopping };
 
 void tell_service_manager(ServicePhase phase);
 
-// How often it wants to hear that the service is alive, halved, so that one delay costs nothing;
-// nothing where it does not watch.
+// Returns half of systemd's watchdog interval, so that one delayed notification does no harm.
+// Returns nullopt if systemd does not watch the service.
 std::optional<std::chrono::microseconds> watchdog_interval();
 void tell_alive();
 
-}  // namespace vitrine
+}  // namespace vitrine::server

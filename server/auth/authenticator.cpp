@@ -7,7 +7,7 @@
 
 #include "server/auth/token.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::size_t kMaxLabel = 200;
@@ -22,7 +22,7 @@ bool is_printable(std::string_view text) {
   return std::ranges::none_of(text, [](unsigned char c) { return c < ' ' || c == 0x7f; });
 }
 
-// Takes as long wherever the two differ.
+// Compares in constant time: the duration does not depend on where the two hashes differ.
 bool are_equal(const Sha256& a, const Sha256& b) {
   volatile std::uint8_t difference = 0;  // keeps the compiler from leaving the loop early
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -35,13 +35,13 @@ bool are_equal(const Sha256& a, const Sha256& b) {
 Expected<NewToken> create_token(Catalogue& catalogue, Role role, std::string label) {
   if (label.size() > kMaxLabel || !is_printable(label))
     return fail(ErrorCode::kBadInput, "the label is not one line of at most 200 bytes; shorten it");
-  NewToken token{ModelId::generate(), generate_token()};
+  NewToken token{TokenId::generate(), generate_token()};
   const auto added = catalogue.add_token({.id = token.id,
                                           .role = role,
                                           .hash = *token_hash(token.text),
                                           .label = std::move(label),
                                           .created = now()});
-  if (!added) return Unexpected(added.error());
+  if (!added) return tl::unexpected(added.error());
   return token;
 }
 
@@ -57,15 +57,15 @@ Expected<std::optional<Caller>> Authenticator::find(std::string_view text, Clock
   return ask(*hash, now);
 }
 
-std::optional<Caller> Authenticator::held(std::string_view text, Clock::time_point now) {
+std::optional<Caller> Authenticator::cached(std::string_view text, Clock::time_point now) {
   const auto hash = token_hash(text);
-  return hash ? held(*hash, now) : std::nullopt;
+  return hash ? cached(*hash, now) : std::nullopt;
 }
 
 Expected<bool> Authenticator::is_in_force(const Caller& caller, Clock::time_point now) {
-  if (held(caller.hash, now)) return true;
+  if (cached(caller.hash, now)) return true;
   const auto found = ask(caller.hash, now);
-  if (!found) return Unexpected(found.error());
+  if (!found) return tl::unexpected(found.error());
   return found->has_value();
 }
 
@@ -82,7 +82,7 @@ Expected<std::optional<Caller>> Authenticator::ask(const Sha256& hash, Clock::ti
     forgotten = forgotten_;
   }
   const auto tokens = catalogue_.tokens_like(hash);
-  if (!tokens) return Unexpected(tokens.error());
+  if (!tokens) return tl::unexpected(tokens.error());
   for (const TokenRecord& token : *tokens) {
     if (!are_equal(token.hash, hash)) continue;
     const Caller caller{token.id, token.role, token.hash};
@@ -92,7 +92,7 @@ Expected<std::optional<Caller>> Authenticator::ask(const Sha256& hash, Clock::ti
   return std::nullopt;
 }
 
-std::optional<Caller> Authenticator::held(const Sha256& hash, Clock::time_point now) {
+std::optional<Caller> Authenticator::cached(const Sha256& hash, Clock::time_point now) {
   const std::scoped_lock lock(mutex_);
   const auto found = held_.find(hash);
   if (found == held_.end() || now - found->second.asked >= kMemory) return std::nullopt;
@@ -109,4 +109,4 @@ void Authenticator::remember(const Caller& caller, Clock::time_point now, std::u
   held_[caller.hash] = {caller, now};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tokens: who may call, and as what.
+// Authenticates the callers of the API by their tokens and returns their roles.
 #pragma once
 
 #include <chrono>
@@ -13,24 +13,25 @@
 #include "server/auth/throttle.h"
 #include "server/catalogue/catalogue.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct Caller {
-  ModelId token;  // its id, which is no secret
+  TokenId token;  // ID of the token, which is not secret
   Role role = Role::kNone;
-  Sha256 hash{};  // of its text
+  Sha256 hash{};  // SHA-256 of the token's text
 };
 
 struct NewToken {
-  ModelId id;
-  std::string text;  // shown once, stored nowhere
+  TokenId id;
+  std::string text;  // shown once to its creator and never stored
 };
 
-// kBadInput where the label is not one short line, kIo where the catalogue refuses.
+// Creates a token and adds it to the catalogue. kBadInput if the label is not one short line, kIo
+// if the catalogue fails.
 Expected<NewToken> create_token(Catalogue& catalogue, Role role, std::string label);
 
-// Whose tokens were in force is remembered for kMemory: as long may one that another process
-// revokes still open doors. Thread-safe.
+// Caches each token in force (not revoked) for kMemory. A token that another process revokes may
+// therefore be accepted for that long. Thread-safe.
 class Authenticator {
  public:
   using Clock = std::chrono::steady_clock;
@@ -38,43 +39,46 @@ class Authenticator {
 
   explicit Authenticator(Catalogue& catalogue) : catalogue_(catalogue) {}
 
-  // Whose token `text` is; nothing where it is nobody's. Asks the catalogue; kIo where that
-  // refuses.
+  // Looks up the token `text` in the catalogue. Returns its caller, or nullopt if no such token is
+  // in force. kIo if the catalogue fails.
   Expected<std::optional<Caller>> find(std::string_view text, Clock::time_point now = Clock::now());
 
-  // The same from memory. Nothing where it has to be asked; when half of kMemory is over one is
-  // told so, and the others need not wait.
-  std::optional<Caller> held(std::string_view text, Clock::time_point now = Clock::now());
+  // Looks up the token `text` in the cache. Returns nullopt if the caller must use find(). Once
+  // half of kMemory has passed, one call returns nullopt, so that its caller refreshes the entry
+  // while other calls still use the cache.
+  std::optional<Caller> cached(std::string_view text, Clock::time_point now = Clock::now());
 
-  // Whether the token has not been revoked since. kIo where the catalogue refuses.
+  // Whether the token is still in force. kIo if the catalogue fails.
   Expected<bool> is_in_force(const Caller& caller, Clock::time_point now = Clock::now());
 
-  // What this process has revoked is so from the next call on.
+  // Clears the cache. A token that this process has revoked is refused from the next call on.
   void forget();
 
-  // To be told of each token that was nobody's. A token in force is never throttled: behind a proxy
-  // operators and strangers may share an address, and an emergency stop must get through.
+  // The throttle of failed authentications. Callers with a token in force are never throttled:
+  // behind a proxy, operators and strangers may share an address, and an emergency stop must get
+  // through.
   Throttle& throttle() { return throttle_; }
 
  private:
   struct Memory {
     Caller caller;
-    Clock::time_point asked;      // when the catalogue was
-    bool is_being_asked = false;  // again
+    Clock::time_point asked;      // time of the last look-up in the catalogue
+    bool is_being_asked = false;  // whether a caller is repeating the look-up
   };
   struct HashOfHash {
     std::size_t operator()(const Sha256& hash) const noexcept;
   };
 
   Expected<std::optional<Caller>> ask(const Sha256& hash, Clock::time_point now);
-  std::optional<Caller> held(const Sha256& hash, Clock::time_point now);
+  std::optional<Caller> cached(const Sha256& hash, Clock::time_point now);
   void remember(const Caller& caller, Clock::time_point now, std::uint64_t forgotten);
 
   Catalogue& catalogue_;
   Throttle throttle_;
-  std::mutex mutex_;             // guards what follows
-  std::uint64_t forgotten_ = 0;  // how often: what was asked before is no news
+  std::mutex mutex_;  // guards the members below
+  // Number of forget() calls; look-ups begun before the last call are stale.
+  std::uint64_t forgotten_ = 0;
   std::unordered_map<Sha256, Memory, HashOfHash> held_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

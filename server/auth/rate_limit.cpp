@@ -6,15 +6,15 @@
 #include <functional>
 #include <random>
 
-namespace vitrine {
+namespace vitrine::server {
 
 RateLimit::RateLimit(std::uint32_t rate)
     : rate_(rate), salt_(std::uint64_t{std::random_device{}()} << 32 | std::random_device{}()) {}
 
 std::chrono::seconds RateLimit::take(std::string_view who, Clock::time_point now) {
   if (rate_ == 0) return {};
-  const std::uint64_t hash = (std::hash<std::string_view>{}(who) ^ salt_) *
-                             0x9e3779b97f4a7c15ULL;  // the multiplication mixes into the high bits
+  // The multiplication mixes all bits into the high ones.
+  const std::uint64_t hash = (std::hash<std::string_view>{}(who) ^ salt_) * 0x9e3779b97f4a7c15ULL;
   const std::scoped_lock lock(mutex_);
   Budget& budget = budgets_[hash >> 52];
   const double most = rate_ * kBurst;
@@ -27,4 +27,4 @@ std::chrono::seconds RateLimit::take(std::string_view who, Clock::time_point now
   return std::chrono::seconds(std::max(1L, std::lround(std::ceil((1 - calls) / rate_))));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often each token or address may call, in memory that does not grow with their number.
+// Limits the rate of calls of each token or address. Uses a fixed amount of memory.
 #pragma once
 
 #include <array>
@@ -8,29 +8,30 @@
 #include <mutex>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Thread-safe. Each has a budget that fills up by `rate` calls a second to `rate` * kBurst calls.
-// Those whose (salted) hashes collide share theirs.
+// A token bucket for each token or address. A budget grows by `rate` calls per second, up to `rate`
+// * kBurst calls. Tokens and addresses whose salted hashes collide share a budget. Thread-safe.
 class RateLimit {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr double kBurst = 10;  // seconds' worth that may come at once
+  static constexpr double kBurst = 10;  // seconds' worth of calls that may be made at once
 
-  explicit RateLimit(std::uint32_t rate);  // 0: no limit
+  explicit RateLimit(std::uint32_t rate);  // `rate`: calls per second; 0: no limit
 
-  // Takes one call from the budget. Zero where there was one; else how long until there is.
+  // Takes one call from the budget of `who`. Returns zero, or the time until the next call is
+  // allowed.
   std::chrono::seconds take(std::string_view who, Clock::time_point now = Clock::now());
 
  private:
   struct Budget {
-    Clock::time_point since{};  // when it had `calls`; the start of time: it is full
+    Clock::time_point since{};  // time of the last change of `calls`; {}: the budget is full
     double calls = 0;
   };
   const double rate_;
   const std::uint64_t salt_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::array<Budget, 4096> budgets_{};
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

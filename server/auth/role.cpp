@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/auth/role.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 std::optional<Role> parse_role(std::string_view name) noexcept {
   for (const Role role : {Role::kViewer, Role::kOperator, Role::kAdmin}) {
@@ -15,4 +15,4 @@ std::string_view name_of(Role role) noexcept {
   return kRoleNames[static_cast<std::size_t>(role) - 1];
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of roles.
+// Converts roles from and to their names.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,11 @@
 
 #include "server/catalogue/catalogue.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 inline constexpr std::string_view kRoleNames[] = {"viewer", "operator", "admin"};
 
-std::optional<Role> parse_role(std::string_view name) noexcept;  // one of kRoleNames
-std::string_view name_of(Role role) noexcept;                    // "none" for kNone
+std::optional<Role> parse_role(std::string_view name) noexcept;  // nullopt if not in kRoleNames
+std::string_view name_of(Role role) noexcept;                    // returns "none" for kNone
 
-}  // namespace vitrine
+}  // namespace vitrine::server

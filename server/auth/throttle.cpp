@@ -4,16 +4,17 @@
 #include <functional>
 #include <random>
 
-namespace vitrine {
+namespace vitrine::server {
 
 Throttle::Throttle()
     : salt_(std::uint64_t{std::random_device{}()} << 32 | std::random_device{}()) {}
 
 std::chrono::seconds Throttle::failed(std::string_view address, Clock::time_point now) {
-  const std::uint64_t hash = (std::hash<std::string_view>{}(address) ^ salt_) *
-                             0x9e3779b97f4a7c15ULL;  // the multiplication mixes into the high bits
+  // The multiplication mixes all bits into the high ones.
+  const std::uint64_t hash =
+      (std::hash<std::string_view>{}(address) ^ salt_) * 0x9e3779b97f4a7c15ULL;
   const std::scoped_lock lock(mutex_);
-  Slot& slot = slots_[hash >> 52];
+  FailureCount& slot = slots_[hash >> 52];
   if (slot.failures == 0 || now - slot.start >= kWindow) slot = {now, 0};
   if (slot.failures < kFailures) {
     ++slot.failures;
@@ -22,4 +23,4 @@ std::chrono::seconds Throttle::failed(std::string_view address, Clock::time_poin
   return std::chrono::ceil<std::chrono::seconds>(slot.start + kWindow - now);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

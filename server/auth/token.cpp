@@ -7,19 +7,19 @@
 #include <array>
 #include <cstdlib>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::string_view kPrefix = "vtr_";
 constexpr std::string_view kDigits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-constexpr std::size_t kLength = 4 + 43;  // 258 bits carry 256
+constexpr std::size_t kLength = 4 + 43;  // "vtr_" and 43 digits of 6 bits for 256 bits
 
 }  // namespace
 
 std::string generate_token() {
   std::array<std::uint8_t, 32> bytes;
-  // Up to 256 bytes never fail and never come short once the machine has started.
+  // getrandom() always fills requests of up to 256 bytes once the machine has started.
   if (::getrandom(bytes.data(), bytes.size(), 0) != std::ssize(bytes)) std::abort();
   std::string text(kPrefix);
   std::uint32_t window = 0;
@@ -41,4 +41,4 @@ std::optional<Sha256> token_hash(std::string_view text) noexcept {
   return sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

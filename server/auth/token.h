@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of a token: "vtr_" and 32 random bytes in base64url without padding. Whoever knows it
-// has its role; the installation keeps its SHA-256 alone. The bytes are random, so that no salt and
-// no slow hash is needed.
+// The text of an access token: "vtr_" and 32 random bytes in base64url without padding. A client
+// that sends the text gets the token's role. The installation stores only the SHA-256 of the text.
+// The bytes are random, so neither a salt nor a slow hash is needed.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,12 @@
 
 #include "codec/core/sha256.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 std::string generate_token();
 
-// The hash of a presented token; nothing where the text has not the form of one.
+// Returns the SHA-256 of a token that a client has sent, or nullopt if the text does not have the
+// form of a token.
 std::optional<Sha256> token_hash(std::string_view text) noexcept;
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -16,12 +16,12 @@
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The archive and what is told of it.
+// The archive that is being written, the checksums of its files and the report.
 class Archive {
  public:
   explicit Archive(TarWriter tar) : tar_(std::move(tar)) {}
@@ -46,7 +46,7 @@ class Archive {
   Checksums sums_;
 };
 
-// A copy of the catalogue, gone with its companions at the end.
+// A temporary copy of the catalogue. The destructor removes the copy and SQLite's files beside it.
 struct Snapshot {
   explicit Snapshot(fs::path path) : file(std::move(path)) {}
   Snapshot(const Snapshot&) = delete;
@@ -58,7 +58,8 @@ struct Snapshot {
   const fs::path file;
 };
 
-// Open objects stay readable though they are taken away: so none is locked for long.
+// Objects open for reading. They stay readable even if the store removes them, so the store's lock
+// is needed only while they are opened.
 using Objects = std::map<Sha256, std::unique_ptr<Object>>;
 
 void allow_many_files() {
@@ -71,7 +72,7 @@ void allow_many_files() {
 Expected<void> open_object(const ObjectStore& store, const NamedFile& named, Objects& objects) {
   if (objects.contains(named.file)) return {};
   auto object = store.open(named.file);
-  if (!object) return Unexpected(object.error());
+  if (!object) return tl::unexpected(object.error());
   if (*object == nullptr) {
     return fail(ErrorCode::kState, fmt::format("the file of model {} is missing; publish it again",
                                                named.model.to_string()));
@@ -83,31 +84,32 @@ Expected<void> open_object(const ObjectStore& store, const NamedFile& named, Obj
 Expected<Objects> open_objects(const ObjectStore& store, const fs::path& snapshot,
                                BackupReport& report) {
   const auto catalogue = open_sqlite_catalogue(snapshot);
-  if (!catalogue) return Unexpected(catalogue.error());
+  if (!catalogue) return tl::unexpected(catalogue.error());
   const auto files = (*catalogue)->files();
-  if (!files) return Unexpected(files.error());
+  if (!files) return tl::unexpected(files.error());
   Objects objects;
   for (const NamedFile& file : *files) {
-    if (auto opened = open_object(store, file, objects); !opened) return Unexpected(opened.error());
+    if (auto opened = open_object(store, file, objects); !opened)
+      return tl::unexpected(opened.error());
   }
   report.models = models_in(*files);
   return objects;
 }
 
-// The catalogue and the objects that it names, as they are at one moment.
+// Copies the catalogue to `snapshot` and opens the objects that it names, all as of one moment.
 Expected<Objects> freeze(const fs::path& data, const fs::path& snapshot, BackupReport& report) {
   auto store = FileStore::open(data / "objects");
-  if (!store) return Unexpected(store.error());
+  if (!store) return tl::unexpected(store.error());
   const auto lock = store->lock();
-  if (!lock) return Unexpected(lock.error());
+  if (!lock) return tl::unexpected(lock.error());
   if (auto copied = snapshot_sqlite(data / kCatalogueFile, snapshot); !copied)
-    return Unexpected(copied.error());
+    return tl::unexpected(copied.error());
   return open_objects(*store, snapshot, report);
 }
 
 Expected<void> add_object(Archive& archive, const Sha256& name, const Object& object) {
   const auto bytes = object.read(0, object.size());
-  if (!bytes) return Unexpected(bytes.error());
+  if (!bytes) return tl::unexpected(bytes.error());
   const std::string hex = to_hex(name);
   if (sha256(*bytes) != name) {
     return fail(ErrorCode::kState,
@@ -117,7 +119,8 @@ Expected<void> add_object(Archive& archive, const Sha256& name, const Object& ob
                      *bytes);
 }
 
-// What is being written there has a name that begins with a dot.
+// Adds the files of all scans. Leaves out files whose names begin with a dot, which are still being
+// written.
 Expected<void> add_scans(Archive& archive, const fs::path& data) {
   std::error_code error;
   fs::recursive_directory_iterator at(data / "scans", error);
@@ -125,8 +128,8 @@ Expected<void> add_scans(Archive& archive, const fs::path& data) {
     const bool is_file = fs::is_regular_file(at->symlink_status());
     if (!is_file || at->path().filename().string().starts_with('.')) continue;
     const auto bytes = read_file(at->path(), TarReader::kMaxFile);
-    if (!bytes && !fs::exists(at->path())) continue;  // removed meanwhile
-    if (!bytes) return Unexpected(bytes.error());
+    if (!bytes && !fs::exists(at->path())) continue;  // skips a file that was removed meanwhile
+    if (!bytes) return tl::unexpected(bytes.error());
     const std::string name = at->path().lexically_relative(data).generic_string();
     if (auto added = archive.add(name, *bytes); !added) return added;
   }
@@ -139,22 +142,23 @@ Expected<void> add_scans(Archive& archive, const fs::path& data) {
 
 Expected<BackupReport> back_up(const fs::path& data, const fs::path& file) {
   auto tar = TarWriter::create(file);
-  if (!tar) return Unexpected(tar.error());
+  if (!tar) return tl::unexpected(tar.error());
   allow_many_files();
   Archive archive(std::move(*tar));
   const Snapshot snapshot(folder_of(file) / fmt::format(".catalogue.{}.part", ::getpid()));
   const auto objects = freeze(data, snapshot.file, archive.report);
-  if (!objects) return Unexpected(objects.error());
+  if (!objects) return tl::unexpected(objects.error());
   for (const auto& [name, object] : *objects) {
-    if (auto added = add_object(archive, name, *object); !added) return Unexpected(added.error());
+    if (auto added = add_object(archive, name, *object); !added)
+      return tl::unexpected(added.error());
   }
-  if (auto added = add_scans(archive, data); !added) return Unexpected(added.error());
+  if (auto added = add_scans(archive, data); !added) return tl::unexpected(added.error());
   const auto catalogue = read_file(snapshot.file, TarReader::kMaxFile);
-  if (!catalogue) return Unexpected(catalogue.error());
+  if (!catalogue) return tl::unexpected(catalogue.error());
   if (auto added = archive.add(kCatalogueFile, *catalogue); !added)
-    return Unexpected(added.error());
-  if (auto finished = archive.finish(); !finished) return Unexpected(finished.error());
+    return tl::unexpected(added.error());
+  if (auto finished = archive.finish(); !finished) return tl::unexpected(finished.error());
   return archive.report;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

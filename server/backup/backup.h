@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// An installation as one file, and back. The file is a plain tar with the layout of a data folder,
-// its objects and scans first, then the catalogue, then SHA256SUMS of all of them, which
-// sha256sum(1) reads as well; so what is cut short has no catalogue.
+// Backs up an installation to one file, and restores an installation from such a file. The file is
+// a plain tar archive with the layout of a data folder. Objects and scans come first, then the
+// catalogue, then SHA256SUMS, a list of all files for sha256sum(1). A truncated file therefore has
+// no complete list.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +10,23 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct BackupReport {
-  std::uint64_t models = 0, files = 0, bytes = 0;  // bytes: of the files
+  std::uint64_t models = 0, files = 0, bytes = 0;  // bytes: total size of the files
 };
 
-// Writes the installation in `data` to `file`, which is whole or absent. A daemon may serve it
-// meanwhile: the backup holds it as it is at one moment, but for scans under way, which are as a
-// crash would leave them. Each object is read and must have its hash. Fails with kIo, and with
-// kState where the installation is damaged.
+// Backs up the installation in `data` to `file`, which is written completely or not at all. A
+// daemon may serve the installation during the backup. The backup shows the state at one moment,
+// except for scans in progress, which are stored as after a crash. Reads every object and checks
+// its hash. kIo if a file cannot be read or written, kState if the installation is damaged.
 Expected<BackupReport> back_up(const std::filesystem::path& data,
                                const std::filesystem::path& file);
 
-// Makes the installation of a backup in `data`, which is absent or empty: nothing is ever
-// overwritten. All hashes are checked, and the catalogue comes last. Fails with kBadInput where the
-// file is no backup, or damaged, and kIo; `data` is then as it was.
+// Restores a backup into `data`, which must be absent or empty, so that nothing is overwritten.
+// Checks all hashes and restores the catalogue last. On failure, `data` is left as it was.
+// kBadInput if the file is not a backup or is damaged, kIo if a file cannot be read or written.
 Expected<BackupReport> restore(const std::filesystem::path& file,
                                const std::filesystem::path& data);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::string_view kBetween = "  ";
@@ -36,4 +36,4 @@ std::optional<Checksums> parse_checksums(std::span<const std::uint8_t> bytes) {
   return sums;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

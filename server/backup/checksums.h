@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names and hashes of a backup's files, as sha256sum(1) writes and checks them.
+// Reads and writes the list of a backup's files with their hashes, in the format of sha256sum(1).
 #pragma once
 
 #include <map>
@@ -10,16 +10,16 @@
 
 #include "codec/core/sha256.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 inline constexpr std::string_view kChecksums = "SHA256SUMS";
 
-// By the path in the archive.
+// SHA-256 of each file by its path in the archive.
 using Checksums = std::map<std::string, Sha256>;
 
 std::string to_text(const Checksums& sums);
 
-// Nothing where a line is none, or a name comes twice.
+// Returns nullopt if a line is malformed or a name occurs twice.
 std::optional<Checksums> parse_checksums(std::span<const std::uint8_t> text);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -7,16 +7,16 @@
 
 #include "server/catalogue/copy_catalogue.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-using Files = std::map<Sha256, NamedFile>;  // each once, however many models name it
+using FilesByHash = std::map<Sha256, NamedFile>;  // each file once, even if several models name it
 
-Expected<Files> named_files(Installation& installation, MigrationReport& report) {
+Expected<FilesByHash> named_files(Installation& installation, MigrationReport& report) {
   const auto named = installation.catalogue->files();
   if (!named) return tl::unexpected(named.error());
   report.models = models_in(*named);
-  Files files;
+  FilesByHash files;
   for (const NamedFile& file : *named)
     files.emplace(file.file, file);
   return files;
@@ -36,9 +36,9 @@ Expected<void> copy_file(const ObjectStore& from, ObjectStore& to, const NamedFi
   return put ? Expected<void>() : tl::unexpected(put.error());
 }
 
-// Those that `done` does not hold yet.
+// Copies the files that `done` does not contain.
 Expected<void> copy_files(Installation& from, Installation& to, MigrationReport& report,
-                          Files& done, const MigrationProgress& progress) {
+                          FilesByHash& done, const MigrationProgress& progress) {
   const auto files = named_files(from, report);
   if (!files) return tl::unexpected(files.error());
   for (const auto& [name, file] : *files) {
@@ -55,7 +55,7 @@ bool are_same_folder(const Installation& a, const Installation& b) {
   return std::filesystem::equivalent(a.place.folder, b.place.folder, unknown);
 }
 
-// Then there is one lock for both.
+// Whether both installations store their files in the same folder. If so, one lock covers both.
 bool share_files(const Installation& a, const Installation& b) {
   return a.place.store.empty() && b.place.store.empty() && are_same_folder(a, b);
 }
@@ -67,14 +67,14 @@ bool are_same(const Installation& a, const Installation& b) {
 
 }  // namespace
 
-// One that was removed at the old place meanwhile stays behind at the new one until it is
-// collected.
+// If a file is removed from the source during the migration, its copy remains at the destination
+// until garbage collection removes it.
 Expected<MigrationReport> migrate(Installation& from, Installation& to,
                                   const MigrationProgress& progress) {
   if (are_same(from, to))
-    return fail(ErrorCode::kState, "both places are the same; name another to migrate to");
+    return fail(ErrorCode::kState, "source and destination are the same; name another destination");
   MigrationReport report;
-  Files done;
+  FilesByHash done;
   if (auto copied = copy_files(from, to, report, done, progress); !copied)
     return tl::unexpected(copied.error());
   const auto locked = from.store->lock();
@@ -91,4 +91,4 @@ Expected<MigrationReport> migrate(Installation& from, Installation& to,
   return report;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
+// Copies an installation to other storage while it is in use.
 #pragma once
 
 #include <functional>
 
 #include "server/store/installation.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct MigrationReport {
   std::size_t models = 0, files = 0;
-  std::uint64_t bytes = 0;  // of the files
+  std::uint64_t bytes = 0;  // total size of the files
 };
 
-// After each file: how many of how many are there.
+// Called after each copied file with the number of files copied so far and the number of all files.
 using MigrationProgress = std::function<void(std::size_t done, std::size_t all)>;
 
-// Copies an installation into another: the files first, each checked against its SHA-256 on both
-// sides, and then, while nobody may publish at either, those that have come meanwhile and the whole
-// catalogue in one transaction. Until then the other shows nothing of it, and whoever is
-// interrupted begins again: what is there already is checked and not sent again. Uploads and what
-// scans have left stay in their data folder. kState where the other is not new, kBadInput where a
-// file is damaged, kIo.
+// Copies the installation `from` into `to`. First copies the files and checks the SHA-256 of each
+// on both sides. Then blocks publishing on both sides, copies the files that were added meanwhile,
+// and copies the whole catalogue in one transaction. The destination shows no model before that.
+// After an interruption, call it again: files that exist are checked and not sent again. Copies
+// neither uploads nor the data of scans, which stay in their data folder. kState if the destination
+// contains other data, kBadInput if a file is damaged, kIo if a store or a catalogue fails.
 Expected<MigrationReport> migrate(Installation& from, Installation& to,
                                   const MigrationProgress& progress);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -12,14 +12,14 @@
 #include "server/store/file_store.h"
 #include "server/store/installation.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::string_view kObjects = "objects/", kScans = "scans/";
 
-// Not there, or empty but for what is at the root of a disk.
+// Succeeds if the folder does not exist, or is empty except for "lost+found".
 Expected<void> check_empty(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
@@ -33,7 +33,8 @@ Expected<void> check_empty(const fs::path& folder) {
                                           folder.string(), error.message()));
 }
 
-// The parts of a relative path that stays below where it begins.
+// Whether `path` is relative and no part of it is empty or starts with a dot, so that it cannot
+// lead out of its folder.
 bool is_plain_path(std::string_view path) {
   constexpr std::size_t kLongest = 1024;
   if (path.empty() || path.size() > kLongest || path.ends_with('/')) return false;
@@ -50,7 +51,7 @@ class Restoration {
   Restoration(fs::path file, fs::path data) : file_(std::move(file)), data_(std::move(data)) {}
 
   Expected<BackupReport> run() {
-    std::error_code error;  // is told by what follows
+    std::error_code error;  // an error also makes the next call fail
     const bool made = fs::create_directories(data_, error);
     auto done = unpack();
     if (!done) take_back(made);
@@ -65,21 +66,21 @@ class Restoration {
 
   Expected<BackupReport> unpack() {
     auto store = FileStore::open(data_ / "objects");
-    if (!store) return Unexpected(store.error());
+    if (!store) return tl::unexpected(store.error());
     auto tar = TarReader::open(file_);
-    if (!tar) return Unexpected(tar.error());
+    if (!tar) return tl::unexpected(tar.error());
     for (;;) {
       auto entry = tar->next();
-      if (!entry) return Unexpected(entry.error());
+      if (!entry) return tl::unexpected(entry.error());
       if (!*entry) break;
-      if (auto taken = take(**entry, *store); !taken) return Unexpected(taken.error());
+      if (auto taken = take(**entry, *store); !taken) return tl::unexpected(taken.error());
     }
-    if (auto same = compare(); !same) return Unexpected(same.error());
-    if (auto whole = check_models(*store); !whole) return Unexpected(whole.error());
+    if (auto same = compare(); !same) return tl::unexpected(same.error());
+    if (auto whole = check_models(*store); !whole) return tl::unexpected(whole.error());
     std::error_code error;
     fs::rename(unnamed(), data_ / kCatalogueFile, error);
     if (error) return damaged(kCatalogueFile, "cannot be put in place: " + error.message());
-    if (auto synced = sync_folder(data_); !synced) return Unexpected(synced.error());
+    if (auto synced = sync_folder(data_); !synced) return tl::unexpected(synced.error());
     return report_;
   }
 
@@ -95,23 +96,23 @@ class Restoration {
     if (entry.name == kCatalogueFile) return write_file_atomically(unnamed(), entry.bytes);
     if (entry.name.starts_with(kObjects)) return take_object(entry, store);
     if (entry.name.starts_with(kScans) && is_plain_path(entry.name)) return take_scan(entry);
-    return damaged(entry.name, "does not belong into a backup");
+    return damaged(entry.name, "does not belong in a backup");
   }
 
   Expected<void> take_object(const TarEntry& entry, ObjectStore& store) {
     Sha256 name{};
     const std::size_t last = entry.name.rfind('/') + 1;
     if (!from_hex(std::string_view(entry.name).substr(last), name))
-      return damaged(entry.name, "does not belong into a backup");
+      return damaged(entry.name, "does not belong in a backup");
     if (found_[entry.name] != name) return damaged(entry.name, "is damaged");
     const auto put = store.put(name, entry.bytes);
-    return put ? Expected<void>{} : Unexpected(put.error());
+    return put ? Expected<void>{} : tl::unexpected(put.error());
   }
 
   Expected<void> take_scan(const TarEntry& entry) {
     const fs::path path = data_ / entry.name;
     std::error_code error;
-    fs::create_directories(path.parent_path(), error);  // a fault is told by what follows
+    fs::create_directories(path.parent_path(), error);  // an error also makes the next call fail
     return write_file_atomically(path, entry.bytes);
   }
 
@@ -127,22 +128,22 @@ class Restoration {
     return {};
   }
 
-  // What the catalogue names is there.
+  // Checks that the store has every file that the catalogue names.
   Expected<void> check_models(const ObjectStore& store) {
     const auto catalogue = open_sqlite_catalogue(unnamed());
-    if (!catalogue) return Unexpected(catalogue.error());
+    if (!catalogue) return tl::unexpected(catalogue.error());
     const auto files = (*catalogue)->files();
-    if (!files) return Unexpected(files.error());
+    if (!files) return tl::unexpected(files.error());
     for (const NamedFile& named : *files) {
       const auto object = store.open(named.file);
-      if (!object) return Unexpected(object.error());
+      if (!object) return tl::unexpected(object.error());
       if (!*object) return damaged("the file of model " + named.model.to_string(), "is missing");
     }
     report_.models = models_in(*files);
     return {};
   }
 
-  // Where the catalogue waits until all else is there.
+  // The catalogue's temporary name, which it keeps until all other files are restored.
   fs::path unnamed() const { return data_ / ".catalogue.restored"; }
 
   void take_back(bool folder_too) const {
@@ -163,8 +164,8 @@ class Restoration {
 }  // namespace
 
 Expected<BackupReport> restore(const fs::path& file, const fs::path& data) {
-  if (auto empty = check_empty(data); !empty) return Unexpected(empty.error());
+  if (auto empty = check_empty(data); !empty) return tl::unexpected(empty.error());
   return Restoration(file, data).run();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -14,7 +14,7 @@
 #include "codec/files/atomic_file.h"
 #include "server/catalogue/private_file.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,12 +25,12 @@ struct FreeEntry {
 
 }  // namespace
 
-void TarWriter::Remove::operator()(fs::path* path) const {
+void TarWriter::RemoveFile::operator()(fs::path* path) const {
   ::unlink(path->c_str());
   delete path;
 }
 
-void TarWriter::Close::operator()(archive* handle) const {
+void TarWriter::FreeWriter::operator()(archive* handle) const {
   archive_write_free(handle);
 }
 
@@ -46,7 +46,7 @@ Unexpected TarWriter::refused(const char* why) const {
 }
 
 Expected<TarWriter> TarWriter::create(const fs::path& file) {
-  if (auto writable = check_writable(file); !writable) return Unexpected(writable.error());
+  if (auto writable = check_writable(file); !writable) return tl::unexpected(writable.error());
   fs::path temporary =
       folder_of(file) / fmt::format(".{}.{}.part", file.filename().string(), ::getpid());
   TarWriter writer(file, std::move(temporary));
@@ -84,7 +84,7 @@ Expected<void> TarWriter::finish() {
   return sync_folder(folder_of(file_));
 }
 
-void TarReader::Close::operator()(archive* handle) const {
+void TarReader::FreeReader::operator()(archive* handle) const {
   archive_read_free(handle);
 }
 
@@ -92,7 +92,7 @@ TarReader::TarReader(fs::path file, Handle handle)
     : file_(std::move(file)), handle_(std::move(handle)) {}
 
 Unexpected TarReader::damaged(const char* why) const {
-  return fail(ErrorCode::kBadInput, fmt::format("{} is no whole backup: {}; take another one",
+  return fail(ErrorCode::kBadInput, fmt::format("{} is not a complete backup: {}; use another one",
                                                 file_.string(), why == nullptr ? "" : why));
 }
 
@@ -119,11 +119,11 @@ Expected<std::optional<TarEntry>> TarReader::next() {
   const char* name = archive_entry_pathname(header);
   if (name == nullptr || archive_entry_filetype(header) != AE_IFREG ||
       archive_entry_hardlink(header) != nullptr)
-    return damaged("it holds something else than files");
+    return damaged("it contains entries that are not files");
   const auto size = static_cast<std::uint64_t>(std::max<la_int64_t>(archive_entry_size(header), 0));
   std::error_code unknown;
   if (size > kMaxFile || size > fs::file_size(file_, unknown))
-    return damaged("a file in it is longer than it can be");
+    return damaged("the stated length of a file is too large");
   TarEntry entry{name, std::vector<std::uint8_t>(size)};
   for (std::size_t at = 0; at < size;) {
     const la_ssize_t taken = archive_read_data(handle, entry.bytes.data() + at, size - at);
@@ -133,4 +133,4 @@ Expected<std::optional<TarEntry>> TarReader::next() {
   return entry;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

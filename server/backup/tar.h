@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tar archive (pax) of files that fit into memory, one after the other.
+// Reads and writes tar archives in the pax format. Each file in an archive must fit into memory.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 struct archive;
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Writes to a temporary file beside `file`, which is for its owner alone; finish() gives it its
-// name. All calls fail with kIo.
+// Writes an archive to a temporary file beside `file`, which only its owner can read. finish()
+// renames the temporary file to `file`. All functions fail with kIo.
 class TarWriter {
  public:
   static Expected<TarWriter> create(const std::filesystem::path& file);
@@ -27,42 +27,41 @@ class TarWriter {
   Expected<void> finish();
 
  private:
-  struct Remove {  // the temporary file, where it has not been renamed
+  struct RemoveFile {  // removes the temporary file unless it was renamed
     void operator()(std::filesystem::path* path) const;
   };
-  struct Close {
+  struct FreeWriter {
     void operator()(archive* handle) const;
   };
-  using Handle = std::unique_ptr<archive, Close>;
   TarWriter(std::filesystem::path file, std::filesystem::path temporary);
   Unexpected refused(const char* why) const;
 
   std::filesystem::path file_;
-  std::unique_ptr<std::filesystem::path, Remove> temporary_;
+  std::unique_ptr<std::filesystem::path, RemoveFile> temporary_;
   FileDescriptor fd_;
-  Handle handle_;
+  std::unique_ptr<archive, FreeWriter> handle_;
 };
 
 struct TarEntry {
-  std::string name;  // as it stands there: hostile text
+  std::string name;  // as stored in the archive; may be hostile
   std::vector<std::uint8_t> bytes;
 };
 
-// Safe on hostile bytes: fails with kBadInput where they are no tar, hold anything but regular
-// files, or a file of more than kMaxFile; kIo where the file cannot be opened.
+// Reads an archive, which may be hostile. kBadInput if it is not a tar archive, or contains entries
+// other than regular files, or a file larger than kMaxFile. kIo if the file cannot be opened.
 class TarReader {
  public:
   static constexpr std::uint64_t kMaxFile = std::uint64_t{4} << 30;
 
   static Expected<TarReader> open(const std::filesystem::path& file);
 
-  Expected<std::optional<TarEntry>> next();  // nothing at the end
+  Expected<std::optional<TarEntry>> next();  // nullopt after the last entry
 
  private:
-  struct Close {
+  struct FreeReader {
     void operator()(archive* handle) const;
   };
-  using Handle = std::unique_ptr<archive, Close>;
+  using Handle = std::unique_ptr<archive, FreeReader>;
   TarReader(std::filesystem::path file, Handle handle);
   Unexpected damaged(const char* why) const;
 
@@ -70,4 +69,4 @@ class TarReader {
   Handle handle_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

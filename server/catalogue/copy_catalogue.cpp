@@ -5,17 +5,17 @@
 
 #include <algorithm>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-using sql::Connection;
-using sql::Query;
+using sql::DatabaseConnection;
+using sql::ScopedStatement;
 
 struct Table {
   std::string_view name, key, columns;
 };
 
-// Each after those that it refers to.
+// The tables in the order of copying. A table comes after the tables that it refers to.
 constexpr Table kTables[] = {
     {"model", "id",
      "id, state, created, title, creator, rights, licence, unit, file, file_bytes, head_bytes, "
@@ -49,12 +49,13 @@ std::string insertion(const Table& table) {
                      table.columns, places, table.key, changes);
 }
 
-// The number of rows.
-std::int64_t copy_rows(Connection& from, Connection& to, const Table& table) {
-  const Query rows(from.prepare(fmt::format("SELECT {} FROM {}", table.columns, table.name)));
+// Copies all rows of a table. Returns the number of rows.
+std::int64_t copy_rows(DatabaseConnection& from, DatabaseConnection& to, const Table& table) {
+  const ScopedStatement rows(
+      from.prepare(fmt::format("SELECT {} FROM {}", table.columns, table.name)));
   std::int64_t copied = 0;
   for (; rows->step(); ++copied) {
-    const Query row(to.prepare(insertion(table)));
+    const ScopedStatement row(to.prepare(insertion(table)));
     for (int i = 0; i < count_columns(table); ++i)
       rows->bind_to(*row, i);
     row->step();
@@ -62,21 +63,22 @@ std::int64_t copy_rows(Connection& from, Connection& to, const Table& table) {
   return copied;
 }
 
-std::int64_t count_rows(Connection& connection, const Table& table) {
-  const Query row(connection.prepare(fmt::format("SELECT count(*) FROM {}", table.name)));
+std::int64_t count_rows(DatabaseConnection& connection, const Table& table) {
+  const ScopedStatement row(connection.prepare(fmt::format("SELECT count(*) FROM {}", table.name)));
   row->step();
   return row->integer(0);
 }
 
-Expected<void> copy_tables(Connection& from, Connection& to) {
+Expected<void> copy_tables(DatabaseConnection& from, DatabaseConnection& to) {
   sql::Transaction writing(to);
   for (const Table& table : kTables) {
     const std::int64_t copied = copy_rows(from, to, table);
     if (count_rows(to, table) != copied) {
-      return fail(ErrorCode::kState,
-                  fmt::format("the place to migrate to has a {} that the other has not; choose one "
-                              "that is new",
-                              table.name));
+      return fail(
+          ErrorCode::kState,
+          fmt::format("the destination already has a {} that the source does not have; choose "
+                      "a new destination",
+                      table.name));
     }
   }
   writing.commit();
@@ -90,8 +92,8 @@ Expected<void> copy_catalogue(sql::Database& from, sql::Database& to) {
     const auto reading = from.lease(), writing = to.lease();
     return copy_tables(*reading, *writing);
   } catch (const sql::Failure& failure) {
-    return sql::refused("a catalogue refuses", failure);
+    return sql::refused("cannot copy the catalogue", failure);
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// Copies a catalogue into another database.
 #pragma once
 
 #include "server/catalogue/sql.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Copies all of a catalogue, jobs and scans into another database, in one transaction: nobody sees
-// a part of it. What is there under the same ids is written over. kState where there is more than
-// that: it would be mixed. Fails with kIo, too, and kLimit where the disk is full.
+// Copies a whole catalogue, including jobs and scans, into another database. Uses one transaction,
+// so that no reader sees a partial copy. Overwrites rows with the same IDs. kState if the
+// destination contains rows that the source does not have, because the copy would mix two
+// catalogues. kIo if a database fails, kLimit if the disk is full.
 Expected<void> copy_catalogue(sql::Database& from, sql::Database& to);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+// A lock that only one of the daemons of an installation holds at a time.
 #pragma once
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// What one at a time of all who use an installation holds, until it is gone.
+// A lock that is held from its creation until the object is destroyed.
 class ExclusiveLock {
  public:
   virtual ~ExclusiveLock() = default;
 
-  // Fails (kIo) once it has been lost, and another may hold it: what was about to be done is not to
-  // be done.
+  // Succeeds if the lock is still held. kIo if it was lost and another daemon may hold it; the
+  // caller must then stop its work.
   virtual Expected<void> check() const = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

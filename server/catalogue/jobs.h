@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which jobs and scans there are, how far they have come, and which daemon works on which job: what
-// outlives a daemon.
+// The catalogue of jobs and scans. It stores the progress of each job and the daemon that works on
+// it. Its data survives restarts of the daemons.
 #pragma once
 
 #include <array>
@@ -13,16 +13,13 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/sha256.h"
-#include "server/catalogue/model_id.h"
+#include "server/catalogue/id.h"
 
-namespace vitrine {
-
-using JobId = ModelId;   // jobs and scans are named
-using ScanId = ModelId;  // as models are
+namespace vitrine::server {
 
 enum class JobKind : std::uint8_t { kScan = 0, kCalibrate = 1, kReprocess = 2, kPublish = 3 };
 
-// Whether it has the scanner for itself; all others share their time.
+// Whether a job of this kind needs the scanner exclusively. Jobs of other kinds run concurrently.
 constexpr bool needs_scanner(JobKind kind) {
   return kind == JobKind::kScan || kind == JobKind::kCalibrate;
 }
@@ -44,23 +41,27 @@ struct JobRecord {
   JobId id;
   JobKind kind = JobKind::kScan;
   JobState state = JobState::kQueued;
-  std::string scanner;  // its name; empty where none has to do with it
+  std::string scanner;  // name of the scanner; empty if the job needs none
   std::optional<ScanId> scan;
-  std::optional<ModelId> model;         // what came of it
-  std::string stage;                    // what it is at, in a word; empty before it starts
-  double progress = 0;                  // 0..1, of the whole job
-  std::string error;                    // one line; empty unless it failed
-  std::string parameters;               // JSON, for who runs it
-  std::int64_t created = 0, ended = 0;  // milliseconds since 1970, UTC; 0: not yet
-  std::string webhook = {};             // a URL that is told of its end; empty: none
-  std::uint32_t attempts = 0;           // how often it was begun since it last ended in order
-  std::uint64_t fence = 0;  // how often it was taken: who took it before changes nothing any more
+  std::optional<ModelId> model;  // the model that the job made
+  std::string stage;             // stage of the job, one word; empty until the job starts
+  double progress = 0;           // progress of the whole job, 0..1
+  std::string error;             // error message of one line; empty unless the job failed
+  std::string parameters;        // JSON, read by the task that runs the job
+  // Times in milliseconds since 1970, UTC. `ended` is 0 until the job ends.
+  std::int64_t created = 0, ended = 0;
+  std::string webhook = {};    // URL that is called when the job ends; empty: none
+  std::uint32_t attempts = 0;  // times that the job started since its task last returned
+  // Increases each time a daemon claims the job, or a client cancels it while no daemon works on
+  // it. A write with an earlier value is refused.
+  std::uint64_t fence = 0;
 
   bool operator==(const JobRecord&) const = default;
 };
 
-// 0..1: of all rows of the pictures those without a stripe, of the others those that are saturated,
-// and those that show two.
+// The quality of the camera's pictures of a scan, as shares of their rows from 0 to 1. `empty` is
+// the share of all rows that show no laser stripe. `saturated` and `doubled` are shares of the rows
+// that show a stripe: those that are saturated, and those that show two stripes.
 struct ScannedRows {
   double empty = 0, saturated = 0, doubled = 0;
 
@@ -69,130 +70,147 @@ struct ScannedRows {
 
 struct ScanEntry {
   ScanId id;
-  JobId job;  // the newest that scans; others make further models of it
+  JobId job;  // the newest job that measures the scan
   std::string scanner;
-  bool is_public = false;  // everybody may see it grow
+  bool is_public = false;  // whether the running scan is visible without a token
   std::string title;
   std::string parameters;   // JSON
-  int steps = 0, step = 0;  // of a turn; done so far
+  int steps = 0, step = 0;  // steps per revolution of the table; steps done
   std::uint64_t points = 0;
-  int calibration = 0;  // its number
+  int calibration = 0;  // number of the calibration that the scan uses
   std::optional<ModelId> model;
   std::int64_t created = 0;
-  std::optional<ScannedRows> rows;  // nothing: not known yet
-  // Names what was measured, here and in the folder that holds it: what another daemon has left of
-  // the scan has another name, and is not to be gone on with. Empty: an earlier version began it.
-  std::string turn = {};
+  std::optional<ScannedRows> rows;  // nullopt: not known yet
+  // The ID of the revolution of the table that the scan measures. The scan's data folder stores the
+  // ID of the revolution whose steps it contains. If the two differ, another daemon has measured
+  // the scan since, and the steps in the folder cannot be used. Empty if an earlier version of
+  // Vitrine began the scan.
+  std::string revolution = {};
 
   bool operator==(const ScanEntry&) const = default;
 };
 
-// The right of a job to change a model or a scan: until somebody else takes the job.
+// The right of a running job to change a model or a scan. It ends when another daemon claims the
+// job.
 struct JobClaim {
   JobId job;
   std::uint64_t fence = 0;  // JobRecord::fence
 };
 
-// A request that is to have its effect once, however often it is sent.
-struct OnceKey {
-  std::string key;   // the client's
-  Sha256 request{};  // of what it asked for
+// The idempotency key of a request. A request with a key takes effect only once, even if it is sent
+// several times.
+struct IdempotencyKey {
+  std::string key;   // the key as the client sent it
+  Sha256 request{};  // hash of the request's content
 };
 
-// Newest first.
+// A request for one page of the list of jobs or scans, newest first.
+template <class Id>
 struct PageOf {
-  std::optional<ModelId> after;  // the last of the page before
-  std::uint32_t limit = 50;      // 1..kMaxPage of catalogue.h
+  std::optional<Id> after;   // ID of the previous page's last entry
+  std::uint32_t limit = 50;  // 1..kMaxPage of catalogue.h
 };
 
-// How many jobs are in each state, in the order of JobState.
+// The number of jobs in each state, in the order of JobState.
 using JobCounts = std::array<std::uint64_t, 6>;
 
-// For how long a job is its holder's, by the database's clock.
+// A lease on a job or a scanner. It expires after `time` unless it is renewed. The database's clock
+// measures the time.
 struct Lease {
-  std::string holder;  // the same at the next start of the same daemon
+  std::string holder;  // ID of the daemon, which does not change when the daemon restarts
   std::chrono::milliseconds time;
 };
 
-// Who drives a scanner, or did last.
+// The daemon that drives a scanner, or drove it last.
 struct ScannerDriver {
   std::string scanner, holder;
-  std::string address;      // where other daemons reach it, "http://HOST:PORT"; empty: nowhere
-  bool is_current = false;  // its lease has not run out
+  // URL at which other daemons reach this daemon, "http://HOST:PORT". Empty if they cannot reach
+  // it.
+  std::string address;
+  bool is_current = false;  // whether the driver's lease is still valid
 };
 
-// Safe to use from several threads at once, and by several processes on the same data. Errors are
-// kIo where the database refuses, kLimit where the disk is full, kState as stated.
+// Safe to use from several threads at once, and by several processes on the same data. Errors: kIo
+// if the database fails, kLimit if the disk is full, kState as each function states.
 class JobCatalogue {
  public:
   virtual ~JobCatalogue() = default;
 
-  // Adds a job, and its scan where one is given or writes over the scan of that id, in one
-  // transaction. kState where the job's id or the key exists.
+  // Adds a job and, if `key` is given, its idempotency key. If `scan` is given, adds that scan, or
+  // replaces the scan with the same ID. Uses one transaction. kState if the job's ID or the key
+  // exists already.
   virtual Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
-                             const std::optional<OnceKey>& once) = 0;
+                             const std::optional<IdempotencyKey>& key) = 0;
 
-  // Write over the record of that id. kState where there is none, or somebody has taken or ended
-  // the job since, which for a scan is `by`. Where a job does not run afterwards, its lease ends.
+  // Replace the record of a job, or of a scan that the job `by` measures. The lease of a job ends
+  // unless the new state is kRunning. kState if the record does not exist, or if another daemon has
+  // claimed or ended the job since it was read.
   virtual Expected<void> update(const JobRecord& job) = 0;
   virtual Expected<void> update(const ScanEntry& scan, const JobClaim& by) = 0;
 
-  // Takes the job, which runs from now on, with another fence. Nothing where it does not wait, and
-  // no lease has run out: somebody else has it. That it is to be cancelled is still so.
+  // Claims a job: sets its state to running, increments its fence and starts a lease. Returns
+  // nullopt unless the job is queued, or is running with an expired lease. A cancellation that was
+  // requested before stays requested.
   virtual Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) = 0;
-  // Of those kinds that are to be taken, the oldest; at most `limit`. Those whose holder has let
-  // the lease run out are only of them where they are `overdue`, too.
+  // Returns the oldest jobs of these kinds that can be claimed, at most `limit`. Includes jobs
+  // whose lease has expired only if `overdue` is true.
   virtual Expected<std::vector<JobRecord>> waiting_jobs(std::span<const JobKind> kinds,
                                                         std::uint32_t limit, bool overdue) = 0;
-  // Has the lease begin anew and tells stage and progress. True: somebody wants the job ended.
-  // kState where somebody else has taken or ended it: then it is to be left alone.
+  // Renews the lease of a job and stores its stage and progress. Returns true if a cancellation was
+  // requested. kState if another daemon has claimed or ended the job; the caller must then abandon
+  // the job.
   virtual Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) = 0;
-  // Ends a job that nobody works on, at `now`; who has it learns of the wish when they renew. The
-  // job as it is then. kState where there is none, or it has ended.
+  // Cancels a job. If no daemon works on the job, ends it at time `now`. Otherwise the daemon that
+  // works on it receives the request when it renews its lease. Returns the changed job. kState if
+  // the job does not exist or has ended.
   virtual Expected<JobRecord> cancel(const JobId& id, std::int64_t now) = 0;
-  // Whatever job the holder had is to be taken: they are dead.
+  // Ends the leases of all jobs of `holder`, a daemon that no longer works on them.
   virtual Expected<void> drop_leases(const std::string& holder) = 0;
 
-  // Has the scanner be the holder's, whose new epoch is the result; nothing where it is another's
-  // whose lease goes on.
+  // Acquires a scanner for `lease.holder`. Each success begins a new epoch of the scanner, whose
+  // number is returned. Returns nullopt if another holder's lease is valid.
   virtual Expected<std::optional<std::uint64_t>> take_scanner(const std::string& scanner,
                                                               const Lease& lease,
                                                               const std::string& address) = 0;
-  // kState where a later epoch has begun.
+  // Renews the lease on a scanner. kState if a later epoch has begun.
   virtual Expected<void> renew_scanner(const std::string& scanner, std::uint64_t epoch,
                                        std::chrono::milliseconds lease) = 0;
-  // Others may take what scanners the holder had.
+  // Releases all scanners of `holder`.
   virtual Expected<void> drop_scanners(const std::string& holder) = 0;
   virtual Expected<std::vector<ScannerDriver>> scanner_drivers() = 0;
 
   virtual Expected<std::optional<JobRecord>> find_job(const JobId& id) = 0;
   virtual Expected<std::optional<ScanEntry>> find_scan(const ScanId& id) = 0;
-  virtual Expected<std::vector<JobRecord>> jobs(const PageOf& page) = 0;
-  virtual Expected<std::vector<ScanEntry>> scans(const PageOf& page) = 0;
-  virtual Expected<std::vector<JobRecord>> unfinished_jobs() = 0;  // oldest first
-  virtual Expected<std::vector<JobRecord>> paused_jobs() = 0;      // likewise
+  virtual Expected<std::vector<JobRecord>> jobs(const PageOf<JobId>& page) = 0;
+  virtual Expected<std::vector<ScanEntry>> scans(const PageOf<ScanId>& page) = 0;
+  // The next two functions return the oldest job first.
+  virtual Expected<std::vector<JobRecord>> unfinished_jobs() = 0;
+  virtual Expected<std::vector<JobRecord>> paused_jobs() = 0;
   virtual Expected<JobCounts> count_jobs() = 0;
 
-  // Those that have ended and whose webhooks have not been told so; oldest first.
-  virtual Expected<std::vector<JobRecord>> untold_jobs() = 0;
-  // Of those, a few that nobody else is to tell meanwhile.
-  virtual Expected<std::vector<JobRecord>> claim_untold(const Lease& lease) = 0;
-  // Has the lease on telling begin anew. kState where another is to tell it, or has.
-  virtual Expected<void> renew_untold(const JobId& id, const Lease& lease) = 0;
-  // The webhook was told, or nobody tries any more. kState where there is no such job.
-  virtual Expected<void> set_told(const JobId& id) = 0;
+  // Returns the jobs that have ended and whose webhooks have not been called yet, oldest first.
+  virtual Expected<std::vector<JobRecord>> unnotified_jobs() = 0;
+  // Claims up to 16 jobs that have ended and whose webhooks are neither called nor claimed, and
+  // returns these jobs. While the lease is valid, no other daemon calls their webhooks.
+  virtual Expected<std::vector<JobRecord>> claim_unnotified(const Lease& lease) = 0;
+  // Renews the lease on a job's webhook. kState if another daemon has claimed or called the
+  // webhook.
+  virtual Expected<void> renew_unnotified(const JobId& id, const Lease& lease) = 0;
+  // Records that a job's webhook was called or will not be tried again. kState if the job does not
+  // exist.
+  virtual Expected<void> set_notified(const JobId& id) = 0;
 
-  // The job that was added with this key, and the request of then.
+  // The job that was added with an idempotency key, and the hash of its request.
   struct Earlier {
     JobId job;
     Sha256 request{};
   };
-  virtual Expected<std::optional<Earlier>> find_once(const std::string& key) = 0;
+  virtual Expected<std::optional<Earlier>> find_key(const std::string& key) = 0;
 
-  // Takes away, in one transaction, the keys of jobs that were added before `keys_before` and the
-  // jobs that ended before `jobs_before`, both in milliseconds since 1970: but for jobs that have
-  // not ended, and those that a scan or a key still names. The number of jobs.
+  // Removes, in one transaction, the keys of ended jobs that were added before `keys_before` and
+  // the jobs that ended before `jobs_before`, both in milliseconds since 1970. Keeps jobs that have
+  // not ended and jobs that a scan or a key refers to. Returns the number of jobs removed.
   virtual Expected<std::size_t> forget(std::int64_t keys_before, std::int64_t jobs_before) = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

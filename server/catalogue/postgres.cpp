@@ -12,13 +12,14 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-namespace vitrine::postgres {
+namespace vitrine::server::postgres {
 namespace {
 
 constexpr const char* kAdvice = "check the PostgreSQL server and the setting catalogue";
-constexpr Oid kBytes = 17, kInteger = 20, kText = 25, kReal = 701;  // of pg_type
+// OIDs of the types BYTEA, BIGINT, TEXT and DOUBLE PRECISION in the system table pg_type.
+constexpr Oid kBytes = 17, kInteger = 20, kText = 25, kReal = 701;
 
-// The first line without its severity; libpq ends each with a newline.
+// Returns the first line of a message of libpq, without the severity and the newline.
 std::string first_line(std::string_view message) {
   for (const std::string_view severity : {"ERROR:  ", "FATAL:  "}) {
     if (message.starts_with(severity)) message.remove_prefix(severity.size());
@@ -26,7 +27,8 @@ std::string first_line(std::string_view message) {
   return std::string(message.substr(0, message.find('\n')));
 }
 
-// "$1" for "?" and "$N" for "?N".
+// Converts the parameters of a statement to PostgreSQL's form: "?" to "$1", "$2" …, and "?N" to
+// "$N".
 std::string with_dollars(std::string_view sql) {
   std::string text;
   int count = 0;
@@ -42,7 +44,8 @@ std::string with_dollars(std::string_view sql) {
   return text;
 }
 
-// What the server takes for text: a fault's message may repeat what was in a hostile file.
+// Replaces invalid UTF-8 and removes null bytes, which PostgreSQL does not accept as text. An error
+// message may quote such bytes from a hostile file.
 std::string as_utf8(std::string_view text) {
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
   auto valid =
@@ -66,26 +69,26 @@ std::string big_endian_text(std::uint64_t word) {
   return text;
 }
 
-// Values go and come in the binary format.
-class Statement final : public sql::Statement {
+// A prepared statement that sends and receives values in PostgreSQL's binary format.
+class PostgresStatement final : public sql::Statement {
  public:
-  Statement(Connection& connection, const std::string& sql, std::string name)
+  PostgresStatement(PostgresConnection& connection, const std::string& sql, std::string name)
       : connection_(connection), sql_(with_dollars(sql)), name_(std::move(name)) {}
 
-  Statement& reset() override {
+  PostgresStatement& reset() override {
     values_.clear();
     result_.reset();
     return *this;
   }
-  Statement& bind(std::int64_t value) override {
+  PostgresStatement& bind(std::int64_t value) override {
     return add(kInteger, big_endian_text(static_cast<std::uint64_t>(value)));
   }
-  Statement& bind_real(double value) override {
+  PostgresStatement& bind_real(double value) override {
     return add(kReal, big_endian_text(std::bit_cast<std::uint64_t>(value)));
   }
-  Statement& bind_null() override { return add(0, std::nullopt); }
-  Statement& bind(std::string_view text) override { return add(kText, as_utf8(text)); }
-  Statement& bind(std::span<const std::uint8_t> blob) override {
+  PostgresStatement& bind_null() override { return add(0, std::nullopt); }
+  PostgresStatement& bind(std::string_view text) override { return add(kText, as_utf8(text)); }
+  PostgresStatement& bind(std::span<const std::uint8_t> blob) override {
     return add(kBytes, std::string(reinterpret_cast<const char*>(blob.data()), blob.size()));
   }
 
@@ -129,20 +132,21 @@ class Statement final : public sql::Statement {
   }
 
  private:
-  Statement& add(Oid type, std::optional<std::string> value) {
+  PostgresStatement& add(Oid type, std::optional<std::string> value) {
     values_.push_back({type, std::move(value)});
     return *this;
   }
 
-  // What nothing is bound to at the end is null.
+  // Prepares the statement on the server, and asks the server for the number of its parameters.
   void prepare() {
     std::vector<Oid> types;
     for (const Value& value : values_)
       types.push_back(value.type);
     connection_.receive(PQsendPrepare(connection_.handle(), name_.c_str(), sql_.c_str(),
                                       static_cast<int>(types.size()), types.data()),
-                        kPatience);
-    connection_.receive(PQsendDescribePrepared(connection_.handle(), name_.c_str()), kPatience)
+                        kResponseTimeout);
+    connection_
+        .receive(PQsendDescribePrepared(connection_.handle(), name_.c_str()), kResponseTimeout)
         .swap(result_);
     parameters_ = static_cast<std::size_t>(PQnparams(result_.get()));
     is_prepared_ = true;
@@ -160,12 +164,12 @@ class Statement final : public sql::Statement {
     result_ = connection_.receive(
         PQsendQueryPrepared(connection_.handle(), name_.c_str(), static_cast<int>(values.size()),
                             values.data(), lengths.data(), formats.data(), 1),
-        kPatience);
+        kResponseTimeout);
   }
 
   const char* check_length(int column, int wanted) const {
     if (PQgetlength(result_.get(), row_, column) != wanted)
-      throw sql::Failure("a column has another length than it should", ErrorCode::kIo, kAdvice);
+      throw sql::Failure("a column does not have the expected length", ErrorCode::kIo, kAdvice);
     return PQgetvalue(result_.get(), row_, column);
   }
   void copy_blob(int column, std::span<std::uint8_t> out) const override {
@@ -176,23 +180,23 @@ class Statement final : public sql::Statement {
     Oid type = 0;
     std::optional<std::string> bytes;
   };
-  Connection& connection_;
+  PostgresConnection& connection_;
   const std::string sql_, name_;
   bool is_prepared_ = false;
   std::size_t parameters_ = 0;
   std::vector<Value> values_;
-  Result result_;
+  QueryResult result_;
   int row_ = -1;
 };
 
 }  // namespace
 
-// What the URL says goes before what stands before it here. Of a faulty one libpq would tell parts,
-// which may be of the password.
-Connection::Connection(const std::string& url) {
+// Parameters in the URL override those that precede `dbname` in the list. Does not report libpq's
+// message on a malformed URL, because it may quote parts of the password.
+PostgresConnection::PostgresConnection(const std::string& url) {
   PQconninfoOption* const options = PQconninfoParse(url.c_str(), nullptr);
   if (options == nullptr)
-    throw sql::Failure("the setting catalogue is no URL of PostgreSQL", ErrorCode::kIo, kAdvice);
+    throw sql::Failure("the setting 'catalogue' is not a PostgreSQL URL", ErrorCode::kIo, kAdvice);
   PQconninfoFree(options);
   constexpr std::array kNames{"connect_timeout",
                               "tcp_user_timeout",
@@ -209,14 +213,14 @@ Connection::Connection(const std::string& url) {
       handle(), [](void*, const char*) {}, nullptr);
 }
 
-bool Connection::is_alive() {
+bool PostgresConnection::is_alive() {
   if (hangs_ || PQstatus(handle()) != CONNECTION_OK) return false;
   pollfd socket{PQsocket(handle()), POLLIN, 0};
-  // Between two statements the server hardly says more than that it ends the connection.
+  // Between statements, the server only sends data when it closes the connection.
   return ::poll(&socket, 1, 0) == 0;
 }
 
-void Connection::raise(const PGresult* result) const {
+void PostgresConnection::raise(const PGresult* result) const {
   const char* const state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
   std::string message = first_line(result != nullptr ? PQresultErrorMessage(result) : "");
   if (message.empty()) message = first_line(PQerrorMessage(handle()));
@@ -225,14 +229,14 @@ void Connection::raise(const PGresult* result) const {
   throw sql::Failure(message, ErrorCode::kIo, kAdvice);
 }
 
-void Connection::wait_for_answer(std::optional<std::chrono::seconds> patience) {
+void PostgresConnection::wait_for_answer(std::optional<std::chrono::seconds> timeout) {
   using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + patience.value_or(std::chrono::seconds(0));
+  const auto deadline = Clock::now() + timeout.value_or(std::chrono::seconds(0));
   while (PQisBusy(handle()) == 1) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     pollfd socket{PQsocket(handle()), POLLIN, 0};
-    const int wait = patience ? static_cast<int>(std::max<std::int64_t>(left, 0)) : -1;
+    const int wait = timeout ? static_cast<int>(std::max<std::int64_t>(left, 0)) : -1;
     const int ready = ::poll(&socket, 1, wait);
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0) {
@@ -243,12 +247,12 @@ void Connection::wait_for_answer(std::optional<std::chrono::seconds> patience) {
   }
 }
 
-Result Connection::receive(int was_sent, std::optional<std::chrono::seconds> patience) {
+QueryResult PostgresConnection::receive(int was_sent, std::optional<std::chrono::seconds> timeout) {
   if (was_sent != 1) raise(nullptr);
-  Result last, fault;
+  QueryResult last, fault;
   for (;;) {
-    wait_for_answer(patience);
-    Result next(PQgetResult(handle()));
+    wait_for_answer(timeout);
+    QueryResult next(PQgetResult(handle()));
     if (!next) break;
     const auto status = PQresultStatus(next.get());
     const bool is_good = status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK;
@@ -258,38 +262,39 @@ Result Connection::receive(int was_sent, std::optional<std::chrono::seconds> pat
   return last;
 }
 
-void Connection::run(const char* sql) {
-  receive(PQsendQuery(handle(), sql), kPatience);
+void PostgresConnection::run(const char* sql) {
+  receive(PQsendQuery(handle(), sql), kResponseTimeout);
 }
 
-sql::Statement& Connection::prepare(const std::string& sql) {
+sql::Statement& PostgresConnection::prepare(const std::string& sql) {
   auto& statement = statements_[sql];
   if (!statement)
-    statement = std::make_unique<Statement>(*this, sql, fmt::format("s{}", statements_.size()));
+    statement =
+        std::make_unique<PostgresStatement>(*this, sql, fmt::format("s{}", statements_.size()));
   return *statement;
 }
 
-void Connection::roll_back() noexcept {
+void PostgresConnection::roll_back() noexcept {
   try {
     if (is_alive()) run("ROLLBACK");
-  } catch (const sql::Failure&) {  // the server rolls back what has lost its connection
+  } catch (const sql::Failure&) {  // the server rolls back when the connection ends
     hangs_ = true;
   }
 }
 
-std::uint64_t Connection::revision() {
-  const sql::Query row(prepare("SELECT number FROM revision"));
+std::uint64_t PostgresConnection::revision() {
+  const sql::ScopedStatement row(prepare("SELECT number FROM revision"));
   row->step();
   return static_cast<std::uint64_t>(row->integer(0));
 }
 
-void Connection::lock(std::int64_t number) {
+void PostgresConnection::lock(std::int64_t number) {
   const std::string sql = fmt::format("SELECT pg_advisory_lock({})", number);
   receive(PQsendQuery(handle(), sql.c_str()), std::nullopt);
 }
 
-void Connection::unlock(std::int64_t number) {
+void PostgresConnection::unlock(std::int64_t number) {
   run(fmt::format("SELECT pg_advisory_unlock({})", number).c_str());
 }
 
-}  // namespace vitrine::postgres
+}  // namespace vitrine::server::postgres

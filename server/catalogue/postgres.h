@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PostgreSQL behind a few lines: a connection that never waits for ever, and its statements.
+// A connection to PostgreSQL, and its prepared statements. Calls time out unless stated otherwise.
 #pragma once
 
 #include <libpq-fe.h>
@@ -13,19 +13,21 @@
 
 #include "server/catalogue/sql.h"
 
-namespace vitrine::postgres {
+namespace vitrine::server::postgres {
 
-struct Clear {
+struct ClearResult {
   void operator()(PGresult* result) const { PQclear(result); }
 };
-using Result = std::unique_ptr<PGresult, Clear>;
+using QueryResult = std::unique_ptr<PGresult, ClearResult>;
 
-class Connection final : public sql::Connection {
+class PostgresConnection final : public sql::DatabaseConnection {
  public:
-  // `url` as libpq has it: postgresql://USER@HOST/DATABASE. Throws where nobody answers.
-  explicit Connection(const std::string& url);
+  // Connects to the server. `url` has libpq's form: postgresql://USER@HOST/DATABASE. Throws if the
+  // server is unreachable.
+  explicit PostgresConnection(const std::string& url);
 
-  bool is_alive();  // as far as is known without asking
+  // Returns false if the connection is known to be closed or unusable. Sends nothing to the server.
+  bool is_alive();
   bool hangs() const { return hangs_; }
 
   void run(const char* sql) override;
@@ -39,26 +41,28 @@ class Connection final : public sql::Connection {
   }
   const char* skip_locked() const override { return "FOR UPDATE SKIP LOCKED"; }
 
-  // Waits for the lock of that number, however long another session holds it.
+  // Acquires the advisory lock with that number. Waits without a timeout while another session
+  // holds the lock.
   void lock(std::int64_t number);
   void unlock(std::int64_t number);
 
-  // What was sent with a function PQsend…(): its last result. Throws where it is an error.
-  Result receive(int was_sent, std::optional<std::chrono::seconds> patience);
+  // Returns the last result of a query. `was_sent` is the value that the PQsend…() function
+  // returned. Throws if the result is an error.
+  QueryResult receive(int was_sent, std::optional<std::chrono::seconds> timeout);
   PGconn* handle() const { return handle_.get(); }
 
  private:
   [[noreturn]] void raise(const PGresult* result) const;
-  void wait_for_answer(std::optional<std::chrono::seconds> patience);
+  void wait_for_answer(std::optional<std::chrono::seconds> timeout);
 
-  struct Finish {
+  struct CloseConnection {
     void operator()(PGconn* handle) const { PQfinish(handle); }
   };
-  std::unique_ptr<PGconn, Finish> handle_;
+  std::unique_ptr<PGconn, CloseConnection> handle_;
   std::map<std::string, std::unique_ptr<sql::Statement>> statements_;
-  bool hangs_ = false;  // it did not answer in time: what comes yet would be an old answer
+  bool hangs_ = false;  // a response timed out; data received later could belong to that old query
 };
 
-inline constexpr std::chrono::seconds kPatience{10};  // for an answer
+inline constexpr std::chrono::seconds kResponseTimeout{10};  // longest wait for a response
 
-}  // namespace vitrine::postgres
+}  // namespace vitrine::server::postgres

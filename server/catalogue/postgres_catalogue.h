@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The catalogue's database on a PostgreSQL server: any number of machines may use it at once.
+// The catalogue in a PostgreSQL database, which any number of machines may use at once.
 #pragma once
 
 #include <functional>
@@ -9,20 +9,20 @@
 #include "server/catalogue/exclusive_lock.h"
 #include "server/catalogue/sql.h"
 
-namespace vitrine::postgres {
+namespace vitrine::server::postgres {
 
 struct OpenDatabase {
   std::shared_ptr<sql::Database> database;
-  // Is held by one at a time of all who use the database. Lost where its connection ends: the
-  // server ends that of a process that has not been heard of for a quarter of a minute. Fails with
+  // Acquires a lock that only one daemon on this database can hold at a time. The lock is lost when
+  // its connection ends; the server closes a connection that is silent for 15 seconds. Fails with
   // kIo.
   std::function<Expected<std::shared_ptr<const ExclusiveLock>>()> lock;
 };
 
-// Creates or migrates the tables. `url`: postgresql://USER@HOST/DATABASE, with what else libpq
-// knows. Fails with kIo where the server is not reached or refuses, kUnsupported where a newer
-// version of the software has tables that this one cannot go on with; no message tells the
-// password.
+// Opens a database, and creates or migrates its tables. `url`: postgresql://USER@HOST/DATABASE,
+// with any connection parameter of libpq. kIo if the server is unreachable or refuses the
+// connection. kUnsupported if a newer version of Vitrine has changed the tables so that this
+// version cannot use them. Error messages do not contain the password.
 Expected<OpenDatabase> open_database(const std::string& url);
 
-}  // namespace vitrine::postgres
+}  // namespace vitrine::server::postgres

@@ -6,27 +6,31 @@
 #include "server/catalogue/postgres_catalogue.h"
 #include "server/catalogue/postgres_migrations.h"
 
-namespace vitrine::postgres {
+namespace vitrine::server::postgres {
 namespace {
 
-constexpr std::chrono::seconds kPause{1};  // between two attempts to reach the server
-constexpr std::chrono::seconds kBeat{3};   // of who holds the lock
+constexpr std::chrono::seconds kPause{1};  // pause after a failed attempt to reach the server
+// Time between two messages from the lock's holder to the server.
+constexpr std::chrono::seconds kBeat{3};
 constexpr const char* kEndsWhenSilent = "SET idle_session_timeout = '15s'";
-constexpr std::int64_t kLock = 8532478916893896302;  // of its own among the database's users
+// The number of the advisory lock of the catalogue.
+constexpr std::int64_t kLock = 8532478916893896302;
 
 }  // namespace
 
-// An idle connection, or null: then there is a place for a new one.
-std::unique_ptr<Connection> Database::take_place() {
+// Waits until fewer than kMostConnections connections are in use. Returns an idle connection, or
+// null if the caller must open a new one.
+std::unique_ptr<PostgresConnection> PostgresDatabase::take_place() {
   std::unique_lock lock(mutex_);
   const bool is_free =
-      freed_.wait_for(lock, kPatience, [this] { return leased_ < kMostConnections; });
+      freed_.wait_for(lock, kResponseTimeout, [this] { return leased_ < kMostConnections; });
   if (!is_free) {
-    throw sql::Failure("all connections are in use", ErrorCode::kIo,
-                       "try again, and look at the load of the PostgreSQL server");
+    throw sql::Failure("all connections to PostgreSQL are in use", ErrorCode::kIo,
+                       "try again, and check the load of the PostgreSQL server");
   }
   if (std::chrono::steady_clock::now() < away_until_)
-    throw sql::Failure("the PostgreSQL server is away", ErrorCode::kIo, "try again in a moment");
+    throw sql::Failure("the PostgreSQL server is unreachable", ErrorCode::kIo,
+                       "try again in a moment");
   ++leased_;
   if (idle_.empty()) return nullptr;
   auto connection = std::move(idle_.back());
@@ -34,7 +38,7 @@ std::unique_ptr<Connection> Database::take_place() {
   return connection;
 }
 
-void Database::give_back(std::unique_ptr<Connection> connection) {
+void PostgresDatabase::give_back(std::unique_ptr<PostgresConnection> connection) {
   const std::scoped_lock lock(mutex_);
   --leased_;
   if (connection && connection->is_alive()) {
@@ -45,34 +49,36 @@ void Database::give_back(std::unique_ptr<Connection> connection) {
   freed_.notify_one();
 }
 
-std::shared_ptr<sql::Connection> Database::lease() {
+std::shared_ptr<sql::DatabaseConnection> PostgresDatabase::lease() {
   auto connection = take_place();
   try {
-    if (!connection || !connection->is_alive()) connection = std::make_unique<Connection>(url_);
+    if (!connection || !connection->is_alive())
+      connection = std::make_unique<PostgresConnection>(url_);
   } catch (...) {
     give_back(nullptr);
     throw;
   }
-  return {connection.release(), [self = shared_from_this()](Connection* used) {
-            self->give_back(std::unique_ptr<Connection>(used));
+  return {connection.release(), [self = shared_from_this()](PostgresConnection* used) {
+            self->give_back(std::unique_ptr<PostgresConnection>(used));
           }};
 }
 
-// The server hears of it every few seconds; where it does not, as the process is stopped or the
-// network is cut, it ends the connection and gives the lock to the next.
-class Database::Lock final : public ExclusiveLock {
+// Sends a message to the server every few seconds. If this process is suspended or the network is
+// down, the server receives no message: it closes the connection and gives the lock to the next
+// process.
+class PostgresDatabase::Lock final : public ExclusiveLock {
  public:
-  Lock(std::shared_ptr<Database> database, std::unique_ptr<Connection> connection)
+  Lock(std::shared_ptr<PostgresDatabase> database, std::unique_ptr<PostgresConnection> connection)
       : database_(std::move(database)),
         connection_(std::move(connection)),
-        heart_([this](const std::stop_token& stop) { beat(stop); }) {}
+        renewal_([this](const std::stop_token& stop) { beat(stop); }) {}
   ~Lock() override {
-    heart_ = {};
+    renewal_ = {};
     try {
       connection_->unlock(kLock);
       connection_->run("RESET idle_session_timeout");
       database_->locking_ = std::move(connection_);
-    } catch (const sql::Failure&) {  // the server unlocks what has lost its connection
+    } catch (const sql::Failure&) {  // the server releases the lock when the connection ends
     }
     database_->own_turn_.release();
   }
@@ -83,7 +89,7 @@ class Database::Lock final : public ExclusiveLock {
       connection_->run("SELECT 1");
       return {};
     } catch (const sql::Failure& failure) {
-      return sql::refused("the catalogue's lock is lost", failure);
+      return sql::refused("the lock on the catalogue was lost", failure);
     }
   }
 
@@ -94,26 +100,27 @@ class Database::Lock final : public ExclusiveLock {
       static_cast<void>(check());
   }
 
-  const std::shared_ptr<Database> database_;
-  mutable std::mutex mutex_;  // guards what follows
-  std::unique_ptr<Connection> connection_;
+  const std::shared_ptr<PostgresDatabase> database_;
+  mutable std::mutex mutex_;  // guards connection_
+  std::unique_ptr<PostgresConnection> connection_;
 
   mutable std::mutex resting_;
   mutable std::condition_variable_any rest_;
-  std::jthread heart_;
+  std::jthread renewal_;
 };
 
-Expected<std::shared_ptr<const ExclusiveLock>> Database::lock() {
+Expected<std::shared_ptr<const ExclusiveLock>> PostgresDatabase::lock() {
   own_turn_.acquire();
   auto connection = std::move(locking_);
   try {
-    if (!connection || !connection->is_alive()) connection = std::make_unique<Connection>(url_);
+    if (!connection || !connection->is_alive())
+      connection = std::make_unique<PostgresConnection>(url_);
     connection->run(kEndsWhenSilent);
     connection->lock(kLock);
     return std::make_shared<Lock>(shared_from_this(), std::move(connection));
   } catch (const sql::Failure& failure) {
     own_turn_.release();
-    return sql::refused("the catalogue refuses its lock", failure);
+    return sql::refused("cannot lock the catalogue", failure);
   } catch (...) {  // out of memory
     own_turn_.release();
     throw;
@@ -122,7 +129,7 @@ Expected<std::shared_ptr<const ExclusiveLock>> Database::lock() {
 
 Expected<OpenDatabase> open_database(const std::string& url) {
   try {
-    auto database = std::make_shared<Database>(url);
+    auto database = std::make_shared<PostgresDatabase>(url);
     migrate(*database->lease());
     return OpenDatabase{database, [database] { return database->lock(); }};
   } catch (const sql::Failure& failure) {
@@ -130,4 +137,4 @@ Expected<OpenDatabase> open_database(const std::string& url) {
   }
 }
 
-}  // namespace vitrine::postgres
+}  // namespace vitrine::server::postgres

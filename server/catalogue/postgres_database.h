@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The catalogue's database on a PostgreSQL server, over a bounded number of connections. While the
-// server is away all that is asked of it fails, most of it at once; what is asked afterwards has
-// new connections.
+// The catalogue's database on a PostgreSQL server, used over at most kMostConnections connections.
+// If a connection attempt fails, calls during the next second fail immediately. The first call
+// after that tries to connect again.
 #pragma once
 
 #include <condition_variable>
@@ -12,34 +12,39 @@
 #include "server/catalogue/exclusive_lock.h"
 #include "server/catalogue/postgres.h"
 
-namespace vitrine::postgres {
+namespace vitrine::server::postgres {
 
-class Database final : public sql::Database, public std::enable_shared_from_this<Database> {
+class PostgresDatabase final : public sql::Database,
+                               public std::enable_shared_from_this<PostgresDatabase> {
  public:
-  explicit Database(std::string url) : url_(std::move(url)) {}
+  explicit PostgresDatabase(std::string url) : url_(std::move(url)) {}
 
-  std::shared_ptr<sql::Connection> lease() override;
+  std::shared_ptr<sql::DatabaseConnection> lease() override;
 
-  // As OpenDatabase::lock.
+  // Acquires the lock that OpenDatabase::lock describes.
   Expected<std::shared_ptr<const ExclusiveLock>> lock();
 
  private:
   class Lock;
   static constexpr std::size_t kMostConnections = 8;
 
-  std::unique_ptr<Connection> take_place();
-  void give_back(std::unique_ptr<Connection> connection);
+  std::unique_ptr<PostgresConnection> take_place();
+  void give_back(std::unique_ptr<PostgresConnection> connection);
 
   const std::string url_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable freed_;
-  std::vector<std::unique_ptr<Connection>> idle_;
+  std::vector<std::unique_ptr<PostgresConnection>> idle_;
   std::size_t leased_ = 0;
-  std::chrono::steady_clock::time_point away_until_{};  // nobody waits for the server before
+  // Until this time, calls fail without an attempt to connect.
+  std::chrono::steady_clock::time_point away_until_{};
 
-  // Of its own: who holds the lock needs a connection beside it, and others wait for it meanwhile.
+  // The lock uses a connection of its own, because its holder needs another connection for queries.
+  // This semaphore lets only one thread of this process hold or wait for the lock.
   std::binary_semaphore own_turn_{1};
-  std::unique_ptr<Connection> locking_;  // of whose turn it is, where it is good
+  // The idle connection for the lock, used only while own_turn_ is acquired. Null if there is none,
+  // and while the lock is held.
+  std::unique_ptr<PostgresConnection> locking_;
 };
 
-}  // namespace vitrine::postgres
+}  // namespace vitrine::server::postgres

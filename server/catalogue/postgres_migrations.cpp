@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/catalogue/postgres_migrations.h"
 
-namespace vitrine::postgres {
+namespace vitrine::server::postgres {
 namespace {
 
-// Numbered on their own: the first is what SQLite's have led to. The revision counts the changes of
-// what visitors and tokens meet, not the steps of jobs.
+// The schema changes, numbered independently of SQLite's. The first step creates the tables that
+// SQLite has after its first six steps, and the revision. The revision counts changes to models and
+// tokens, not the progress of jobs.
 constexpr const char* kSteps[] = {
     R"sql(
 CREATE TABLE model (
@@ -79,10 +80,10 @@ constexpr const char* kNext = "SELECT pg_advisory_unlock(7957706764961114213)";
 
 }  // namespace
 
-void migrate(sql::Connection& connection) {
+void migrate(sql::DatabaseConnection& connection) {
   connection.run(kOneAtATime);
   sql::migrate(connection, {.steps = kSteps, .since = kSince});
   connection.run(kNext);
 }
 
-}  // namespace vitrine::postgres
+}  // namespace vitrine::server::postgres

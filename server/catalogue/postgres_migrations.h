@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+// Brings the tables of a PostgreSQL catalogue to the current version.
 #pragma once
 
 #include "server/catalogue/sql.h"
 
-namespace vitrine::postgres {
+namespace vitrine::server::postgres {
 
-// Creates or migrates the tables, one process at a time; fails as sql::migrate() does.
-void migrate(sql::Connection& connection);
+// Creates or migrates the tables. Only one process at a time does this. Fails as sql::migrate()
+// does.
+void migrate(sql::DatabaseConnection& connection);
 
-}  // namespace vitrine::postgres
+}  // namespace vitrine::server::postgres

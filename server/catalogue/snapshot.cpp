@@ -4,14 +4,16 @@
 #include "server/catalogue/private_file.h"
 #include "server/catalogue/sqlite.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// In one step, which holds a read lock: writers are not held up, as the write-ahead log takes them.
+// Copies all pages in one step under a read lock. Writers are not blocked, because they append to
+// the write-ahead log.
 Expected<void> snapshot_sqlite(const std::filesystem::path& from, const std::filesystem::path& to) {
   try {
-    const sqlite::Database source(from.string());
-    static_cast<void>(create_private_file(to));  // what is refused here is refused and told below
-    const sqlite::Database copy(to.string());
+    const sqlite::SqliteHandle source(from.string());
+    // If this fails, opening the file below fails as well.
+    static_cast<void>(create_private_file(to));
+    const sqlite::SqliteHandle copy(to.string());
     sqlite3_backup* backup = sqlite3_backup_init(copy.handle(), "main", source.handle(), "main");
     if (backup == nullptr) copy.raise();
     sqlite3_backup_step(backup, -1);
@@ -22,4 +24,4 @@ Expected<void> snapshot_sqlite(const std::filesystem::path& from, const std::fil
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-namespace vitrine::sql {
+namespace vitrine::server::sql {
 
 bool Statement::any() {
   bool found = false;
@@ -14,30 +14,31 @@ bool Statement::any() {
 
 namespace {
 
-std::int64_t newest_version(Connection& connection) {
-  const Query row(connection.prepare("SELECT coalesce(max(version), 0) FROM migration"));
+std::int64_t newest_version(DatabaseConnection& connection) {
+  const ScopedStatement row(connection.prepare("SELECT coalesce(max(version), 0) FROM migration"));
   row->step();
   return row->integer(0);
 }
 
-void apply(Connection& connection, std::span<const char* const> steps) {
+void apply(DatabaseConnection& connection, std::span<const char* const> steps) {
   const auto wanted = static_cast<std::int64_t>(steps.size());
   for (std::int64_t version = newest_version(connection); version < wanted; ++version) {
     connection.run(steps[static_cast<std::size_t>(version)]);
-    const Query record(connection.prepare("INSERT INTO migration(version) VALUES (?)"));
+    const ScopedStatement record(connection.prepare("INSERT INTO migration(version) VALUES (?)"));
     record->bind(version + 1).step();
   }
 }
 
-// Since which version programs go on with the tables of `version`; nothing where nobody has said.
-std::optional<std::int64_t> compatible_since(Connection& connection, std::int64_t version) {
-  const Query row(connection.prepare("SELECT since FROM compatible WHERE version = ?"));
+// Returns the table version of the oldest programs that can use tables of version `version`, or
+// nullopt if none is recorded.
+std::optional<std::int64_t> compatible_since(DatabaseConnection& connection, std::int64_t version) {
+  const ScopedStatement row(connection.prepare("SELECT since FROM compatible WHERE version = ?"));
   if (!row->bind(version).step()) return std::nullopt;
   return row->integer(0);
 }
 
-void record_since(Connection& connection, std::int64_t version, std::int64_t since) {
-  const Query record(
+void record_since(DatabaseConnection& connection, std::int64_t version, std::int64_t since) {
+  const ScopedStatement record(
       connection.prepare("INSERT INTO compatible(version, since) VALUES (?, ?) "
                          "ON CONFLICT DO NOTHING"));
   record->bind(version).bind(since).step();
@@ -45,7 +46,7 @@ void record_since(Connection& connection, std::int64_t version, std::int64_t sin
 
 }  // namespace
 
-void migrate(Connection& connection, const Migrations& migrations) {
+void migrate(DatabaseConnection& connection, const Migrations& migrations) {
   Transaction transaction(connection);
   connection.run(
       "CREATE TABLE IF NOT EXISTS migration (version INTEGER PRIMARY KEY, "
@@ -64,4 +65,4 @@ void migrate(Connection& connection, const Migrations& migrations) {
   transaction.commit();
 }
 
-}  // namespace vitrine::sql
+}  // namespace vitrine::server::sql

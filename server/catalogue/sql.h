@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the catalogue needs of a database, so that it is written once for all of them. Statements
-// are in the SQL that SQLite and PostgreSQL share, with ? or ?N for what is bound. Errors are
-// thrown inside this room and become an Expected at its door.
+// The interface between the catalogue and an SQL database, so that one implementation of the
+// catalogue works with SQLite and PostgreSQL. Statements use the SQL that both have in common, with
+// ? or ?N for parameters. The classes here throw Failure, which the catalogue converts to an Error.
 #pragma once
 
 #include <array>
@@ -14,21 +14,22 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine::sql {
+namespace vitrine::server::sql {
 
 struct Failure : std::runtime_error {
   Failure(const std::string& message, ErrorCode kind, const char* next_step)
       : std::runtime_error(message), code(kind), advice(next_step) {}
-  ErrorCode code;      // kIo; kLimit where the disk is full; kUnsupported as migrate() says
-  const char* advice;  // what to do
+  ErrorCode code;      // kIo; kLimit if the disk is full; kUnsupported as in migrate()
+  const char* advice;  // the next step for the operator
 };
 
-// What was refused, why, and what to do.
+// Returns an error that states the action that failed, the cause and the next step.
 inline Unexpected refused(const std::string& what, const Failure& failure) {
   return fail(failure.code, what + ": " + failure.what() + "; " + failure.advice);
 }
 
-// Prepared once, used many times: bind, step until false, reset.
+// A prepared statement, which can run many times. For each run: bind the parameters, call step()
+// until it returns false, then call reset().
 class Statement {
  public:
   virtual ~Statement() = default;
@@ -36,17 +37,18 @@ class Statement {
   virtual Statement& reset() = 0;
   virtual Statement& bind(std::int64_t value) = 0;
   virtual Statement& bind_real(double value) = 0;
-  virtual Statement& bind_null() = 0;  // what nothing was bound to at the end is null
+  virtual Statement& bind_null() = 0;  // parameters that are not bound are null
   virtual Statement& bind(std::string_view text) = 0;
   virtual Statement& bind(std::span<const std::uint8_t> blob) = 0;
-  virtual bool step() = 0;  // true: there is a row
-  bool any();               // steps to the end; true: there was a row
+  virtual bool step() = 0;  // advances to the next row; returns false if there is none
+  bool any();               // runs to the end; returns whether there was a row
 
   virtual std::int64_t integer(int column) const = 0;
   virtual double real(int column) const = 0;
   virtual bool is_null(int column) const = 0;
   virtual std::string text(int column) const = 0;
-  virtual void bind_to(Statement& other, int column) const = 0;  // the value, whatever its type is
+  // Binds the value of a column, of any type, as the next parameter of `other`.
+  virtual void bind_to(Statement& other, int column) const = 0;
   template <std::size_t N>
   std::array<std::uint8_t, N> blob(int column) const {
     std::array<std::uint8_t, N> bytes{};
@@ -58,13 +60,13 @@ class Statement {
   virtual void copy_blob(int column, std::span<std::uint8_t> out) const = 0;
 };
 
-// A statement in use: free again at the end of its scope.
-class Query {
+// Resets a statement at the end of its scope, so that it can be used again.
+class ScopedStatement {
  public:
-  explicit Query(Statement& statement) : statement_(&statement) {}
-  ~Query() { statement_->reset(); }
-  Query(const Query&) = delete;
-  Query& operator=(const Query&) = delete;
+  explicit ScopedStatement(Statement& statement) : statement_(&statement) {}
+  ~ScopedStatement() { statement_->reset(); }
+  ScopedStatement(const ScopedStatement&) = delete;
+  ScopedStatement& operator=(const ScopedStatement&) = delete;
   Statement* operator->() const { return statement_; }
   Statement& operator*() const { return *statement_; }
 
@@ -72,78 +74,81 @@ class Query {
   Statement* const statement_;
 };
 
-// Of one thread at a time.
-class Connection {
+// A connection to a database. Only one thread at a time may use it.
+class DatabaseConnection {
  public:
-  virtual ~Connection() = default;
+  virtual ~DatabaseConnection() = default;
 
-  virtual void run(const char* sql) = 0;  // one or more statements without results
-  // Prepared at its first use on this connection, and not in use twice at a time.
+  virtual void run(const char* sql) = 0;  // `sql`: one or more statements
+  // Returns the prepared statement for `sql`. Prepares it at the first call on this connection. A
+  // statement must not have two users at the same time.
   virtual Statement& prepare(const std::string& sql) = 0;
-  // Begins what becomes true as a whole.
   virtual void begin() = 0;
   virtual void roll_back() noexcept = 0;
-  // As Catalogue::revision().
+  // Returns the number that Catalogue::revision() describes.
   virtual std::uint64_t revision() = 0;
-  // The LIKE that does not mind upper and lower case.
+  // Returns the operator for LIKE that ignores case.
   virtual const char* like() const = 0;
-  // Milliseconds since 1970 by the database's clock.
+  // Returns the SQL expression for the current time in milliseconds since 1970 by the database's
+  // clock.
   virtual const char* now() const = 0;
-  // Ends a SELECT whose rows are about to be changed: those that somebody else is about to change
-  // are left out.
+  // Returns the clause at the end of a SELECT that skips rows locked by another transaction.
   virtual const char* skip_locked() const = 0;
 };
 
-// Thread-safe.
+// A database that several threads may use at once.
 class Database {
  public:
   virtual ~Database() = default;
 
-  // A connection that nobody else uses until the result is gone.
-  virtual std::shared_ptr<Connection> lease() = 0;
+  // Returns a connection that no other caller uses until the result is destroyed.
+  virtual std::shared_ptr<DatabaseConnection> lease() = 0;
 };
 
-// Rolls back unless committed.
+// A transaction. The destructor rolls it back unless commit() was called.
 class Transaction {
  public:
-  explicit Transaction(Connection& connection) : connection_(connection) { connection.begin(); }
+  explicit Transaction(DatabaseConnection& connection) : connection_(connection) {
+    connection.begin();
+  }
   ~Transaction() {
-    if (!done_) connection_.roll_back();
+    if (!is_done_) connection_.roll_back();
   }
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
   void commit() {
     connection_.run("COMMIT");
-    done_ = true;
+    is_done_ = true;
   }
 
  private:
-  Connection& connection_;
-  bool done_ = false;
+  DatabaseConnection& connection_;
+  bool is_done_ = false;
 };
 
-// Runs `action` with a connection of its own; a Failure becomes an error.
-template <class T, class Action>
-Expected<T> guarded(Database& database, Action action) {
+// Runs `action` with a connection and returns its result. Converts a Failure to an error.
+template <class Action>
+auto with_connection(Database& database, Action action) -> decltype(action(*database.lease())) {
   try {
     const auto connection = database.lease();
     return action(*connection);
   } catch (const Failure& failure) {
-    return refused("the catalogue refuses", failure);
+    return refused("cannot use the catalogue", failure);
   }
 }
 
-// The tables of a back end: step i leads from version i to i + 1. Never edit one that has been
-// released.
+// The schema changes of a database. Step i changes the tables from version i to version i + 1.
+// Never edit a step that has been released.
 struct Migrations {
   std::span<const char* const> steps;
-  // The oldest version whose programs go on with the tables of the newest, so that old and new ones
-  // may run side by side. Raise it with a step that does more than add what has a default.
+  // The table version of the oldest programs that can use the newest tables, so that old and new
+  // daemons may run side by side. Raise it with each step that does more than add columns with
+  // defaults.
   std::int64_t since;
 };
 
-// Brings the tables to the newest version. Those of a newer one stay as they are; fails with
-// kUnsupported where that one says that these programs cannot go on with them, or says nothing.
-void migrate(Connection& connection, const Migrations& migrations);
+// Migrates the tables to the newest version. Does not change tables of a newer version: succeeds if
+// that version has recorded that this version can use them, otherwise fails with kUnsupported.
+void migrate(DatabaseConnection& connection, const Migrations& migrations);
 
-}  // namespace vitrine::sql
+}  // namespace vitrine::server::sql

@@ -7,11 +7,11 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-using sql::Connection;
-using sql::Query;
+using sql::DatabaseConnection;
+using sql::ScopedStatement;
 using sql::Statement;
 using sql::Transaction;
 
@@ -99,14 +99,15 @@ void bind_model(Statement& row, const ModelRecord& m) {
 }
 
 TokenRecord read_token(const Statement& row) {
-  return {.id = ModelId::from_bytes(row.blob<16>(0)),
+  return {.id = TokenId::from_bytes(row.blob<16>(0)),
           .role = static_cast<Role>(row.integer(1)),
           .hash = row.blob<32>(2),
           .label = row.text(3),
           .created = row.integer(4)};
 }
 
-// Words become patterns of LIKE in which the user's own % and _ mean themselves.
+// Returns a LIKE pattern for each of the first eight words of `text`. Escapes %, _ and \ in the
+// words.
 std::vector<std::string> patterns(std::string_view text) {
   constexpr std::size_t kMaxWords = 8;
   std::vector<std::string> words;
@@ -178,22 +179,23 @@ const std::string kTokens =
 const std::string kRevokeToken =
     "UPDATE token SET revoked = ? WHERE id = ? AND revoked IS NULL RETURNING 1";
 
-// Nobody takes the job before the transaction ends.
-Expected<void> hold_job(Connection& connection, const std::optional<JobClaim>& by,
+// Stores `model` in the job's record. The job's row stays locked until the transaction ends, so
+// that no other daemon claims the job. kState if another daemon has already claimed it.
+Expected<void> hold_job(DatabaseConnection& connection, const std::optional<JobClaim>& by,
                         const ModelId& model) {
   if (!by) return {};
-  const Query row(connection.prepare(kHoldJob));
+  const ScopedStatement row(connection.prepare(kHoldJob));
   if (row->bind(by->job.bytes()).bind(number(by->fence)).bind(model.bytes()).any()) return {};
-  return fail(ErrorCode::kState,
-              fmt::format("somebody else has taken or ended job {}; its model is "
-                          "left to them",
-                          by->job.to_string()));
+  return fail(
+      ErrorCode::kState,
+      fmt::format("another daemon has claimed or ended job {}, and its model; reload the job",
+                  by->job.to_string()));
 }
 
-void insert_chunks(Connection& connection, const ModelId& model,
+void insert_chunks(DatabaseConnection& connection, const ModelId& model,
                    std::span<const ChunkPlace> chunks) {
   for (const ChunkPlace& c : chunks) {
-    const Query row(connection.prepare(kInsertChunk));
+    const ScopedStatement row(connection.prepare(kInsertChunk));
     row->bind(c.chunk).bind(model.bytes()).bind(number(c.offset)).bind(number(c.length)).step();
   }
 }
@@ -209,20 +211,21 @@ std::vector<TokenRecord> read_tokens(Statement& rows) {
   return tokens;
 }
 
-ModelPage search_in(Connection& connection, const ModelQuery& query) {
+ModelPage search_in(DatabaseConnection& connection, const ModelQuery& query) {
   const auto words = patterns(query.text);
   std::string which = "state >= ?";
   if (query.after) which += " AND id < ?";
   for (std::size_t i = 0; i < words.size(); ++i)
     which += fmt::format(" AND title||' '||creator {} ? ESCAPE '\\'", connection.like());
 
-  const Query rows(connection.prepare(select_models(which + " ORDER BY id DESC LIMIT ?")));
-  rows->bind(std::int64_t{query.drafts ? 0 : 1});
+  const ScopedStatement rows(
+      connection.prepare(select_models(which + " ORDER BY id DESC LIMIT ?")));
+  rows->bind(std::int64_t{query.includes_drafts ? 0 : 1});
   if (query.after) rows->bind(query.after->bytes());
   for (const std::string& word : words)
     rows->bind(word);
   const std::uint32_t limit = std::clamp(query.limit, 1u, kMaxPage);
-  rows->bind(std::int64_t{limit} + 1);  // one more tells whether there is a next page
+  rows->bind(std::int64_t{limit} + 1);  // a row beyond the limit means that there is a next page
 
   ModelPage page;
   while (rows->step())
@@ -240,10 +243,10 @@ class SqlCatalogue final : public Catalogue {
 
   Expected<void> add(const ModelRecord& model, std::span<const ChunkPlace> chunks,
                      const std::optional<JobClaim>& by) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
       Transaction transaction(connection);
       if (auto held = hold_job(connection, by, model.id); !held) return held;
-      const Query row(connection.prepare(kInsertModel));
+      const ScopedStatement row(connection.prepare(kInsertModel));
       bind_model(*row, model);
       if (!row->any()) {
         return fail(ErrorCode::kState,
@@ -256,24 +259,25 @@ class SqlCatalogue final : public Catalogue {
   }
 
   Expected<void> set_state(const ModelId& id, ModelState state) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare(kUpdateState));
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement row(connection.prepare(kUpdateState));
       if (row->bind(id.bytes()).bind(static_cast<std::int64_t>(state)).any()) return {};
-      return fail(ErrorCode::kState,
-                  fmt::format("there is no model {}; list the models", id.to_string()));
+      return fail(
+          ErrorCode::kState,
+          fmt::format("there is no model {}; list the models to find its ID", id.to_string()));
     });
   }
 
   Expected<void> update(const ModelRecord& model, std::optional<std::span<const ChunkPlace>> chunks,
                         const std::optional<JobClaim>& by) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
       Transaction transaction(connection);
       if (auto held = hold_job(connection, by, model.id); !held) return held;
-      const Query row(connection.prepare(kUpdateModel));
+      const ScopedStatement row(connection.prepare(kUpdateModel));
       bind_model(*row, model);
       if (!row->any()) return changed_meanwhile(model.id);
       if (chunks) {
-        const Query old(connection.prepare(kRemoveChunks));
+        const ScopedStatement old(connection.prepare(kRemoveChunks));
         old->bind(model.id.bytes()).any();
         insert_chunks(connection, model.id, *chunks);
       }
@@ -282,10 +286,10 @@ class SqlCatalogue final : public Catalogue {
     });
   }
 
-  // Its chunks go with it.
+  // The foreign key of the chunks removes them with the model.
   Expected<void> remove(const ModelId& id, std::optional<std::uint64_t> version) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare(kRemoveModel));
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement row(connection.prepare(kRemoveModel));
       row->bind(id.bytes());
       if (version) row->bind(number(*version));
       if (!row->any()) return changed_meanwhile(id);
@@ -295,9 +299,9 @@ class SqlCatalogue final : public Catalogue {
 
   Expected<std::vector<NamedFile>> files() override {
     using Files = std::vector<NamedFile>;
-    return sql::guarded<Files>(*database_, [&](Connection& connection) -> Expected<Files> {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Files> {
       Files files;
-      const Query rows(connection.prepare(kFiles));
+      const ScopedStatement rows(connection.prepare(kFiles));
       while (rows->step())
         files.push_back(
             {ModelId::from_bytes(rows->blob<16>(0)), rows->blob<32>(1), count(*rows, 2)});
@@ -307,31 +311,32 @@ class SqlCatalogue final : public Catalogue {
 
   Expected<std::optional<ModelRecord>> find(const ModelId& id) override {
     using Found = std::optional<ModelRecord>;
-    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
-      const Query row(connection.prepare(kFindModel));
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Found> {
+      const ScopedStatement row(connection.prepare(kFindModel));
       return read_one(row->bind(id.bytes()));
     });
   }
 
   Expected<std::optional<ModelRecord>> find_same(const ModelRecord& like) override {
     using Found = std::optional<ModelRecord>;
-    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
-      const Query row(connection.prepare(kFindSame));
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Found> {
+      const ScopedStatement row(connection.prepare(kFindSame));
       row->bind(like.file).bind(like.title).bind(like.creator).bind(like.rights);
       return read_one(row->bind(like.licence).bind(more_text(like)));
     });
   }
 
   Expected<ModelPage> search(const ModelQuery& query) override {
-    return sql::guarded<ModelPage>(*database_, [&](Connection& connection) -> Expected<ModelPage> {
-      return search_in(connection, query);
-    });
+    return sql::with_connection(*database_,
+                                [&](DatabaseConnection& connection) -> Expected<ModelPage> {
+                                  return search_in(connection, query);
+                                });
   }
 
   Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
     using Found = std::optional<ChunkLocation>;
-    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
-      const Query row(connection.prepare(kFindChunk));
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Found> {
+      const ScopedStatement row(connection.prepare(kFindChunk));
       if (!row->bind(chunk).step()) return std::nullopt;
       return ChunkLocation{ModelId::from_bytes(row->blob<16>(0)),
                            {chunk, count(*row, 1), count(*row, 2)}};
@@ -339,8 +344,8 @@ class SqlCatalogue final : public Catalogue {
   }
 
   Expected<void> add_token(const TokenRecord& token) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare(kInsertToken));
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement row(connection.prepare(kInsertToken));
       row->bind(token.id.bytes()).bind(static_cast<std::int64_t>(token.role)).bind(token.hash);
       if (row->bind(token.label).bind(token.created).any()) return {};
       return fail(ErrorCode::kState,
@@ -350,23 +355,25 @@ class SqlCatalogue final : public Catalogue {
 
   Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
     using Tokens = std::vector<TokenRecord>;
-    return sql::guarded<Tokens>(*database_, [&](Connection& connection) -> Expected<Tokens> {
-      const Query rows(connection.prepare(kTokensLike));
-      return read_tokens(rows->bind(std::span(hash).first<4>()));
-    });
+    return sql::with_connection(*database_,
+                                [&](DatabaseConnection& connection) -> Expected<Tokens> {
+                                  const ScopedStatement rows(connection.prepare(kTokensLike));
+                                  return read_tokens(rows->bind(std::span(hash).first<4>()));
+                                });
   }
 
   Expected<std::vector<TokenRecord>> tokens() override {
     using Tokens = std::vector<TokenRecord>;
-    return sql::guarded<Tokens>(*database_, [&](Connection& connection) -> Expected<Tokens> {
-      const Query rows(connection.prepare(kTokens));
-      return read_tokens(*rows);
-    });
+    return sql::with_connection(*database_,
+                                [&](DatabaseConnection& connection) -> Expected<Tokens> {
+                                  const ScopedStatement rows(connection.prepare(kTokens));
+                                  return read_tokens(*rows);
+                                });
   }
 
-  Expected<void> revoke_token(const ModelId& id) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare(kRevokeToken));
+  Expected<void> revoke_token(const TokenId& id) override {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement row(connection.prepare(kRevokeToken));
       if (row->bind(now_in_milliseconds()).bind(id.bytes()).any()) return {};
       return fail(ErrorCode::kState,
                   fmt::format("there is no token {} in force; check the id", id.to_string()));
@@ -374,9 +381,10 @@ class SqlCatalogue final : public Catalogue {
   }
 
   Expected<std::uint64_t> revision() override {
-    return sql::guarded<std::uint64_t>(
-        *database_,
-        [](Connection& connection) -> Expected<std::uint64_t> { return connection.revision(); });
+    return sql::with_connection(*database_,
+                                [](DatabaseConnection& connection) -> Expected<std::uint64_t> {
+                                  return connection.revision();
+                                });
   }
 
  private:
@@ -389,4 +397,4 @@ std::unique_ptr<Catalogue> make_catalogue(std::shared_ptr<sql::Database> databas
   return std::make_unique<SqlCatalogue>(std::move(database));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -8,11 +8,11 @@
 
 #include "server/catalogue/catalogue.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-using sql::Connection;
-using sql::Query;
+using sql::DatabaseConnection;
+using sql::ScopedStatement;
 using sql::Statement;
 using sql::Transaction;
 
@@ -23,7 +23,8 @@ constexpr std::string_view kScanColumns =
     "id, job, scanner, public, title, parameters, steps, step, points, calibration, model, "
     "created, empty_rows, saturated_rows, doubled_rows, turn";
 
-void bind_id(Statement& row, const std::optional<ModelId>& id) {
+template <class Tag>
+void bind_id(Statement& row, const std::optional<Id<Tag>>& id) {
   if (id) {
     row.bind(id->bytes());
   } else {
@@ -31,9 +32,10 @@ void bind_id(Statement& row, const std::optional<ModelId>& id) {
   }
 }
 
-std::optional<ModelId> read_id(const Statement& row, int column) {
+template <class AnyId>
+std::optional<AnyId> read_id(const Statement& row, int column) {
   if (row.is_null(column)) return std::nullopt;
-  return ModelId::from_bytes(row.blob<16>(column));
+  return AnyId::from_bytes(row.blob<16>(column));
 }
 
 std::int64_t number(auto value) {
@@ -60,16 +62,16 @@ Statement& bind_record(Statement& row, const ScanEntry& scan) {
   } else {
     row.bind_null().bind_null().bind_null();
   }
-  return row.bind(scan.turn);
+  return row.bind(scan.revolution);
 }
 
 void read(const Statement& row, JobRecord& job) {
-  job.id = ModelId::from_bytes(row.blob<16>(0));
+  job.id = JobId::from_bytes(row.blob<16>(0));
   job.kind = static_cast<JobKind>(row.integer(1));
   job.state = static_cast<JobState>(row.integer(2));
   job.scanner = row.text(3);
-  job.scan = read_id(row, 4);
-  job.model = read_id(row, 5);
+  job.scan = read_id<ScanId>(row, 4);
+  job.model = read_id<ModelId>(row, 5);
   job.stage = row.text(6);
   job.progress = row.real(7);
   job.error = row.text(8);
@@ -82,8 +84,8 @@ void read(const Statement& row, JobRecord& job) {
 }
 
 void read(const Statement& row, ScanEntry& scan) {
-  scan.id = ModelId::from_bytes(row.blob<16>(0));
-  scan.job = ModelId::from_bytes(row.blob<16>(1));
+  scan.id = ScanId::from_bytes(row.blob<16>(0));
+  scan.job = JobId::from_bytes(row.blob<16>(1));
   scan.scanner = row.text(2);
   scan.is_public = row.integer(3) != 0;
   scan.title = row.text(4);
@@ -92,13 +94,13 @@ void read(const Statement& row, ScanEntry& scan) {
   scan.step = static_cast<int>(row.integer(7));
   scan.points = static_cast<std::uint64_t>(row.integer(8));
   scan.calibration = static_cast<int>(row.integer(9));
-  scan.model = read_id(row, 10);
+  scan.model = read_id<ModelId>(row, 10);
   scan.created = row.integer(11);
   if (!row.is_null(12)) scan.rows = {row.real(12), row.real(13), row.real(14)};
-  scan.turn = row.text(15);
+  scan.revolution = row.text(15);
 }
 
-// "a = ?1, b = ?2, …" of "a, b, …".
+// Returns "a = ?1, b = ?2, …" for the columns "a, b, …".
 std::string assignments(std::string_view columns) {
   std::string text;
   for (int i = 1; !columns.empty(); ++i) {
@@ -109,7 +111,7 @@ std::string assignments(std::string_view columns) {
   return text;
 }
 
-// "?,?,…" for "a, b, …".
+// Returns "?,?,…" with a ? for each of the columns "a, b, …".
 std::string places(std::string_view columns) {
   std::string text = "?";
   for (auto more = std::ranges::count(columns, ','); more > 0; --more)
@@ -117,7 +119,7 @@ std::string places(std::string_view columns) {
   return text;
 }
 
-// "a = excluded.a, b = excluded.b, …" of "a, b, …".
+// Returns "a = excluded.a, b = excluded.b, …" for the columns "a, b, …".
 std::string replacements(std::string_view columns) {
   std::string text;
   while (!columns.empty()) {
@@ -128,20 +130,21 @@ std::string replacements(std::string_view columns) {
   return text;
 }
 
-// Whether the row was written.
-bool insert(Connection& connection, std::string_view table, std::string_view columns,
+// Inserts a row for `record`. `otherwise` is the rest of the ON CONFLICT clause. Returns whether a
+// row was written.
+bool insert(DatabaseConnection& connection, std::string_view table, std::string_view columns,
             const auto& record, const std::string& otherwise) {
-  const Query row(
+  const ScopedStatement row(
       connection.prepare(fmt::format("INSERT INTO {}({}) VALUES ({}) ON CONFLICT {} RETURNING 1",
                                      table, columns, places(columns), otherwise)));
   return bind_record(*row, record).any();
 }
 
-bool insert_once(Connection& connection, const OnceKey& once, const JobId& job) {
-  const Query row(
+bool insert_key(DatabaseConnection& connection, const IdempotencyKey& key, const JobId& job) {
+  const ScopedStatement row(
       connection.prepare("INSERT INTO idempotency(key, request, job) VALUES (?,?,?) "
                          "ON CONFLICT DO NOTHING RETURNING 1"));
-  return row->bind(once.key).bind(once.request).bind(job.bytes()).any();
+  return row->bind(key.key).bind(key.request).bind(job.bytes()).any();
 }
 
 template <class Record>
@@ -157,8 +160,8 @@ class SqlJobs final : public JobCatalogue {
   explicit SqlJobs(std::shared_ptr<sql::Database> database) : database_(std::move(database)) {}
 
   Expected<void> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
-                     const std::optional<OnceKey>& once) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+                     const std::optional<IdempotencyKey>& key) override {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
       Transaction transaction(connection);
       if (!insert(connection, "job", kJobColumns, job, "DO NOTHING")) {
         return fail(ErrorCode::kState,
@@ -168,8 +171,9 @@ class SqlJobs final : public JobCatalogue {
         insert(connection, "scan", kScanColumns, *scan,
                "(id) DO UPDATE SET " + replacements(kScanColumns));
       }
-      if (once && !insert_once(connection, *once, job.id)) {
-        return fail(ErrorCode::kState, "the key was used meanwhile; send the request again");
+      if (key && !insert_key(connection, *key, job.id)) {
+        return fail(ErrorCode::kState,
+                    "another request has used the idempotency key; send the request again");
       }
       transaction.commit();
       return {};
@@ -177,17 +181,17 @@ class SqlJobs final : public JobCatalogue {
   }
 
   Expected<void> update(const JobRecord& job) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) {
       return write(connection, "job",
                    assignments(kJobColumns) + ", lease = CASE WHEN ?3 = 1 THEN lease ELSE 0 END",
                    "AND fence = ?15", job);
     });
   }
-  // Nobody takes the job before the transaction ends.
+  // The job's row stays locked until the transaction ends, so that no other daemon claims the job.
   Expected<void> update(const ScanEntry& scan, const JobClaim& by) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
       Transaction transaction(connection);
-      const Query held(connection.prepare(
+      const ScopedStatement held(connection.prepare(
           "UPDATE job SET fence = fence WHERE id = ?1 AND fence = ?2 RETURNING 1"));
       if (!held->bind(by.job.bytes()).bind(number(by.fence)).any()) return lost(by.job);
       auto written = write(connection, "scan", assignments(kScanColumns), "", scan);
@@ -198,13 +202,13 @@ class SqlJobs final : public JobCatalogue {
 
   Expected<std::optional<JobRecord>> claim(const JobId& id, const Lease& lease) override {
     using Found = std::optional<JobRecord>;
-    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Found> {
       Transaction transaction(connection);
-      const Query free(
+      const ScopedStatement free(
           connection.prepare(fmt::format("SELECT 1 FROM job WHERE id = ? AND {} {}",
                                          is_free(connection), connection.skip_locked())));
       if (!free->bind(id.bytes()).any()) return std::nullopt;
-      const Query row(connection.prepare(
+      const ScopedStatement row(connection.prepare(
           fmt::format("UPDATE job SET state = 1, fence = fence + 1, attempts = attempts + 1, "
                       "holder = ?2, lease = {} + ?3 WHERE id = ?1 RETURNING {}",
                       connection.now(), kJobColumns)));
@@ -219,11 +223,11 @@ class SqlJobs final : public JobCatalogue {
                                                 bool overdue) override {
     using Jobs = std::vector<JobRecord>;
     if (kinds.empty()) return Jobs();
-    return sql::guarded<Jobs>(*database_, [&](Connection& connection) -> Expected<Jobs> {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Jobs> {
       std::string places = "?";
       for (std::size_t i = 1; i < kinds.size(); ++i)
         places += ",?";
-      const Query rows(connection.prepare(
+      const ScopedStatement rows(connection.prepare(
           fmt::format("SELECT {} FROM job WHERE kind IN ({}) AND {} ORDER BY id LIMIT ?",
                       kJobColumns, places, overdue ? is_free(connection) : kLeft)));
       for (const JobKind kind : kinds)
@@ -233,8 +237,8 @@ class SqlJobs final : public JobCatalogue {
   }
 
   Expected<bool> renew(const JobRecord& job, std::chrono::milliseconds lease) override {
-    return sql::guarded<bool>(*database_, [&](Connection& connection) -> Expected<bool> {
-      const Query row(connection.prepare(
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<bool> {
+      const ScopedStatement row(connection.prepare(
           fmt::format("UPDATE job SET lease = {} + ?3, stage = ?4, progress = ?5 "
                       "WHERE id = ?1 AND fence = ?2 AND state IN (1, 2) RETURNING cancelled",
                       connection.now())));
@@ -245,22 +249,24 @@ class SqlJobs final : public JobCatalogue {
   }
 
   Expected<JobRecord> cancel(const JobId& id, std::int64_t now) override {
-    return sql::guarded<JobRecord>(*database_, [&](Connection& connection) -> Expected<JobRecord> {
-      const Query row(connection.prepare(fmt::format(
-          "UPDATE job SET cancelled = 1, fence = CASE WHEN {0} THEN fence ELSE fence + 1 END, "
-          "state = CASE WHEN {0} THEN state ELSE 5 END, ended = CASE WHEN {0} THEN ended ELSE ?2 "
-          "END WHERE id = ?1 AND state < 3 RETURNING {1}",
-          fmt::format("state IN (1, 2) AND lease > {}", connection.now()), kJobColumns)));
-      auto changed = all<JobRecord>(row->bind(id.bytes()).bind(now));
-      if (!changed.empty()) return std::move(changed.front());
-      return fail(ErrorCode::kState,
-                  fmt::format("job {} has ended; start another", id.to_string()));
-    });
+    return sql::with_connection(
+        *database_, [&](DatabaseConnection& connection) -> Expected<JobRecord> {
+          const ScopedStatement row(connection.prepare(fmt::format(
+              "UPDATE job SET cancelled = 1, fence = CASE WHEN {0} THEN fence ELSE fence + 1 END, "
+              "state = CASE WHEN {0} THEN state ELSE 5 END, ended = CASE WHEN {0} THEN ended ELSE "
+              "?2 "
+              "END WHERE id = ?1 AND state < 3 RETURNING {1}",
+              fmt::format("state IN (1, 2) AND lease > {}", connection.now()), kJobColumns)));
+          auto changed = all<JobRecord>(row->bind(id.bytes()).bind(now));
+          if (!changed.empty()) return std::move(changed.front());
+          return fail(ErrorCode::kState,
+                      fmt::format("job {} has ended; start another", id.to_string()));
+        });
   }
 
   Expected<void> drop_leases(const std::string& holder) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query rows(connection.prepare(
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement rows(connection.prepare(
           "UPDATE job SET lease = 0 WHERE holder = ? AND lease != 0 RETURNING 1"));
       rows->bind(holder).any();
       return {};
@@ -271,8 +277,8 @@ class SqlJobs final : public JobCatalogue {
                                                       const Lease& lease,
                                                       const std::string& address) override {
     using Epoch = std::optional<std::uint64_t>;
-    return sql::guarded<Epoch>(*database_, [&](Connection& connection) -> Expected<Epoch> {
-      const Query row(connection.prepare(fmt::format(
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Epoch> {
+      const ScopedStatement row(connection.prepare(fmt::format(
           "INSERT INTO scanner(name, holder, address, lease, epoch) VALUES (?1, ?2, ?3, {0} + ?4, "
           "1) ON CONFLICT (name) DO UPDATE SET holder = ?2, address = ?3, lease = {0} + ?4, "
           "epoch = scanner.epoch + 1 WHERE scanner.holder = ?2 OR scanner.lease < {0} "
@@ -286,8 +292,8 @@ class SqlJobs final : public JobCatalogue {
 
   Expected<void> renew_scanner(const std::string& scanner, std::uint64_t epoch,
                                std::chrono::milliseconds lease) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare(
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement row(connection.prepare(
           fmt::format("UPDATE scanner SET lease = {} + ?3 WHERE name = ?1 AND epoch = ?2 "
                       "RETURNING 1",
                       connection.now())));
@@ -298,8 +304,8 @@ class SqlJobs final : public JobCatalogue {
   }
 
   Expected<void> drop_scanners(const std::string& holder) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query rows(
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement rows(
           connection.prepare("UPDATE scanner SET lease = 0 WHERE holder = ? RETURNING 1"));
       rows->bind(holder).any();
       return {};
@@ -308,16 +314,17 @@ class SqlJobs final : public JobCatalogue {
 
   Expected<std::vector<ScannerDriver>> scanner_drivers() override {
     using Drivers = std::vector<ScannerDriver>;
-    return sql::guarded<Drivers>(*database_, [](Connection& connection) -> Expected<Drivers> {
-      const Query rows(connection.prepare(
-          fmt::format("SELECT name, holder, address, CASE WHEN lease < {} THEN 0 ELSE 1 END "
-                      "FROM scanner ORDER BY name",
-                      connection.now())));
-      Drivers drivers;
-      while (rows->step())
-        drivers.push_back({rows->text(0), rows->text(1), rows->text(2), rows->integer(3) != 0});
-      return drivers;
-    });
+    return sql::with_connection(
+        *database_, [](DatabaseConnection& connection) -> Expected<Drivers> {
+          const ScopedStatement rows(connection.prepare(
+              fmt::format("SELECT name, holder, address, CASE WHEN lease < {} THEN 0 ELSE 1 END "
+                          "FROM scanner ORDER BY name",
+                          connection.now())));
+          Drivers drivers;
+          while (rows->step())
+            drivers.push_back({rows->text(0), rows->text(1), rows->text(2), rows->integer(3) != 0});
+          return drivers;
+        });
   }
 
   Expected<std::optional<JobRecord>> find_job(const JobId& id) override {
@@ -326,10 +333,10 @@ class SqlJobs final : public JobCatalogue {
   Expected<std::optional<ScanEntry>> find_scan(const ScanId& id) override {
     return find<ScanEntry>("scan", kScanColumns, id);
   }
-  Expected<std::vector<JobRecord>> jobs(const PageOf& page) override {
+  Expected<std::vector<JobRecord>> jobs(const PageOf<JobId>& page) override {
     return list<JobRecord>("job", kJobColumns, page);
   }
-  Expected<std::vector<ScanEntry>> scans(const PageOf& page) override {
+  Expected<std::vector<ScanEntry>> scans(const PageOf<ScanId>& page) override {
     return list<ScanEntry>("scan", kScanColumns, page);
   }
 
@@ -337,25 +344,25 @@ class SqlJobs final : public JobCatalogue {
 
   Expected<std::vector<JobRecord>> paused_jobs() override { return jobs_where("state = 2"); }
 
-  Expected<std::vector<JobRecord>> untold_jobs() override {
+  Expected<std::vector<JobRecord>> unnotified_jobs() override {
     return jobs_where("state >= 3 AND told != 1 AND webhook != ''");
   }
 
-  Expected<std::vector<JobRecord>> claim_untold(const Lease& lease) override {
+  Expected<std::vector<JobRecord>> claim_unnotified(const Lease& lease) override {
     using Jobs = std::vector<JobRecord>;
-    return sql::guarded<Jobs>(*database_, [&](Connection& connection) -> Expected<Jobs> {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Jobs> {
       const std::string is_untold = fmt::format(
           "state >= 3 AND told != 1 AND webhook != '' AND lease < {}", connection.now());
       std::vector<JobId> ids;
       {
-        const Query rows(connection.prepare(
+        const ScopedStatement rows(connection.prepare(
             fmt::format("SELECT id FROM job WHERE {} ORDER BY id LIMIT 16", is_untold)));
         while (rows->step())
-          ids.push_back(ModelId::from_bytes(rows->blob<16>(0)));
+          ids.push_back(JobId::from_bytes(rows->blob<16>(0)));
       }
       Jobs jobs;
       for (const JobId& id : ids) {
-        const Query row(connection.prepare(
+        const ScopedStatement row(connection.prepare(
             fmt::format("UPDATE job SET holder = ?2, lease = {} + ?3 WHERE id = ?1 AND {} "
                         "RETURNING {}",
                         connection.now(), is_untold, kJobColumns)));
@@ -366,9 +373,9 @@ class SqlJobs final : public JobCatalogue {
     });
   }
 
-  Expected<void> renew_untold(const JobId& id, const Lease& lease) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare(
+  Expected<void> renew_unnotified(const JobId& id, const Lease& lease) override {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement row(connection.prepare(
           fmt::format("UPDATE job SET lease = {} + ?3 WHERE id = ?1 AND holder = ?2 AND told != 1 "
                       "RETURNING 1",
                       connection.now())));
@@ -377,43 +384,47 @@ class SqlJobs final : public JobCatalogue {
     });
   }
 
-  Expected<void> set_told(const JobId& id) override {
-    return sql::guarded<void>(*database_, [&](Connection& connection) -> Expected<void> {
-      const Query row(connection.prepare("UPDATE job SET told = 1 WHERE id = ? RETURNING 1"));
+  Expected<void> set_notified(const JobId& id) override {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<void> {
+      const ScopedStatement row(
+          connection.prepare("UPDATE job SET told = 1 WHERE id = ? RETURNING 1"));
       if (row->bind(id.bytes()).any()) return {};
       return fail(ErrorCode::kState, fmt::format("there is no job {}; list them", id.to_string()));
     });
   }
 
   Expected<JobCounts> count_jobs() override {
-    return sql::guarded<JobCounts>(*database_, [](Connection& connection) -> Expected<JobCounts> {
-      const Query row(connection.prepare("SELECT state, count(*) FROM job GROUP BY state"));
-      JobCounts counts{};
-      while (row->step())
-        counts.at(static_cast<std::size_t>(row->integer(0))) =
-            static_cast<std::uint64_t>(row->integer(1));
-      return counts;
-    });
+    return sql::with_connection(
+        *database_, [](DatabaseConnection& connection) -> Expected<JobCounts> {
+          const ScopedStatement row(
+              connection.prepare("SELECT state, count(*) FROM job GROUP BY state"));
+          JobCounts counts{};
+          while (row->step())
+            counts.at(static_cast<std::size_t>(row->integer(0))) =
+                static_cast<std::uint64_t>(row->integer(1));
+          return counts;
+        });
   }
 
-  Expected<std::optional<Earlier>> find_once(const std::string& key) override {
+  Expected<std::optional<Earlier>> find_key(const std::string& key) override {
     using Found = std::optional<Earlier>;
-    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
-      const Query row(connection.prepare("SELECT job, request FROM idempotency WHERE key = ?"));
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Found> {
+      const ScopedStatement row(
+          connection.prepare("SELECT job, request FROM idempotency WHERE key = ?"));
       if (!row->bind(key).step()) return std::nullopt;
-      return Earlier{ModelId::from_bytes(row->blob<16>(0)), row->blob<32>(1)};
+      return Earlier{JobId::from_bytes(row->blob<16>(0)), row->blob<32>(1)};
     });
   }
 
   Expected<std::size_t> forget(std::int64_t keys_before, std::int64_t jobs_before) override {
     using Count = std::size_t;
-    return sql::guarded<Count>(*database_, [&](Connection& connection) -> Expected<Count> {
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Count> {
       Transaction transaction(connection);
-      const Query keys(
+      const ScopedStatement keys(
           connection.prepare("DELETE FROM idempotency WHERE job IN "
                              "(SELECT id FROM job WHERE state >= ? AND created < ?) RETURNING 1"));
       keys->bind(number(JobState::kDone)).bind(keys_before).any();
-      const Query jobs(
+      const ScopedStatement jobs(
           connection.prepare("DELETE FROM job WHERE state >= ? AND ended < ? "
                              "AND id NOT IN (SELECT job FROM scan) "
                              "AND id NOT IN (SELECT job FROM idempotency) RETURNING 1"));
@@ -426,46 +437,46 @@ class SqlJobs final : public JobCatalogue {
   }
 
  private:
-  // Whether a job waits, or its daemon has begun anew.
+  // SQL condition: the job is queued, or it runs without a lease because its daemon has restarted.
   static constexpr const char* kLeft = "(state = 0 OR (state = 1 AND lease = 0))";
-  // The same, or nobody works any more on one that runs.
-  static std::string is_free(const Connection& connection) {
+  // SQL condition: the job is queued, or it runs and has no lease or an expired one.
+  static std::string is_free(const DatabaseConnection& connection) {
     return fmt::format("(state = 0 OR (state = 1 AND lease < {}))", connection.now());
   }
 
-  // Oldest first.
+  // Returns the jobs that meet the SQL condition, oldest first.
   Expected<std::vector<JobRecord>> jobs_where(std::string_view condition) {
     using Jobs = std::vector<JobRecord>;
-    return sql::guarded<Jobs>(*database_, [&](Connection& connection) -> Expected<Jobs> {
-      const Query rows(connection.prepare(
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Jobs> {
+      const ScopedStatement rows(connection.prepare(
           fmt::format("SELECT {} FROM job WHERE {} ORDER BY id", kJobColumns, condition)));
       return all<JobRecord>(*rows);
     });
   }
 
   static Unexpected lost(const JobId& job) {
-    return fail(ErrorCode::kState,
-                fmt::format("somebody else has taken or ended job {}; it is left to them",
-                            job.to_string()));
+    return fail(
+        ErrorCode::kState,
+        fmt::format("another daemon has claimed or ended job {}; reload the job", job.to_string()));
   }
 
   template <class Record>
-  static Expected<void> write(Connection& connection, std::string_view table,
+  static Expected<void> write(DatabaseConnection& connection, std::string_view table,
                               const std::string& changes, std::string_view condition,
                               const Record& record) {
-    const Query row(connection.prepare(
+    const ScopedStatement row(connection.prepare(
         fmt::format("UPDATE {} SET {} WHERE id = ?1 {} RETURNING 1", table, changes, condition)));
     if (bind_record(*row, record).any()) return {};
     return fail(ErrorCode::kState, fmt::format("there is no {} {} in that state; list them", table,
                                                record.id.to_string()));
   }
 
-  template <class Record>
+  template <class Record, class Id>
   Expected<std::optional<Record>> find(std::string_view table, std::string_view columns,
-                                       const ModelId& id) {
+                                       const Id& id) {
     using Found = std::optional<Record>;
-    return sql::guarded<Found>(*database_, [&](Connection& connection) -> Expected<Found> {
-      const Query row(
+    return sql::with_connection(*database_, [&](DatabaseConnection& connection) -> Expected<Found> {
+      const ScopedStatement row(
           connection.prepare(fmt::format("SELECT {} FROM {} WHERE id = ?", columns, table)));
       if (!row->bind(id.bytes()).step()) return std::nullopt;
       Record record;
@@ -474,17 +485,18 @@ class SqlJobs final : public JobCatalogue {
     });
   }
 
-  template <class Record>
+  template <class Record, class Id>
   Expected<std::vector<Record>> list(std::string_view table, std::string_view columns,
-                                     const PageOf& page) {
+                                     const PageOf<Id>& page) {
     using Records = std::vector<Record>;
-    return sql::guarded<Records>(*database_, [&](Connection& connection) -> Expected<Records> {
-      const Query rows(
-          connection.prepare(fmt::format("SELECT {} FROM {} {} ORDER BY id DESC LIMIT ?", columns,
-                                         table, page.after ? "WHERE id < ?" : "")));
-      if (page.after) rows->bind(page.after->bytes());
-      return all<Record>(rows->bind(number(std::clamp(page.limit, 1u, kMaxPage))));
-    });
+    return sql::with_connection(
+        *database_, [&](DatabaseConnection& connection) -> Expected<Records> {
+          const ScopedStatement rows(
+              connection.prepare(fmt::format("SELECT {} FROM {} {} ORDER BY id DESC LIMIT ?",
+                                             columns, table, page.after ? "WHERE id < ?" : "")));
+          if (page.after) rows->bind(page.after->bytes());
+          return all<Record>(rows->bind(number(std::clamp(page.limit, 1u, kMaxPage))));
+        });
   }
 
   const std::shared_ptr<sql::Database> database_;
@@ -496,4 +508,4 @@ std::unique_ptr<JobCatalogue> make_jobs(std::shared_ptr<sql::Database> database)
   return std::make_unique<SqlJobs>(std::move(database));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -5,15 +5,16 @@
 #include <cerrno>
 #include <cstring>
 
-namespace vitrine::sqlite {
+namespace vitrine::server::sqlite {
 namespace {
 
-constexpr int kBusyMilliseconds = 10'000;  // how long to wait for another process's write
+constexpr int kBusyMilliseconds = 10'000;  // timeout while another process writes
 
 constexpr const char* kAdvice = "check the data folder";
 
-// The error number behind the last result, or 0. SQLite calls a full disk by two names: a result of
-// its own, and an I/O error where the index of the write-ahead log finds no room.
+// Returns the operating system's error number for the last result, or 0. SQLite reports a full disk
+// in two ways: with a result code of its own, and as an I/O error if the index of the write-ahead
+// log cannot grow.
 int system_error(sqlite3* handle) {
   switch (sqlite3_extended_errcode(handle) & 0xff) {
     case SQLITE_FULL:
@@ -28,7 +29,7 @@ int system_error(sqlite3* handle) {
 
 }  // namespace
 
-Database::Database(const std::string& file) {
+SqliteHandle::SqliteHandle(const std::string& file) {
   sqlite3* handle = nullptr;
   const int result =
       sqlite3_open_v2(file.c_str(), &handle,
@@ -39,7 +40,7 @@ Database::Database(const std::string& file) {
   sqlite3_busy_timeout(handle, kBusyMilliseconds);
 }
 
-void Database::raise() const {
+void SqliteHandle::raise() const {
   const int error = system_error(handle());
   std::string message = sqlite3_errmsg(handle());
   if (error != 0) message += std::string(": ") + std::strerror(error);
@@ -48,11 +49,12 @@ void Database::raise() const {
   throw sql::Failure(message, ErrorCode::kIo, kAdvice);
 }
 
-void Database::run(const char* sql) {
+void SqliteHandle::run(const char* sql) {
   if (sqlite3_exec(handle(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) raise();
 }
 
-Statement::Statement(const Database& database, std::string_view sql) : database_(&database) {
+SqliteStatement::SqliteStatement(const SqliteHandle& database, std::string_view sql)
+    : database_(&database) {
   sqlite3_stmt* handle = nullptr;
   const int result = sqlite3_prepare_v3(database.handle(), sql.data(), static_cast<int>(sql.size()),
                                         SQLITE_PREPARE_PERSISTENT, &handle, nullptr);
@@ -60,39 +62,39 @@ Statement::Statement(const Database& database, std::string_view sql) : database_
   if (result != SQLITE_OK) database.raise();
 }
 
-void Statement::check(int result) const {
+void SqliteStatement::check(int result) const {
   if (result != SQLITE_OK) database_->raise();
 }
 
-Statement& Statement::reset() {
+SqliteStatement& SqliteStatement::reset() {
   sqlite3_reset(handle_.get());
   sqlite3_clear_bindings(handle_.get());
   bound_ = 0;
   return *this;
 }
 
-Statement& Statement::bind(std::int64_t value) {
+SqliteStatement& SqliteStatement::bind(std::int64_t value) {
   check(sqlite3_bind_int64(handle_.get(), ++bound_, value));
   return *this;
 }
 
-Statement& Statement::bind_real(double value) {
+SqliteStatement& SqliteStatement::bind_real(double value) {
   check(sqlite3_bind_double(handle_.get(), ++bound_, value));
   return *this;
 }
 
-Statement& Statement::bind(std::string_view text) {
+SqliteStatement& SqliteStatement::bind(std::string_view text) {
   check(sqlite3_bind_text64(handle_.get(), ++bound_, text.data(), text.size(), SQLITE_TRANSIENT,
                             SQLITE_UTF8));
   return *this;
 }
 
-Statement& Statement::bind(std::span<const std::uint8_t> blob) {
+SqliteStatement& SqliteStatement::bind(std::span<const std::uint8_t> blob) {
   check(sqlite3_bind_blob64(handle_.get(), ++bound_, blob.data(), blob.size(), SQLITE_TRANSIENT));
   return *this;
 }
 
-bool Statement::step() {
+bool SqliteStatement::step() {
   const int result = sqlite3_step(handle_.get());
   if (result == SQLITE_ROW) return true;
   if (result == SQLITE_DONE) {
@@ -102,12 +104,12 @@ bool Statement::step() {
   database_->raise();
 }
 
-std::string Statement::text(int column) const {
+std::string SqliteStatement::text(int column) const {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), column));
   return std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column)));
 }
 
-void Statement::bind_to(sql::Statement& other, int column) const {
+void SqliteStatement::bind_to(sql::Statement& other, int column) const {
   switch (sqlite3_column_type(handle_.get(), column)) {
     case SQLITE_INTEGER:
       other.bind(integer(column));
@@ -128,12 +130,12 @@ void Statement::bind_to(sql::Statement& other, int column) const {
   }
 }
 
-void Statement::copy_blob(int column, std::span<std::uint8_t> out) const {
+void SqliteStatement::copy_blob(int column, std::span<std::uint8_t> out) const {
   const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(handle_.get(), column));
   if (sqlite3_column_bytes(handle_.get(), column) != static_cast<int>(out.size())) {
-    throw sql::Failure("a column has another length than it should", ErrorCode::kIo, kAdvice);
+    throw sql::Failure("a column does not have the expected length", ErrorCode::kIo, kAdvice);
   }
   std::copy_n(bytes, out.size(), out.begin());
 }
 
-}  // namespace vitrine::sqlite
+}  // namespace vitrine::server::sqlite

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SQLite behind a few lines: a connection and its statements.
+// A connection to an SQLite database, and its prepared statements.
 #pragma once
 
 #include <sqlite3.h>
@@ -12,32 +12,32 @@
 
 #include "server/catalogue/sql.h"
 
-namespace vitrine::sqlite {
+namespace vitrine::server::sqlite {
 
-class Database {
+class SqliteHandle {
  public:
-  explicit Database(const std::string& file);
-  void run(const char* sql);  // one or more statements without results
+  explicit SqliteHandle(const std::string& file);
+  void run(const char* sql);  // `sql`: one or more statements
   sqlite3* handle() const { return handle_.get(); }
-  [[noreturn]] void raise() const;  // says what the operating system said, where it was that
+  [[noreturn]] void raise() const;  // throws a Failure for the last error
 
  private:
-  struct Close {
+  struct CloseHandle {
     void operator()(sqlite3* handle) const { sqlite3_close(handle); }
   };
-  std::unique_ptr<sqlite3, Close> handle_;
+  std::unique_ptr<sqlite3, CloseHandle> handle_;
 };
 
-class Statement final : public sql::Statement {
+class SqliteStatement final : public sql::Statement {
  public:
-  Statement(const Database& database, std::string_view sql);
+  SqliteStatement(const SqliteHandle& database, std::string_view sql);
 
-  Statement& reset() override;
-  Statement& bind(std::int64_t value) override;
-  Statement& bind_real(double value) override;
-  Statement& bind_null() override { return ++bound_, *this; }
-  Statement& bind(std::string_view text) override;
-  Statement& bind(std::span<const std::uint8_t> blob) override;
+  SqliteStatement& reset() override;
+  SqliteStatement& bind(std::int64_t value) override;
+  SqliteStatement& bind_real(double value) override;
+  SqliteStatement& bind_null() override { return ++bound_, *this; }
+  SqliteStatement& bind(std::string_view text) override;
+  SqliteStatement& bind(std::span<const std::uint8_t> blob) override;
   bool step() override;
 
   std::int64_t integer(int column) const override {
@@ -54,12 +54,12 @@ class Statement final : public sql::Statement {
   void check(int result) const;
   void copy_blob(int column, std::span<std::uint8_t> out) const override;
 
-  struct Finalize {
+  struct FinalizeStatement {
     void operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
   };
-  const Database* database_;
-  std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+  const SqliteHandle* database_;
+  std::unique_ptr<sqlite3_stmt, FinalizeStatement> handle_;
   int bound_ = 0;
 };
 
-}  // namespace vitrine::sqlite
+}  // namespace vitrine::server::sqlite

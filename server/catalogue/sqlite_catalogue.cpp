@@ -6,7 +6,7 @@
 #include "server/catalogue/sqlite_database.h"
 #include "server/catalogue/sqlite_jobs.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 Expected<std::unique_ptr<Catalogue>> open_sqlite_catalogue(const std::filesystem::path& file) {
   return sqlite::open_database(file).map(make_catalogue);
@@ -16,4 +16,4 @@ Expected<std::unique_ptr<JobCatalogue>> open_sqlite_jobs(const std::filesystem::
   return sqlite::open_database(file).map(make_jobs);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The catalogue in one SQLite file (WAL): several processes may use it at once.
+// The catalogue in an SQLite file (WAL), which several processes may use at once.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,11 @@
 
 #include "server/catalogue/catalogue.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Creates or migrates the database. Fails with kIo where the file is refused, kUnsupported where a
-// newer version of the software has tables that this one cannot go on with. The folder must exist.
+// Opens the database `file`, and creates or migrates its tables. The folder must exist. kIo if the
+// file cannot be used. kUnsupported if a newer version of Vitrine has changed the tables so that
+// this version cannot use them.
 Expected<std::unique_ptr<Catalogue>> open_sqlite_catalogue(const std::filesystem::path& file);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

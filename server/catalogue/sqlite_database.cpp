@@ -8,7 +8,7 @@
 
 #include "server/catalogue/sqlite.h"
 
-namespace vitrine::sqlite {
+namespace vitrine::server::sqlite {
 namespace {
 
 constexpr const char* kSteps[] = {
@@ -72,7 +72,7 @@ ALTER TABLE job ADD COLUMN attempts INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE job ADD COLUMN told INTEGER NOT NULL DEFAULT 0;
 UPDATE job SET told = 1 WHERE state >= 3;
 )sql",
-    // The revision counts the changes of what visitors and tokens meet, not the steps of jobs.
+    // The revision counts changes to models and tokens, not the progress of jobs.
     R"sql(
 ALTER TABLE job ADD COLUMN fence INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE job ADD COLUMN holder TEXT NOT NULL DEFAULT '';
@@ -98,31 +98,33 @@ CREATE TABLE scanner (
 ALTER TABLE scan ADD COLUMN turn TEXT NOT NULL DEFAULT '';
 )sql",
 };
-constexpr std::int64_t kSince = 8;  // programs before that look at nothing but the version
+constexpr std::int64_t kSince = 8;  // programs for earlier tables refuse all newer ones
 
-class SqliteConnection final : public sql::Connection {
+class SqliteConnection final : public sql::DatabaseConnection {
  public:
   explicit SqliteConnection(const std::string& file) : database_(file) {}
 
   void run(const char* sql) override { database_.run(sql); }
   sql::Statement& prepare(const std::string& sql) override {
     auto& statement = statements_[sql];
-    if (!statement) statement = std::make_unique<Statement>(database_, sql);
+    if (!statement) statement = std::make_unique<SqliteStatement>(database_, sql);
     return *statement;
   }
-  // Takes the write lock at once, so that no two writers can deadlock on an upgrade.
+  // Acquires the write lock at once. Two transactions that both began as readers could deadlock
+  // when they start to write.
   void begin() override {
-    if (sqlite3_get_autocommit(database_.handle()) == 0) roll_back();  // that could not be before
+    if (sqlite3_get_autocommit(database_.handle()) == 0)
+      roll_back();  // an earlier rollback failed because memory ran out
     run("BEGIN IMMEDIATE");
   }
   void roll_back() noexcept override {
     try {
       roll_back_.reset().step();
-    } catch (const std::exception&) {  // memory has run out; begin() tries again
+    } catch (const std::exception&) {  // out of memory; begin() tries again
     }
   }
   std::uint64_t revision() override {
-    const sql::Query row(prepare("SELECT number FROM revision"));
+    const sql::ScopedStatement row(prepare("SELECT number FROM revision"));
     row->step();
     return static_cast<std::uint64_t>(row->integer(0));
   }
@@ -130,21 +132,22 @@ class SqliteConnection final : public sql::Connection {
   const char* now() const override {
     return "CAST((julianday('now') - 2440587.5) * 86400000 AS INTEGER)";
   }
-  const char* skip_locked() const override { return ""; }  // one writer at a time, see begin()
+  const char* skip_locked() const override { return ""; }  // begin() admits one writer at a time
 
  private:
-  Database database_;
-  Statement roll_back_{database_, "ROLLBACK"};  // to need no memory for it when there is none
-  std::map<std::string, std::unique_ptr<Statement>> statements_;
+  SqliteHandle database_;
+  // Prepared in advance, because a rollback may have to work without memory.
+  SqliteStatement roll_back_{database_, "ROLLBACK"};
+  std::map<std::string, std::unique_ptr<SqliteStatement>> statements_;
 };
 
 class SqliteDatabase final : public sql::Database {
  public:
   explicit SqliteDatabase(const std::string& file) : connection_(file) {}
 
-  std::shared_ptr<sql::Connection> lease() override {
+  std::shared_ptr<sql::DatabaseConnection> lease() override {
     mutex_.lock();
-    return {&connection_, [this](sql::Connection*) { mutex_.unlock(); }};
+    return {&connection_, [this](sql::DatabaseConnection*) { mutex_.unlock(); }};
   }
 
  private:
@@ -167,4 +170,4 @@ Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::pa
   }
 }
 
-}  // namespace vitrine::sqlite
+}  // namespace vitrine::server::sqlite

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The catalogue's database in an SQLite file (WAL): several processes may use it at once.
+// The catalogue's database in an SQLite file (WAL), which several processes may use at once.
 #pragma once
 
 #include <filesystem>
 
 #include "server/catalogue/sql.h"
 
-namespace vitrine::sqlite {
+namespace vitrine::server::sqlite {
 
-// Creates or migrates it; one connection, which threads use one at a time. Fails with kIo where the
-// file is refused, kUnsupported where a newer version of the software has tables that this one
-// cannot go on with. The folder must exist.
+// Opens the database `file`, and creates or migrates its tables. The folder must exist. All threads
+// share one connection, one at a time. kIo if the file cannot be used. kUnsupported if a newer
+// version of Vitrine has changed the tables so that this version cannot use them.
 Expected<std::shared_ptr<sql::Database>> open_database(const std::filesystem::path& file);
 
-}  // namespace vitrine::sqlite
+}  // namespace vitrine::server::sqlite

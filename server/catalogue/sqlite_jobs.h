@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs and scans in the SQLite file of the catalogue, over a connection of their own.
+// The jobs and scans in the catalogue's SQLite file, over a separate connection.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 #include "server/catalogue/jobs.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// As open_sqlite_catalogue (sqlite_catalogue.h).
+// Opens the file as open_sqlite_catalogue() does, with the same errors.
 Expected<std::unique_ptr<JobCatalogue>> open_sqlite_jobs(const std::filesystem::path& file);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

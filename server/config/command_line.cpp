@@ -9,8 +9,9 @@
 
 #include "server/config/options.h"
 #include "server/config/suggest.h"
+#include "server/config/wrapped.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::string_view kPrefix = "VITRINE_";
@@ -30,7 +31,7 @@ Unexpected unknown(std::string_view place, std::string_view what,
                    std::span<const std::string_view> candidates) {
   const std::string_view near = suggest(what, candidates);
   const std::string hint =
-      near.empty() ? "--help lists what there is" : fmt::format("did you mean '{}'?", near);
+      near.empty() ? "--help lists all options" : fmt::format("did you mean '{}'?", near);
   return usage(fmt::format("{}: unknown key '{}'; {}", place, what, hint));
 }
 
@@ -38,7 +39,7 @@ std::string flag_name(const Option& option) {
   return fmt::format("--{}", option.key);
 }
 
-// What has been set so far; later calls win.
+// Collects the settings given so far. A later call of set() overrides an earlier one.
 class Draft {
  public:
   Draft() {
@@ -67,7 +68,8 @@ class Draft {
   }
 
  private:
-  // A flag and a variable name their key; a line of a file does not.
+  // Returns the place of a setting for an error message. The name of a flag or variable contains
+  // the key. The place of a line in a file does not, so the key is added.
   static std::string place_of(const Option& option, const SettingSource& setting) {
     if (setting.source == flag_name(option) || setting.source == environment_name(option))
       return setting.source;
@@ -104,7 +106,7 @@ Expected<void> read_line(std::string_view text, const std::string& place, Draft&
 
 Expected<void> read_config(const std::string& path, const ReadFile& read_file, Draft& draft) {
   const auto text = read_file(path);
-  if (!text) return Unexpected(text.error());
+  if (!text) return tl::unexpected(text.error());
   std::string_view rest = *text;
   for (int number = 1; !rest.empty(); ++number) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
@@ -118,7 +120,8 @@ Expected<void> read_config(const std::string& path, const ReadFile& read_file, D
 constexpr std::array<std::string_view, 4> kOfTests{"VITRINE_MODELS", "VITRINE_FUZZ_SECONDS",
                                                    "VITRINE_CHROMIUM", "VITRINE_NO_SKIPS"};
 
-// Names with our prefix that others set: Kubernetes describes a service called "vitrine" so.
+// Whether a variable with our prefix is not a setting. The tests use some such variables, and
+// Kubernetes sets others for a service named "vitrine".
 bool is_foreign(std::string_view name, std::string_view value) {
   return std::ranges::find(kOfTests, name) != kOfTests.end() ||
          name.starts_with("VITRINE_SERVICE_") ||
@@ -152,7 +155,7 @@ struct ActionFlag {
 constexpr ActionFlag kActions[] = {
     {"--check-config", Action::kCheckConfig, "Check the configuration and exit."},
     {"--print-config", Action::kPrintConfig,
-     "Print the configuration in force as a file, and exit."},
+     "Print all settings in the --config format, and exit."},
     {"--help", Action::kHelp, "Print this text and exit."},
     {"--version", Action::kVersion, "Print the version and exit."},
 };
@@ -206,18 +209,18 @@ Expected<CommandLine> parse_command_line(std::span<const std::string_view> argum
                                          std::span<const std::string_view> environment,
                                          const ReadFile& read_file) {
   const auto flags = read_flags(arguments);
-  if (!flags) return Unexpected(flags.error());
+  if (!flags) return tl::unexpected(flags.error());
   if (flags->action == Action::kHelp || flags->action == Action::kVersion) {
     return CommandLine{.action = flags->action};
   }
   Draft draft;
   if (flags->config) {
     if (const auto read = read_config(*flags->config, read_file, draft); !read) {
-      return Unexpected(read.error());
+      return tl::unexpected(read.error());
     }
   }
   if (const auto read = read_environment(environment, draft); !read) {
-    return Unexpected(read.error());
+    return tl::unexpected(read.error());
   }
   for (const auto& [option, value] : flags->values) {
     draft.set(*option, value, flag_name(*option));
@@ -229,15 +232,19 @@ std::string reference() {
   std::string text =
       "vitrined serves progressive meshes over HTTP and WebSocket.\n\n"
       "Usage: vitrined [--config FILE] [--KEY VALUE]...\n\n"
-      "Each key can be given in the file (key = value), in the environment (VITRINE_KEY) and as a\n"
-      "flag (--key); a flag wins over the environment, which wins over the file. SIGHUP reads all\n"
-      "three again: what is reloadable takes effect, unless there is a fault, which the log "
-      "tells.\n"
-      "SIGUSR1 opens the access log anew, for those who rotate it.\n\n";
+      "A key can be set in a file (--config FILE; lines 'key = value'), in the environment\n"
+      "(such as VITRINE_TLS_KEY) and as a flag (--key VALUE). Flags override the environment,\n"
+      "which overrides the file. SIGHUP reads all three again and applies changes of reloadable\n"
+      "keys; after an error it changes nothing and logs the error. SIGUSR1 reopens the access log\n"
+      "after its rotation.\n\n";
+  constexpr std::size_t kIndent = 6;
   for (const Option& option : options()) {
-    text += fmt::format("  --{} {}\n      {} Default: {}{}\n", option.key, type_name(option.type),
-                        option.doc, option.default_value.empty() ? "none" : option.default_value,
-                        option.reloadable ? "; reloadable" : "");
+    const std::string doc =
+        fmt::format("{} Default: {}{}", option.doc,
+                    option.default_value.empty() ? "empty" : option.default_value,
+                    option.is_reloadable ? "; reloadable" : "");
+    text += fmt::format("  --{} {}\n{:{}}{}\n", option.key, type_name(option.type), "", kIndent,
+                        wrapped(doc, kIndent));
   }
   text += "\n";
   for (const ActionFlag& action : kActions) {
@@ -252,11 +259,11 @@ std::string print_config(const CommandLine& line) {
     const Option& option = *find_option(setting.key);
     text += fmt::format("# {}\n# {}; {}; from {}{}\n", option.doc, type_name(option.type),
                         environment_name(option), setting.source,
-                        option.reloadable ? "; reloadable" : "");
-    text += option.secret ? fmt::format("# {} is not shown\n\n", option.key)
-                          : fmt::format("{} = \"{}\"\n\n", option.key, setting.value);
+                        option.is_reloadable ? "; reloadable" : "");
+    text += option.is_secret ? fmt::format("# {} is not shown\n\n", option.key)
+                             : fmt::format("{} = \"{}\"\n\n", option.key, setting.value);
   }
   return text;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

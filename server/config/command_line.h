@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the daemon's arguments, environment and file to its settings.
-// Precedence: defaults < file < environment < flags.
+// Reads the daemon's settings from its configuration file, environment and arguments. Flags
+// override the environment, which overrides the file, which overrides the defaults.
 #pragma once
 
 #include <functional>
@@ -12,32 +12,35 @@
 #include "codec/core/expected.h"
 #include "server/config/settings.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 enum class Action { kServe, kCheckConfig, kPrintConfig, kHelp, kVersion };
 
 struct SettingSource {
   std::string_view key;
   std::string value;
-  std::string source;  // "default", "/etc/vitrine.conf:3", "VITRINE_LISTEN", "--listen"
+  // Where the value is from, such as "default", "/etc/vitrine.conf:3" or "--listen".
+  std::string source;
 };
 
 struct CommandLine {
   Action action = Action::kServe;
   Settings settings;
-  std::vector<SettingSource> sources;  // one per option, in the order of the table
+  std::vector<SettingSource> sources;  // one per option, in the order of options()
 };
 
-// Reads a configuration file; the error names the file.
+// Returns the text of a configuration file. The error must name the file.
 using ReadFile = std::function<Expected<std::string>(const std::string& path)>;
 
-// `arguments` without the program's name; `environment` as "NAME=value". Every error is one line
-// that names the place and, for an unknown key, the nearest known one.
+// Parses the settings. `arguments` does not include the program's name; an entry of `environment`
+// is "NAME=value". Every error is one line that names the place of the fault. If a key is unknown,
+// the error also names the most similar known key, if there is one.
 Expected<CommandLine> parse_command_line(std::span<const std::string_view> arguments,
                                          std::span<const std::string_view> environment,
                                          const ReadFile& read_file);
 
-std::string reference();                            // the text of --help
-std::string print_config(const CommandLine& line);  // a commented file that gives these settings
+std::string reference();  // returns the text of --help
+// Returns a commented configuration file with these settings.
+std::string print_config(const CommandLine& line);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings in force: replaced as a whole, while others go on with those that they have.
+// Holds the settings in force, which are replaced as a whole. A reader keeps the settings that it
+// got, even after they are replaced.
 #pragma once
 
 #include <memory>
@@ -8,7 +9,7 @@
 
 #include "server/config/settings.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 // Thread-safe.
 class LiveSettings {
@@ -27,8 +28,8 @@ class LiveSettings {
   }
 
  private:
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::shared_ptr<const Settings> settings_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

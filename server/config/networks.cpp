@@ -9,7 +9,7 @@
 
 #include "codec/core/parse_number.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 std::string_view bare(std::string_view text) {
@@ -41,19 +41,19 @@ bool Networks::parse_address(std::string_view text, Address& out, unsigned& most
 
 Expected<void> Networks::add(std::string_view network) {
   if (network == "unix") {
-    unix_ = true;
+    has_unix_ = true;
     return {};
   }
   const std::string_view address = network.substr(0, network.find('/'));
   const std::string_view bits = network.substr(std::min(network.size(), address.size() + 1));
-  Prefix prefix{};
+  NetworkPrefix prefix{};
   unsigned most = 0;
   const bool known = parse_address(address, prefix.address, most);
   const bool whole = address.size() == network.size();
   const auto length = whole ? most : parse_number<unsigned>(bits);
   if (!known || !length || *length > most) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("'{}' is no network; give, for example, 10.0.0.0/8", network));
+                fmt::format("'{}' is not a network; give, for example, 10.0.0.0/8", network));
   }
   prefix.bits = 128 - most + *length;
   prefixes_.push_back(prefix);
@@ -64,18 +64,18 @@ Expected<Networks> Networks::parse(std::string_view list) {
   Networks networks;
   while (!list.empty()) {
     const std::string_view one = list.substr(0, list.find(','));
-    if (auto added = networks.add(bare(one)); !added) return Unexpected(added.error());
+    if (auto added = networks.add(bare(one)); !added) return tl::unexpected(added.error());
     list.remove_prefix(std::min(list.size(), one.size() + 1));
   }
   return networks;
 }
 
 bool Networks::contain(std::string_view address) const {
-  if (address == "unix") return unix_;
+  if (address == "unix") return has_unix_;
   Address bytes;
   unsigned most = 0;
   return !prefixes_.empty() && parse_address(address, bytes, most) &&
-         std::ranges::any_of(prefixes_, [&](const Prefix& prefix) {
+         std::ranges::any_of(prefixes_, [&](const NetworkPrefix& prefix) {
            return begin_alike(prefix.address, bytes, prefix.bits);
          });
 }
@@ -102,4 +102,4 @@ bool is_address(std::string_view text) {
          ::inet_pton(AF_INET6, zeroed.c_str(), &parsed) == 1;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

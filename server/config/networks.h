@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A list of networks: addresses, prefixes ("10.0.0.0/8", "fd00::/8"), and "unix" for whoever
-// connects to a Unix socket.
+// A list of networks: addresses, prefixes ("10.0.0.0/8", "fd00::/8"), and "unix" for
+// clients on a Unix socket.
 #pragma once
 
 #include <array>
@@ -11,36 +11,38 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 class Networks {
  public:
-  // Separated by commas. kBadInput names what is no network.
+  // Parses a list that is separated by commas. The error (kBadInput) names the entry that is not a
+  // network.
   static Expected<Networks> parse(std::string_view list);
 
-  // `address` in digits, or "unix"; what is neither is in none. An IPv4 address is the same as its
-  // form within IPv6.
+  // Whether the list contains `address`, which is a numeric IP address or "unix". Returns false for
+  // any other text. Treats an IPv4 address and its IPv6-mapped form as equal.
   bool contain(std::string_view address) const;
 
  private:
   using Address = std::array<std::uint8_t, 16>;
-  struct Prefix {
+  struct NetworkPrefix {
     Address address;
     unsigned bits;
   };
   static bool parse_address(std::string_view text, Address& out, unsigned& most_bits);
   Expected<void> add(std::string_view network);
 
-  std::vector<Prefix> prefixes_;
-  bool unix_ = false;
+  std::vector<NetworkPrefix> prefixes_;
+  bool has_unix_ = false;
 };
 
-// What limits count as one visitor: an IPv4 address (in either form), and the first 64 bits of an
-// IPv6 address, since all that share them are one subscriber's (RFC 6177). What is no address stays
-// as it is.
+// Returns the network that limits count as one client. This is the address itself for an IPv4
+// address, even in IPv6-mapped form. For an IPv6 address, it is the prefix of 64 bits, since
+// addresses that share it belong to one subscriber ([RFC6177]). Returns text that is not an address
+// unchanged.
 std::string network_of(std::string_view address);
 
-// Whether `text` is an IPv4 or IPv6 address in digits.
+// Whether `text` is a numeric IPv4 or IPv6 address.
 bool is_address(std::string_view text);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

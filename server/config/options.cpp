@@ -11,14 +11,15 @@
 
 #include "codec/core/parse_number.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 Expected<std::uint64_t> parse_within(std::string_view text, std::uint64_t min, std::uint64_t max) {
   const auto value = parse_number<std::uint64_t>(text);
   if (!value || *value < min || *value > max) {
-    return fail(ErrorCode::kBadInput,
-                fmt::format("'{}' is not a whole number from {} to {}; give one", text, min, max));
+    return fail(
+        ErrorCode::kBadInput,
+        fmt::format("'{}' is not a whole number from {} to {}; correct it", text, min, max));
   }
   return *value;
 }
@@ -43,20 +44,20 @@ Expected<Endpoint> parse_endpoint(std::string_view text) {
   std::string_view host = text.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
   if (host == "localhost") host = "127.0.0.1";
-  if (!is_address(host.substr(0, host.find('%')))) {  // without the zone of fe80::1%eth0
+  if (!is_address(host.substr(0, host.find('%')))) {  // ignores a zone, as in fe80::1%eth0
     return fail(
         ErrorCode::kBadInput,
         fmt::format("'{}' is not a numeric address; give, for example, 127.0.0.1 or [::1]", host));
   }
   const auto port = parse_within(text.substr(colon + 1), 0, 65535);
-  if (!port) return Unexpected(port.error());
+  if (!port) return tl::unexpected(port.error());
   return Endpoint{.host = std::string(host), .port = static_cast<std::uint16_t>(*port)};
 }
 
 template <auto Member>
 Expected<void> endpoint(Settings& settings, std::string_view text) {
   auto value = parse_endpoint(text);
-  if (!value) return Unexpected(value.error());
+  if (!value) return tl::unexpected(value.error());
   settings.*Member = std::move(*value);
   return {};
 }
@@ -67,7 +68,7 @@ Expected<void> path(Settings& settings, std::string_view text) {
   return {};
 }
 
-// Replaces `list` by the parts of "A,B,…". `missing`: what to say of an empty one.
+// Replaces `list` by the parts of "A,B,…". `missing` is the error message if a part is empty.
 template <class List>
 Expected<void> parse_list(List& list, std::string_view text, const char* missing) {
   list.clear();
@@ -80,7 +81,8 @@ Expected<void> parse_list(List& list, std::string_view text, const char* missing
   return {};
 }
 
-// As browsers write it: scheme, host in lower case, the port where it is not the scheme's.
+// Whether `text` is an origin in the form that browsers send: scheme, host in lower case, and the
+// port unless it is the default.
 bool is_origin(std::string_view text) {
   const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
   const std::string_view host = text.substr(scheme);
@@ -91,66 +93,72 @@ bool is_origin(std::string_view text) {
 }
 
 Expected<void> origins(Settings& settings, std::string_view text) {
-  if (auto done = parse_list(settings.allowed_origins, text, "an origin in it is empty"); !done)
+  if (auto done = parse_list(settings.allowed_origins, text,
+                             "an origin in the list is empty; remove the extra comma");
+      !done)
     return done;
   for (const std::string& origin : settings.allowed_origins) {
     if (is_origin(origin)) continue;
     return fail(
         ErrorCode::kBadInput,
-        fmt::format("'{}' is no origin; give, for example, https://museum.example", origin));
+        fmt::format("'{}' is not an origin; give, for example, https://museum.example", origin));
   }
   return {};
 }
 
 Expected<void> scanners(Settings& settings, std::string_view text) {
-  return parse_list(settings.scanners, text, "a path in it is empty; name the rig.json");
+  return parse_list(settings.scanners, text, "a path in the list is empty; remove the extra comma");
 }
 
 Expected<void> webhook_hosts(Settings& settings, std::string_view text) {
-  return parse_list(settings.webhook_hosts, text, "a host in it is empty; name the server");
+  return parse_list(settings.webhook_hosts, text,
+                    "a host in the list is empty; remove the extra comma");
 }
 
 Expected<void> roles(Settings& settings, std::string_view text) {
   std::vector<std::string_view> names;
-  if (auto done = parse_list(names, text, "a role in it is empty; name one"); !done) return done;
+  if (auto done = parse_list(names, text, "a role in the list is empty; remove the extra comma");
+      !done)
+    return done;
   settings.roles = {};
   for (const std::string_view name : names) {
-    bool* const role = name == "serve"   ? &settings.roles.serve
-                       : name == "build" ? &settings.roles.build
-                       : name == "scan"  ? &settings.roles.scan
+    bool* const role = name == "serve"   ? &settings.roles.serves
+                       : name == "build" ? &settings.roles.builds
+                       : name == "scan"  ? &settings.roles.scans
                                          : nullptr;
     if (role == nullptr) {
-      return fail(ErrorCode::kBadInput,
-                  fmt::format("'{}' is no role; give some of serve, build and scan", name));
+      return fail(
+          ErrorCode::kBadInput,
+          fmt::format("'{}' is not a role; give one or more of serve, build and scan", name));
     }
     *role = true;
   }
   if (!names.empty()) return {};
-  return fail(ErrorCode::kBadInput, "it is empty; give some of serve, build and scan");
+  return fail(ErrorCode::kBadInput, "the list is empty; give one or more of serve, build and scan");
 }
 
 Expected<void> trusted_proxies(Settings& settings, std::string_view text) {
   auto networks = Networks::parse(text);
-  if (!networks) return Unexpected(networks.error());
+  if (!networks) return tl::unexpected(networks.error());
   settings.trusted_proxies = std::move(*networks);
   return {};
 }
 
 Expected<void> data_folder(Settings& settings, std::string_view text) {
-  if (text.empty()) return fail(ErrorCode::kBadInput, "it is empty; name the data folder");
+  if (text.empty()) return fail(ErrorCode::kBadInput, "the path is empty; name the data folder");
   return path<&Settings::data>(settings, text);
 }
 
 template <auto Member, std::uint64_t Min, std::uint64_t Max>
 Expected<void> number(Settings& settings, std::string_view text) {
   const auto value = parse_within(text, Min, Max);
-  if (!value) return Unexpected(value.error());
-  using Target = std::remove_reference_t<decltype(settings.*Member)>;
-  settings.*Member = static_cast<Target>(*value);
+  if (!value) return tl::unexpected(value.error());
+  using Number = std::remove_reference_t<decltype(settings.*Member)>;
+  settings.*Member = static_cast<Number>(*value);
   return {};
 }
 
-// The message does not repeat the URL, which may hold a password.
+// Reads a URL. The error message does not repeat the URL, which may contain a password.
 template <auto Member>
 Expected<void> url_of(Settings& settings, std::string_view text,
                       std::initializer_list<std::string_view> schemes) {
@@ -158,7 +166,7 @@ Expected<void> url_of(Settings& settings, std::string_view text,
       schemes, [text](std::string_view scheme) { return text.starts_with(scheme); });
   if (!text.empty() && !fits) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("it does not begin with {}; correct the URL", *schemes.begin()));
+                fmt::format("the URL does not begin with {}; correct it", *schemes.begin()));
   }
   settings.*Member = std::string(text);
   return {};
@@ -178,7 +186,7 @@ Expected<void> text_of(Settings& settings, std::string_view text) {
   return {};
 }
 
-// An origin and, behind a proxy that adds one, a path; what a browser would show.
+// Reads the URL of a daemon, without slashes at its end: an origin, and a path if a proxy adds one.
 template <auto Member>
 Expected<void> address(Settings& settings, std::string_view text) {
   while (text.ends_with('/'))
@@ -190,133 +198,231 @@ Expected<void> address(Settings& settings, std::string_view text) {
   };
   if (!text.empty() && (scheme == 0 || text.size() == scheme || !std::ranges::all_of(text, fits))) {
     return fail(ErrorCode::kBadInput,
-                fmt::format("'{}' is no URL; give, for example, https://museum.example", text));
+                fmt::format("'{}' is not a URL; give, for example, https://museum.example", text));
   }
   settings.*Member = std::string(text);
   return {};
 }
 
 using S = Settings;
-constexpr bool kReloadable = true;
 using enum OptionType;
 
 constexpr std::array kOptions{
-    Option{"listen", kEndpoint, "127.0.0.1:8080",
-           "Where visitors connect. Port 0 takes any free port; unix:/PATH is a Unix socket.",
-           false, endpoint<&S::listen>},
     Option{
-        "tls-certificate", kPath, "",
-        "The certificate chain (PEM) that 'listen' speaks TLS with; empty is without TLS. It and "
-        "the key are read again when they change.",
-        false, path<&S::tls_certificate>},
-    Option{"tls-key", kPath, "", "The certificate's private key (PEM).", false, path<&S::tls_key>},
-    Option{"trusted-proxies", kNetworks, "",
-           "Whose X-Forwarded-For, X-Forwarded-Proto and Forwarded are believed: addresses, "
-           "networks, or unix.",
-           false, trusted_proxies},
-    Option{"data", kPath, "./data", "The folder of this installation: objects and catalogue.",
-           false, data_folder},
+        .key = "listen",
+        .type = kEndpoint,
+        .default_value = "127.0.0.1:8080",
+        .doc =
+            "IP address and port for visitors. Port 0: any free port; unix:/PATH: a Unix socket.",
+        .apply = endpoint<&S::listen>},
+    Option{.key = "tls-certificate",
+           .type = kPath,
+           .default_value = "",
+           .doc = "PEM file of the certificate chain for TLS on 'listen'. Empty: no TLS. "
+                  "Certificate and key are read again when they change.",
+           .apply = path<&S::tls_certificate>},
+    Option{.key = "tls-key",
+           .type = kPath,
+           .default_value = "",
+           .doc = "PEM file of the certificate's private key, without a passphrase.",
+           .apply = path<&S::tls_key>},
+    Option{.key = "trusted-proxies",
+           .type = kNetworks,
+           .default_value = "",
+           .doc = "Proxies whose X-Forwarded-For, X-Forwarded-Proto and Forwarded fields are "
+                  "trusted: addresses, networks such as 10.0.0.0/8, or unix for clients on a Unix "
+                  "socket.",
+           .apply = trusted_proxies},
+    Option{.key = "data",
+           .type = kPath,
+           .default_value = "./data",
+           .doc = "Folder for model files (objects) and the catalogue.",
+           .apply = data_folder},
     Option{
-        "roles", kNames, "serve,build,scan",
-        "What this daemon does: answer on 'listen', make models of uploads, drive scanners. What "
-        "is left out another does that has the same store, catalogue and uploads.",
-        false, roles},
-    Option{"uploads", kPath, "",
-           "The folder of what is being uploaded; all that serve or build share one. Empty: in the "
-           "data folder.",
-           false, path<&S::uploads>},
+        .key = "roles",
+        .type = kNames,
+        .default_value = "serve,build,scan",
+        .doc =
+            "Tasks of this daemon: serve (answer requests on 'listen'), build (build models from "
+            "uploads), scan (drive scanners). Daemons that share store, catalogue and uploads "
+            "can divide the roles.",
+        .apply = roles},
+    Option{.key = "uploads",
+           .type = kPath,
+           .default_value = "",
+           .doc = "Folder for uploads in progress. All daemons that serve or build share it. "
+                  "Empty: in the data folder.",
+           .apply = path<&S::uploads>},
+    Option{.key = "store",
+           .type = kUrl,
+           .default_value = "",
+           .doc = "S3-compatible bucket for the objects: "
+                  "s3://BUCKET/PREFIX?endpoint=URL&region=R&style=path, or style=virtual. Empty: "
+                  "in the data folder.",
+           .apply = store_url},
+    Option{.key = "store-access-key",
+           .type = kText,
+           .default_value = "",
+           .doc = "Access key ID for the S3-compatible object store.",
+           .apply = text_of<&S::store_access_key>},
+    Option{.key = "store-secret-key",
+           .type = kText,
+           .default_value = "",
+           .doc = "Secret access key for the object store. Set it in the file or the environment.",
+           .is_secret = true,
+           .apply = text_of<&S::store_secret_key>},
+    Option{.key = "catalogue",
+           .type = kUrl,
+           .default_value = "",
+           .doc = "PostgreSQL for the catalogue (models, tokens, jobs): "
+                  "postgresql://USER:PASSWORD@HOST/DATABASE?LIBPQ_OPTIONS. Set it in the file or "
+                  "the environment. Empty: a file in the data folder.",
+           .is_secret = true,
+           .apply = catalogue_url},
+    Option{.key = "port-file",
+           .type = kPath,
+           .default_value = "",
+           .doc = "File to write the port of 'listen' to once it is bound.",
+           .apply = path<&S::port_file>},
+    Option{.key = "admin-listen",
+           .type = kEndpoint,
+           .default_value = "127.0.0.1:0",
+           .doc = "Address and port for /livez, /readyz and /metrics. Keep it off public networks.",
+           .apply = endpoint<&S::admin_listen>},
+    Option{.key = "admin-port-file",
+           .type = kPath,
+           .default_value = "",
+           .doc = "File to write the port of 'admin-listen' to once it is bound.",
+           .apply = path<&S::admin_port_file>},
+    Option{.key = "access-log",
+           .type = kPath,
+           .default_value = "-",
+           .doc = "File for the access log, one line per request. '-' is standard error; empty "
+                  "disables it.",
+           .apply = path<&S::access_log>,
+           .is_reloadable = true},
+    Option{.key = "threads",
+           .type = kCount,
+           .default_value = "0",
+           .doc = "Threads that serve connections. 0: one per core.",
+           .apply = number<&S::threads, 0, 1024>},
+    Option{.key = "max-connections",
+           .type = kCount,
+           .default_value = "10000",
+           .doc = "Largest number of open connections. The daemon closes further ones at once.",
+           .apply = number<&S::max_connections, 1, 1'000'000>,
+           .is_reloadable = true},
     Option{
-        "store", kUrl, "",
-        "A bucket that holds the objects: s3://BUCKET/PREFIX?endpoint=URL&region=R&style=path, or "
-        "style=virtual. Empty: in the data folder.",
-        false, store_url},
-    Option{"store-access-key", kText, "", "Who this daemon is for the object store.", false,
-           text_of<&S::store_access_key>},
-    Option{"store-secret-key", kText, "", "What proves it. Set it in the file or environment.",
-           true, text_of<&S::store_secret_key>},
-    Option{"catalogue", kUrl, "",
-           "A PostgreSQL database: postgresql://USER:PASSWORD@HOST/DATABASE, with what else libpq "
-           "knows. Set it in the file or environment. Empty: a file in the data folder.",
-           true, catalogue_url},
-    Option{"port-file", kPath, "", "A file to write the port of 'listen' to once it is bound.",
-           false, path<&S::port_file>},
-    Option{"admin-listen", kEndpoint, "127.0.0.1:0",
-           "Where /livez, /readyz and /metrics are. Keep it off public networks.", false,
-           endpoint<&S::admin_listen>},
-    Option{"admin-port-file", kPath, "",
-           "A file to write the port of 'admin-listen' to once it is bound.", false,
-           path<&S::admin_port_file>},
-    Option{"access-log", kPath, "-", "One line per request. '-' is standard error; empty is none.",
-           false, path<&S::access_log>, kReloadable},
-    Option{"threads", kCount, "0", "Threads that serve connections. 0 is one per core.", false,
-           number<&S::threads, 0, 1024>},
-    Option{"max-connections", kCount, "10000", "Connections beyond this number are closed at once.",
-           false, number<&S::max_connections, 1, 1'000'000>, kReloadable},
+        .key = "max-connections-per-address",
+        .type = kCount,
+        .default_value = "5000",
+        .doc =
+            "Largest number of open connections from one address or one IPv6 /64 network. Trusted "
+            "proxies are exempt; their WebSockets count for the client behind them. 0: no limit.",
+        .apply = number<&S::max_connections_per_address, 0, 1'000'000>},
+    Option{.key = "request-rate",
+           .type = kCount,
+           .default_value = "1000",
+           .doc =
+               "Requests per second of each address (or IPv6 /64 network) and each token; in a "
+               "burst, up to ten times as many. Responses from memory do not count. 0: no limit.",
+           .apply = number<&S::request_rate, 0, 1'000'000>},
+    Option{.key = "min-rate",
+           .type = kBytes,
+           .default_value = "256",
+           .doc = "Disconnect clients that receive fewer bytes per second than this, on average. 0 "
+                  "disables the check.",
+           .apply = number<&S::min_rate, 0, 1'000'000'000>},
     Option{
-        "max-connections-per-address", kCount, "5000",
-        "Likewise of one address, or of one IPv6 network of 64 bits, that is no trusted proxy's; "
-        "streams count for the visitor behind the proxy. 0 is no limit.",
-        false, number<&S::max_connections_per_address, 0, 1'000'000>},
-    Option{"request-rate", kCount, "1000",
-           "Requests a second that each address (of IPv6, each network of 64 bits) and each token "
-           "may make beyond what is answered "
-           "from memory, ten seconds' worth at once. 0 is no limit.",
-           false, number<&S::request_rate, 0, 1'000'000>},
-    Option{"min-rate", kBytes, "256",
-           "Bytes a second that a reader takes on average, or it is cut. 0 is no limit.", false,
-           number<&S::min_rate, 0, 1'000'000'000>},
-    Option{"idle-timeout", kSeconds, "30",
-           "How long a connection may take for a request's header, or to accept more bytes.", false,
-           number<&S::idle_timeout, 1, 3600>, kReloadable},
-    Option{"stop-timeout", kSeconds, "20",
-           "After SIGTERM, how long transfers may take to finish before they are cut.", false,
-           number<&S::stop_timeout, 0, 3600>, kReloadable},
-    Option{"export-cache", kBytes, "268435456",
-           "Memory for exported files and posters that are kept ready.", false,
-           number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
-           kReloadable},
-    Option{"model-cache", kBytes, "268435456",
-           "Memory for what is known of the models that are asked for most recently.", false,
-           number<&S::model_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
-           kReloadable},
-    Option{
-        "answer-memory", kBytes, "536870912",
-        "Memory that answers may hold which their readers have not taken yet; beyond it they are "
-        "503, and 507 where one alone is larger. What is sent from a file holds none.",
-        false, number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
-        kReloadable},
-    Option{"allowed-origins", kOrigins, "",
-           "The sites whose pages may open streams besides this one's. Empty: every site's, but "
-           "with a token none's.",
-           false, origins, kReloadable},
-    Option{"max-upload", kBytes, "8589934592", "Bytes that an uploaded file may have.", false,
-           number<&S::max_upload_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
-    Option{"max-uploads", kCount, "16", "Uploads that one token may have open at a time.", false,
-           number<&S::max_uploads, 1, 100'000>},
-    Option{"upload-lifetime", kSeconds, "86400",
-           "How long an upload is kept after its last piece, unless a job uses it.", false,
-           number<&S::upload_lifetime, 1, 31'536'000>},
-    Option{"collect-after", kSeconds, "3600",
-           "How long a stored file is kept that no model names any more.", false,
-           number<&S::collect_after, 0, 31'536'000>},
-    Option{"quota", kBytes, "0", "Bytes that models and uploads together may take. 0: no limit.",
-           false, number<&S::quota_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
-    Option{
-        "webhook-hosts", kNames, "",
-        "The servers that may be told of the ends of jobs: HOST or HOST:PORT, separated by commas.",
-        false, webhook_hosts},
-    Option{"scanners", kPaths, "",
-           "The rig.json files of the scanners that this daemon drives, separated by commas.",
-           false, scanners},
-    Option{"scan-address", kUrl, "",
-           "Where other daemons reach 'listen' of this one, which drives scanners: "
-           "http://10.0.0.7:8080. They pass on what is asked of those. Empty: they do not.",
-           false, address<&S::scan_address>},
-    Option{
-        "public-url", kUrl, "",
-        "What visitors' addresses begin with, where a proxy changes that: https://museum.example. "
-        "Empty: what each request says.",
-        false, address<&S::public_url>, kReloadable},
+        .key = "idle-timeout",
+        .type = kSeconds,
+        .default_value = "30",
+        .doc = "Time that a client may take to send a request's header, or to accept more bytes.",
+        .apply = number<&S::idle_timeout, 1, 3600>,
+        .is_reloadable = true},
+    Option{.key = "stop-timeout",
+           .type = kSeconds,
+           .default_value = "20",
+           .doc = "Time that open transfers may take to finish after SIGTERM.",
+           .apply = number<&S::stop_timeout, 0, 3600>,
+           .is_reloadable = true},
+    Option{.key = "export-cache",
+           .type = kBytes,
+           .default_value = "268435456",
+           .doc = "Memory for exported files and poster images.",
+           .apply = number<&S::export_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
+           .is_reloadable = true},
+    Option{.key = "model-cache",
+           .type = kBytes,
+           .default_value = "268435456",
+           .doc = "Memory for headers (manifests) of the models that clients requested last.",
+           .apply = number<&S::model_cache_bytes, 0, std::numeric_limits<std::uint64_t>::max()>,
+           .is_reloadable = true},
+    Option{.key = "answer-memory",
+           .type = kBytes,
+           .default_value = "536870912",
+           .doc = "Memory for responses that clients have not received yet. Beyond it, requests "
+                  "fail with 503; a response that is larger by itself fails with 507. Responses "
+                  "sent from files need none.",
+           .apply = number<&S::answer_memory_bytes, 1, std::numeric_limits<std::uint64_t>::max()>,
+           .is_reloadable = true},
+    Option{.key = "allowed-origins",
+           .type = kOrigins,
+           .default_value = "",
+           .doc = "Other web sites whose pages may open WebSockets here. Empty: all, but only "
+                  "without a token.",
+           .apply = origins,
+           .is_reloadable = true},
+    Option{.key = "max-upload",
+           .type = kBytes,
+           .default_value = "8589934592",
+           .doc = "Largest size of an uploaded file.",
+           .apply = number<&S::max_upload_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
+    Option{.key = "max-uploads",
+           .type = kCount,
+           .default_value = "16",
+           .doc = "Largest number of unfinished uploads of one token.",
+           .apply = number<&S::max_uploads, 1, 100'000>},
+    Option{.key = "upload-lifetime",
+           .type = kSeconds,
+           .default_value = "86400",
+           .doc = "Time to keep an upload after its last part, unless a job uses it.",
+           .apply = number<&S::upload_lifetime, 1, 31'536'000>},
+    Option{.key = "collect-after",
+           .type = kSeconds,
+           .default_value = "3600",
+           .doc = "Time to keep a stored file that no model refers to.",
+           .apply = number<&S::collect_after, 0, 31'536'000>},
+    Option{.key = "quota",
+           .type = kBytes,
+           .default_value = "0",
+           .doc = "Largest total size of all models and uploads. 0: no limit.",
+           .apply = number<&S::quota_bytes, 0, std::numeric_limits<std::int64_t>::max()>},
+    Option{.key = "webhook-hosts",
+           .type = kNames,
+           .default_value = "",
+           .doc = "Servers that webhooks may call when jobs end: HOST or HOST:PORT, separated by "
+                  "commas. Empty: webhooks are disabled.",
+           .apply = webhook_hosts},
+    Option{.key = "scanners",
+           .type = kPaths,
+           .default_value = "",
+           .doc = "Configuration files (rig.json) of the scanners that this daemon drives.",
+           .apply = scanners},
+    Option{.key = "scan-address",
+           .type = kUrl,
+           .default_value = "",
+           .doc = "URL under which other daemons reach 'listen' of this daemon, for example "
+                  "http://10.0.0.7:8080. They forward requests for its scanners there. Empty: they "
+                  "cannot reach its scanners.",
+           .apply = address<&S::scan_address>},
+    Option{.key = "public-url",
+           .type = kUrl,
+           .default_value = "",
+           .doc = "URL prefix that visitors see, if a proxy changes it: https://museum.example. "
+                  "Empty: taken from each request.",
+           .apply = address<&S::public_url>,
+           .is_reloadable = true},
 };
 
 }  // namespace
@@ -366,4 +472,4 @@ std::string_view type_name(OptionType type) {
   return "";
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

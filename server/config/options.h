@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one table of what can be configured. Flags, environment variables, the file and the reference
-// text are all derived from it.
+// The table of all configuration options. Flags, environment variables, the file and the reference
+// text are derived from it.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 #include "codec/core/expected.h"
 #include "server/config/settings.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 enum class OptionType {
   kEndpoint,
@@ -27,20 +27,23 @@ enum class OptionType {
 };
 
 struct Option {
-  std::string_view key;  // flag --key, environment VITRINE_KEY with underscores, file "key = value"
+  // Names the option: flag --key, environment variable VITRINE_KEY with underscores, line "key =
+  // value" in the file.
+  std::string_view key;
   OptionType type;
   std::string_view default_value;
   std::string_view doc;
-  bool secret;  // never printed
-  // Parses and range-checks `text`; the error says what is expected.
+  bool is_secret = false;  // whether the value must never be printed
+  // Parses `text`, checks its range and sets the member of `settings`. The error says what is
+  // expected.
   Expected<void> (*apply)(Settings& settings, std::string_view text);
-  bool reloadable = false;  // SIGHUP takes a new value; the others wait for a new start
+  bool is_reloadable = false;  // whether SIGHUP applies a new value; other options need a restart
 };
 
 std::span<const Option> options();
-const Option* find_option(std::string_view key);  // null where there is none
+const Option* find_option(std::string_view key);  // returns null if the key is unknown
 
-std::string environment_name(const Option& option);  // VITRINE_ADMIN_LISTEN
-std::string_view type_name(OptionType type);         // "HOST:PORT"
+std::string environment_name(const Option& option);  // returns a name such as VITRINE_ADMIN_LISTEN
+std::string_view type_name(OptionType type);         // returns a text such as "HOST:PORT"
 
-}  // namespace vitrine
+}  // namespace vitrine::server

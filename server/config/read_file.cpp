@@ -12,13 +12,14 @@
 
 #include "server/config/command_line.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 Expected<std::string> read_config_file(const std::string& path) {
   std::ifstream file(path);
   int error = errno;
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) error = EISDIR;  // opens, and reads as empty
+  if (std::filesystem::is_directory(path, ignored))
+    error = EISDIR;  // a folder can be opened like a file and reads as empty
   if (!file || error == EISDIR) {
     return fail(ErrorCode::kIo,
                 fmt::format("cannot read {}: {}; check --config", path, std::strerror(error)));
@@ -30,8 +31,8 @@ Expected<Settings> read_settings(const std::string& path,
                                  std::span<const std::string_view> environment) {
   const std::array<std::string_view, 2> arguments{"--config", path};
   const auto line = parse_command_line(arguments, environment, read_config_file);
-  if (!line) return Unexpected(line.error());
+  if (!line) return tl::unexpected(line.error());
   return line->settings;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a configuration that is read again takes effect while the daemon runs.
+// Decides which settings of a newly read configuration a running daemon can apply.
 #pragma once
 
 #include <string>
@@ -8,18 +8,19 @@
 
 #include "server/config/command_line.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct Reload {
-  CommandLine line;                       // `current`, but for the keys that have changed
-  std::vector<std::string_view> changed;  // the keys whose new values are in it
-  std::vector<std::string_view> waiting;  // those whose new values need a new start
+  CommandLine line;  // `current`, with new values of the reloadable keys that have changed
+  std::vector<std::string_view> changed;  // keys whose new values are in `line`
+  std::vector<std::string_view> waiting;  // keys whose new values need a restart
 };
 
-// Fails (kBadInput) where a value of `fresh` is refused; `current` is then as good as before.
+// Combines the current configuration with a newly read one. Fails with kBadInput if a value of
+// `fresh` is refused; `current` then stays in force.
 Expected<Reload> reload(const CommandLine& current, const CommandLine& fresh);
 
-// "public-url, stop-timeout"; "nothing" where there are none.
+// Formats a list of keys, such as "public-url, stop-timeout". Returns "nothing" for an empty list.
 std::string list_keys(const std::vector<std::string_view>& keys);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// Levenshtein's distance, one row of the table at a time.
+// Returns the Levenshtein distance. Computes the table one row at a time.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -35,4 +35,4 @@ std::string_view suggest(std::string_view word, std::span<const std::string_view
   return best;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

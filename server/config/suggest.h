@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// "Did you mean …?" for a mistyped word.
+// Suggests the known word that a mistyped word was probably meant to be.
 #pragma once
 
 #include <span>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// The candidate of the smallest edit distance to `word` (insert, delete, replace one character),
-// the first among equals, or "" where none is nearer than half of the word.
+// Returns the candidate with the smallest edit distance to `word`, or the first of several such
+// candidates. One edit inserts, deletes or replaces one character. Returns an empty text if all
+// distances are more than half of the word's length.
 std::string_view suggest(std::string_view word, std::span<const std::string_view> candidates);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

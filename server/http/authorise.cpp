@@ -5,10 +5,9 @@
 
 #include "server/auth/role.h"
 #include "server/config/networks.h"
-#include "server/http/problem.h"
-#include "server/http/services.h"
+#include "server/messages/problem.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using beast::http::field;
@@ -20,9 +19,9 @@ Response unauthorised(std::string_view detail, std::string_view challenge,
   return response;
 }
 
-Response unknown_token(const Credentials& credentials, Services& services) {
-  services.metrics.unknown_tokens.fetch_add(1, std::memory_order_relaxed);
-  const auto wait = services.tokens.throttle().failed(network_of(credentials.remote));
+Response unknown_token(const Credentials& credentials, const HttpDependencies& with) {
+  with.metrics.unknown_tokens.fetch_add(1, std::memory_order_relaxed);
+  const auto wait = with.tokens.throttle().failed(network_of(credentials.remote));
   if (wait.count() == 0) {
     return unauthorised("the token is unknown or revoked; ask for a new one",
                         "Bearer error=\"invalid_token\"", credentials.request_id);
@@ -32,7 +31,8 @@ Response unknown_token(const Credentials& credentials, Services& services) {
   return response;
 }
 
-// The token of "Bearer TOKEN", empty where the field is anything else.
+// Returns the token of a field "Authorization: Bearer TOKEN". Returns an empty text if the request
+// has no such field, several, or one of another form.
 std::string_view bearer_token(const RequestHeader& header) {
   constexpr std::string_view kScheme = "Bearer ";
   const auto value = header[field::authorization];
@@ -54,30 +54,30 @@ Authorisation with_role(const Caller& caller, const Route& route, std::string_vi
 
 bool needs_authorisation(const Route& route, const RequestHeader& header) {
   if (route.role != Role::kNone) return true;
-  return route.place != Place::kInline && header.count(field::authorization) > 0;
+  return route.executor != Executor::kInline && header.count(field::authorization) > 0;
 }
 
-Authorisation authorise(const Route& route, const Credentials& credentials, Services& services) {
+Authorisation authorise(const Route& route, const Credentials& credentials,
+                        const HttpDependencies& with) {
   const std::string_view id = credentials.request_id;
   if (credentials.header.count(field::authorization) == 0) {
     if (route.role == Role::kNone) return {};
     return {{}, unauthorised("send a token: Authorization: Bearer TOKEN", "Bearer", id)};
   }
-  const auto caller = services.tokens.find(bearer_token(credentials.header));
+  const auto caller = with.tokens.find(bearer_token(credentials.header));
   if (!caller) {
-    services.errors.event(Severity::kError,
-                          fmt::format("request {}: {}", id, caller.error().message));
+    with.events.event(Severity::kError, fmt::format("request {}: {}", id, caller.error().message));
     return {{}, away(id)};
   }
-  if (!*caller) return {{}, unknown_token(credentials, services)};
+  if (!*caller) return {{}, unknown_token(credentials, with)};
   return with_role(**caller, route, id);
 }
 
 std::optional<Authorisation> authorise_at_once(const Route& route, const Credentials& credentials,
-                                               Services& services) {
-  const auto caller = services.tokens.held(bearer_token(credentials.header));
+                                               const HttpDependencies& with) {
+  const auto caller = with.tokens.cached(bearer_token(credentials.header));
   if (!caller) return std::nullopt;
   return with_role(*caller, route, credentials.request_id);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

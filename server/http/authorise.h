@@ -1,31 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a request may have its route: bearer tokens (RFC 6750) against the route's role.
+// Authorises requests: checks a bearer token (RFC 6750) against the role of a route.
 #pragma once
 
 #include <optional>
 
-#include "server/http/router.h"
+#include "server/http/http_server.h"
+#include "server/messages/router.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// What one request presents.
+// The credentials of one request.
 struct Credentials {
   const RequestHeader& header;
-  std::string_view remote;  // the peer's address
+  std::string_view remote;  // the client's address
   std::string_view request_id;
 };
 
+// Whether authorise() must be called for the request. A route without a role needs it only if the
+// request has a token and the handler does not run inline.
 bool needs_authorisation(const Route& route, const RequestHeader& header);
 
 struct Authorisation {
-  std::optional<Caller> caller;     // nobody for a public route without a token
-  std::optional<Response> refusal;  // 401 without a token in force, 403 where its role does not
-                                    // suffice, 429 where the address has tried too many wrong ones
+  // The owner of the token; nullopt if the request has no valid token.
+  std::optional<Caller> caller;
+  // The response if the request is refused: 401 if there is no valid token, 403 if the token's role
+  // does not suffice, 429 if this address has sent too many unknown tokens, 503 if the catalogue
+  // cannot be read.
+  std::optional<Response> refusal;
 };
-// Waits for the catalogue.
-Authorisation authorise(const Route& route, const Credentials& credentials, Services& services);
-// Nothing where the catalogue has to be asked.
+// Authorises a request. May block while it reads the catalogue.
+Authorisation authorise(const Route& route, const Credentials& credentials,
+                        const HttpDependencies& with);
+// Authorises a request without blocking. Returns nullopt if the catalogue must be read.
 std::optional<Authorisation> authorise_at_once(const Route& route, const Credentials& credentials,
-                                               Services& services);
+                                               const HttpDependencies& with);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

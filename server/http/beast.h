@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boost.Asio with coroutines, and the parts of Boost.Beast that read requests: heavy, for few
-// files.
+// Includes Boost.Asio with coroutines, and the parts of Boost.Beast that parse requests. Include
+// this header in few files, since it is slow to compile.
 #pragma once
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -13,7 +12,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <boost/asio/thread_pool.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/buffer_body.hpp>
@@ -21,15 +19,13 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/string_body.hpp>
 
-#include "server/http/http_header.h"
+#include "server/messages/http_header.h"
+#include "server/transport/no_throw.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 namespace asio = boost::asio;
 
 using Tcp = asio::ip::tcp;
 
-// Awaits without exceptions: co_await gives a tuple that starts with the error code.
-inline constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
-
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/bodies_in_flight.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 bool BodiesInFlight::enter(const void* owner, std::uint64_t size) {
   const std::scoped_lock lock(mutex_);
@@ -34,7 +34,8 @@ std::shared_ptr<const void> BodiesInFlight::admit(const Body& body) {
   const bool is_static = shared != nullptr && shared->owner == nullptr;
   if (std::holds_alternative<StoredBytes>(body) || is_static || size < kSmall)
     return {std::shared_ptr<const void>(), this};
-  // Lives until it has left: no other memory has its address before.
+  // This copy keeps the memory alive until leave(), so that no other memory can get the same
+  // address until then.
   const auto owner = shared != nullptr ? shared->owner : nullptr;
   if (!enter(owner.get(), size)) return nullptr;
   return {static_cast<const void*>(this), [self = shared_from_this(), owner, size](const void*) {
@@ -42,4 +43,4 @@ std::shared_ptr<const void> BodiesInFlight::admit(const Body& body) {
           }};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

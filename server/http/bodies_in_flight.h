@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory that answers hold until their readers have taken them: the slowest decide how long.
+// Limits the memory of responses that are being sent, since slow clients can hold it for a long
+// time.
 #pragma once
 
 #include <atomic>
@@ -8,24 +9,25 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "server/http/body.h"
+#include "server/messages/body.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Thread-safe. Owned by shared pointers: what it has admitted keeps it.
+// Thread-safe. Must be owned by a shared pointer, since the results of admit() keep it alive.
 class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
  public:
-  // Those under way come to `max_bytes` at most.
+  // `max_bytes`: limit on the total size of the responses being sent.
   explicit BodiesInFlight(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
   void set_capacity(std::uint64_t max_bytes) { max_bytes_ = max_bytes; }
 
-  // Keep it until `body` is sent; null where there is no room. A text counts as what it has, shared
-  // memory once however many send it, and what is stored or below kSmall not at all: every
-  // connection may have that.
+  // Admits a body, or returns null if there is no room. The caller must keep the result until
+  // `body` is sent. A text counts with its size. Shared memory counts once, however many
+  // connections send it. Stored bytes, static memory and bodies smaller than kSmall bytes do not
+  // count.
   std::shared_ptr<const void> admit(const Body& body);
 
-  // Whether there will be room for it once others have gone.
+  // Whether the body would be admitted if no other response were being sent.
   bool fits_alone(const Body& body) const { return body_size(body) <= max_bytes_; }
 
   static constexpr std::uint64_t kSmall = 16 * 1024;
@@ -33,15 +35,15 @@ class BodiesInFlight : public std::enable_shared_from_this<BodiesInFlight> {
  private:
   struct Shared {
     std::size_t senders = 0;
-    std::uint64_t bytes = 0;  // of what the first of them sends
+    std::uint64_t bytes = 0;  // number of bytes counted: the size of the first sender's body
   };
-  bool enter(const void* owner, std::uint64_t size);  // null: nobody shares it
+  bool enter(const void* owner, std::uint64_t size);  // `owner` is null if the memory is not shared
   void leave(const void* owner, std::uint64_t size);
 
   std::atomic<std::uint64_t> max_bytes_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::uint64_t bytes_ = 0;
   std::unordered_map<const void*, Shared> shared_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One visitor's socket and what others may do to it: cut it when its time is up, or ask it to end.
+// A connection: a socket, its deadline, and the state that the server needs to shut down.
 #pragma once
 
 #include <atomic>
@@ -10,9 +10,9 @@
 #include "server/http/beast.h"
 #include "server/transport/byte_stream.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Everything but `deadline` belongs to the socket's strand.
+// All members except `deadline` may be used only on the socket's strand.
 struct Connection : std::enable_shared_from_this<Connection> {
   using Clock = std::chrono::steady_clock;
 
@@ -20,13 +20,18 @@ struct Connection : std::enable_shared_from_this<Connection> {
 
   ByteStream socket;
   const std::string remote;  // the peer's address, or "unix"
-  std::string counted_as;    // ConnectionSet's: the network whose limit it counts for
-  bool idle = false;         // between two requests: may be closed without loss
-  bool reads_body = false;   // is told of its deadline before it is cut: it has an answer to give
-  bool draining = false;     // the answer under way is the last one
-  std::function<void()> on_drain;  // how an upgraded connection says goodbye; empty before
+  // The network whose limit this connection counts towards; set by ConnectionSet.
+  std::string counted_as;
+  // Whether the connection is between two requests, so that closing it loses nothing.
+  bool idle = false;
+  // Whether a body is being read: the deadline then cancels only the read, so that a response can
+  // follow.
+  bool reads_body = false;
+  bool draining = false;  // whether the connection must close after the current response
+  // Called to end a WebSocket or an event stream; empty for other responses.
+  std::function<void()> on_drain;
 
-  // The sweeper closes the socket once this has passed; one store per step is all it costs.
+  // Sets the deadline after which ConnectionSet::sweep() closes the socket. Costs one atomic store.
   void expires_after(Clock::duration time) {
     deadline.store((Clock::now() + time).time_since_epoch().count(), std::memory_order_relaxed);
   }
@@ -40,4 +45,4 @@ struct Connection : std::enable_shared_from_this<Connection> {
   std::atomic<Clock::rep> deadline{kNever};
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

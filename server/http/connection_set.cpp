@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 void close(Connection& connection) {
@@ -12,7 +12,8 @@ void close(Connection& connection) {
   connection.socket.close(ignored);
 }
 
-// It may have moved on since the sweep saw it.
+// Closes the connection if its deadline has passed, or only cancels the read of a body. Checks the
+// deadline again, since it may have been extended after the sweep.
 void close_if_expired(Connection& connection) {
   if (!connection.expired()) return;
   boost::system::error_code ignored;
@@ -63,15 +64,15 @@ void ConnectionSet::remove(const Connection& connection) {
   if (on_empty) on_empty();
 }
 
-// With the lock held.
+// Decrements the count of a network. The caller must hold the lock.
 void ConnectionSet::count_less(const std::string& network) {
   const auto count = of_network_.find(network);
   if (--count->second == 0) of_network_.erase(count);
 }
 
-bool ConnectionSet::count_as(Connection& connection, const std::string& visitor) {
-  const bool is_proxy = proxies_.contain(visitor);
-  std::string network = network_of(visitor);
+bool ConnectionSet::count_as(Connection& connection, const std::string& client) {
+  const bool is_proxy = proxies_.contain(client);
+  std::string network = network_of(client);
   const std::scoped_lock lock(mutex_);
   if (network == connection.counted_as) return true;
   const auto count = of_network_.find(network);
@@ -138,4 +139,4 @@ void ConnectionSet::drain(std::function<void()> on_empty) {
     post(connection, end);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The connections that are open: for the limit on their number, for deadlines, and to end them all.
+// The set of open connections: limits their number, enforces their deadlines, and ends them at
+// shutdown.
 #pragma once
 
 #include <functional>
@@ -12,12 +13,13 @@
 #include "server/config/networks.h"
 #include "server/http/connection.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 // Thread-safe.
 class ConnectionSet {
  public:
-  // At most `capacity`, and `per_address` of each network_of() but for the trusted proxies'.
+  // Admits `capacity` connections in all and `per_address` of each network, as network_of() defines
+  // it. Trusted proxies are exempt from the limit per network.
   ConnectionSet(std::size_t capacity, std::size_t per_address, Networks proxies = {})
       : per_address_(per_address), proxies_(std::move(proxies)), capacity_(capacity) {}
 
@@ -25,24 +27,25 @@ class ConnectionSet {
   Admission add(const std::shared_ptr<Connection>& connection);
   void remove(const Connection& connection);
 
-  // From now on it counts for `visitor`, who is behind the proxy that it came from, and will keep
-  // it to itself. False where that visitor has as many as it may: then all stays as it was.
-  bool count_as(Connection& connection, const std::string& visitor);
+  // Counts a connection from a proxy towards the limit of `client`, the address behind the proxy.
+  // Call it only for a connection that will serve this client alone. If the client has reached its
+  // limit, returns false and changes nothing.
+  bool count_as(Connection& connection, const std::string& client);
 
-  // From now on it stays open for a caller whose token may be revoked meanwhile.
+  // Registers a long-lived connection of `caller`, whose token may be revoked while it is open.
   void lasts_for(const Connection& connection, const Caller& caller);
-  std::vector<Caller> lasting_callers();  // once for each connection
-  // Asks those that stay open for this caller to end, as drain() does.
+  std::vector<Caller> lasting_callers();  // one entry per registered connection
+  // Asks the registered connections that use the token of `caller` to end, as drain() does.
   void end_those_of(const Caller& caller);
 
-  // Those that are open stay.
+  // Changes the limit for new connections. Open connections stay open.
   void set_capacity(std::size_t capacity);
 
   // Closes every connection whose deadline has passed.
   void sweep();
 
-  // Asks every connection to end: idle ones at once, others after their answer. `on_empty` is
-  // called once none is left, from any thread.
+  // Asks every connection to end: idle ones at once, others after their current response. Calls
+  // `on_empty` on any thread once no connection is left.
   void drain(std::function<void()> on_empty);
 
  private:
@@ -51,7 +54,7 @@ class ConnectionSet {
 
   const std::size_t per_address_;
   const Networks proxies_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::size_t capacity_;
   bool draining_ = false;
   std::function<void()> on_empty_;
@@ -60,4 +63,4 @@ class ConnectionSet {
   std::unordered_map<const Connection*, Caller> lasting_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -8,11 +8,11 @@
 
 #include "server/http/send.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// Nobody reads here, so that the peer's end is looked for. What it sends meanwhile stays where it
-// is.
+// Whether the peer has disconnected. The caller must poll this, as nothing reads from the
+// connection. Bytes that the peer has sent stay in the socket.
 bool has_left(Connection& connection) {
   char byte;
   const ssize_t count =
@@ -27,7 +27,7 @@ std::string event_text(const Event& event) {
 }
 
 asio::awaitable<std::uint64_t> send_events(Connection& connection, EventSource& source,
-                                           std::chrono::seconds patience) {
+                                           std::chrono::seconds timeout) {
   const auto tick = std::make_shared<asio::steady_timer>(connection.socket.get_executor());
   connection.on_drain = [tick] { tick->cancel(); };
   auto spoke = Connection::Clock::now();
@@ -37,7 +37,7 @@ asio::awaitable<std::uint64_t> send_events(Connection& connection, EventSource& 
     if (const auto event = source.next()) text = event_text(*event);
     if (text.empty() && Connection::Clock::now() - spoke >= kHeartbeat) text = ":\n\n";
     if (!text.empty()) {
-      const std::uint64_t sent = co_await send_text(connection, text, {.patience = patience});
+      const std::uint64_t sent = co_await send_text(connection, text, {.timeout = timeout});
       total += sent;
       if (sent < text.size()) break;
       spoke = Connection::Clock::now();
@@ -51,4 +51,4 @@ asio::awaitable<std::uint64_t> send_events(Connection& connection, EventSource& 
   co_return total;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -6,19 +6,21 @@
 #include <string>
 
 #include "server/http/connection.h"
-#include "server/http/event_source.h"
+#include "server/messages/event_source.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 inline constexpr std::chrono::milliseconds kEventInterval{200};
-inline constexpr std::chrono::seconds kHeartbeat{15};  // a comment where there was no event
+// Interval of the keep-alive comments that are sent while no event occurs.
+inline constexpr std::chrono::seconds kHeartbeat{15};
 
-// An event as it goes over the wire.
+// Returns an event in the format text/event-stream.
 std::string event_text(const Event& event);
 
-// Runs on the connection's strand, and returns the bytes sent once the source or the peer has
-// ended, the peer has let `patience` pass without taking a byte, or the daemon stops.
+// Sends events until the source ends, the peer disconnects, the peer accepts no byte for `timeout`,
+// or the connection is asked to end. Runs on the connection's strand. Returns the number of bytes
+// sent.
 asio::awaitable<std::uint64_t> send_events(Connection& connection, EventSource& source,
-                                           std::chrono::seconds patience);
+                                           std::chrono::seconds timeout);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -8,7 +8,7 @@
 #include <boost/asio/local/stream_protocol.hpp>
 #include <filesystem>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Unix = asio::local::stream_protocol;
@@ -19,7 +19,7 @@ Unexpected cannot_listen(const Endpoint& endpoint, const error_code& error) {
   if (!endpoint.path.empty()) {
     return fail(ErrorCode::kIo,
                 fmt::format("cannot listen on unix:{}: {}; {}", endpoint.path, error.message(),
-                            taken ? "stop the program that does, or move what is there"
+                            taken ? "stop the program that listens there, or move the file"
                                   : "check that its folder exists and may be written"));
   }
   return fail(ErrorCode::kIo, fmt::format("cannot listen on {}:{}: {}; {}", endpoint.host,
@@ -28,7 +28,7 @@ Unexpected cannot_listen(const Endpoint& endpoint, const error_code& error) {
                                                 : "choose another address"));
 }
 
-// A socket that nobody listens on any more.
+// Whether `endpoint.path` is a socket on which no process listens any more.
 bool is_left_over(const Endpoint& endpoint) {
   std::error_code ignored;
   if (!std::filesystem::is_socket(endpoint.path, ignored)) return false;
@@ -78,7 +78,7 @@ Expected<void> check_address(const Endpoint& endpoint) {
 }
 
 Expected<std::uint16_t> listen(Acceptor& acceptor, const Endpoint& endpoint) {
-  if (auto bound = bind(acceptor, endpoint); !bound) return Unexpected(bound.error());
+  if (auto bound = bind(acceptor, endpoint); !bound) return tl::unexpected(bound.error());
   error_code error;
   if (!endpoint.path.empty()) ::chmod(endpoint.path.c_str(), 0660);
   acceptor.listen(asio::socket_base::max_listen_connections, error);
@@ -86,4 +86,4 @@ Expected<std::uint16_t> listen(Acceptor& acceptor, const Endpoint& endpoint) {
   return port_of(acceptor.local_endpoint());
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sockets that listen: on an address and a port, or on a path.
+// Listening sockets: on an address and port, or on the path of a Unix socket.
 #pragma once
 
 #include <boost/asio/basic_socket_acceptor.hpp>
@@ -10,16 +10,16 @@
 #include "server/config/settings.h"
 #include "server/http/beast.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 using Acceptor = asio::basic_socket_acceptor<asio::generic::stream_protocol>;
 
-// Whether one could listen there now. Fails (kIo) with the cause.
+// Checks that a socket can listen on `endpoint` now. Fails (kIo) with the cause.
 Expected<void> check_address(const Endpoint& endpoint);
 
-// Binds and listens. Returns the port, 0 for a Unix socket: that its owner and its group may
-// connect to; what a daemon that was killed has left at its path is replaced. Fails (kIo) with the
-// cause.
+// Binds and listens. Returns the port, or 0 for a Unix socket. Only the owner and the group of a
+// Unix socket may connect to it. Replaces a Unix socket that a killed daemon has left behind. Fails
+// (kIo) with the cause.
 Expected<std::uint16_t> listen(Acceptor& acceptor, const Endpoint& endpoint);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a server does again and again for as long as it lives.
+// Coroutines that repeat a task of the server.
 #pragma once
 
 #include <functional>
@@ -7,10 +7,10 @@
 
 #include "server/http/beast.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Runs `task` after each `period` until the timer is cancelled. What it throws (memory has run out)
-// is told to `failed`, and it runs again in its time.
+// Runs `task` after each `period` until the timer is cancelled. If the task throws (for example,
+// out of memory), calls `failed` and continues.
 inline asio::awaitable<void> repeat(asio::steady_timer& timer, asio::steady_timer::duration period,
                                     std::function<void()> task,
                                     std::function<void(std::string_view fault)> failed) {
@@ -26,8 +26,8 @@ inline asio::awaitable<void> repeat(asio::steady_timer& timer, asio::steady_time
   }
 }
 
-// Makes one attempt after the other as long as `goes_on`, and waits for `pause` after one that gave
-// false, or threw, which is told to `failed`.
+// Calls `attempt` again and again while `goes_on` returns true. If an attempt returns false or
+// throws, waits for `pause` before the next one. If an attempt throws, also calls `failed`.
 inline asio::awaitable<void> keep_trying(asio::steady_timer& timer,
                                          asio::steady_timer::duration pause,
                                          std::function<bool()> goes_on,
@@ -45,4 +45,4 @@ inline asio::awaitable<void> keep_trying(asio::steady_timer& timer,
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <iterator>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -18,16 +18,17 @@ Bytes bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-// When a peer that takes bytes is too slow.
-class Patience {
+// Computes the deadline by which the peer must accept more bytes.
+class SendDeadline {
  public:
-  Patience(Connection& connection, Pace pace) : connection_(connection), pace_(pace) {}
+  SendDeadline(Connection& connection, Pace pace) : connection_(connection), pace_(pace) {}
 
-  // Another `patience` for the next byte, or until `sent` bytes are too few.
+  // Sets the deadline to `timeout` from now. If there is a minimum rate, the deadline is at most
+  // the time at which `sent` bytes become too few for that rate.
   void renew(std::uint64_t sent) {
-    Connection::Clock::duration left = pace_.patience;
+    Connection::Clock::duration left = pace_.timeout;
     if (pace_.min_rate > 0) {
-      const auto allowed = pace_.patience + std::chrono::milliseconds(sent * 1000 / pace_.min_rate);
+      const auto allowed = pace_.timeout + std::chrono::milliseconds(sent * 1000 / pace_.min_rate);
       left = std::min(left, start_ + allowed - Connection::Clock::now());
     }
     connection_.expires_after(left);
@@ -39,21 +40,23 @@ class Patience {
   const Connection::Clock::time_point start_ = Connection::Clock::now();
 };
 
-// False where the connection is gone.
+// Waits until the socket accepts bytes. Returns false if the connection is closed.
 asio::awaitable<bool> wait_writable(Connection& connection) {
   const auto [error] =
       co_await connection.socket.async_wait(ByteStream::Socket::wait_write, kNoThrow);
   co_return !error;
 }
 
-constexpr std::uint64_t kBurst = 4 << 20;  // then it is another connection's turn
+// Bytes that one connection sends before others are served.
+constexpr std::uint64_t kBurst = 4 << 20;
 
-// Calls `write(sent)` for the bytes from `sent` on until `size` are sent. `write` returns what the
-// socket took, or -1 and errno.
+// Sends `size` bytes and returns how many were sent, which are fewer if the connection ends. Calls
+// `write(sent)` to send bytes from offset `sent` on, until all are sent. `write` returns the number
+// of bytes that the socket accepted, or -1 with errno set.
 template <class Write>
 asio::awaitable<std::uint64_t> send_all(Connection& connection, std::uint64_t size, Pace pace,
                                         Write write) {
-  Patience patience(connection, pace);
+  SendDeadline deadline(connection, pace);
   std::uint64_t sent = 0, pause = kBurst;
   while (sent < size) {
     if (sent >= pause) {
@@ -66,7 +69,7 @@ asio::awaitable<std::uint64_t> send_all(Connection& connection, std::uint64_t si
     } else if (taken == 0 || (errno != EAGAIN && errno != EINTR)) {
       break;
     } else if (errno == EAGAIN) {
-      patience.renew(sent);
+      deadline.renew(sent);
       const bool writable = co_await wait_writable(connection);
       if (!writable) break;
     }
@@ -75,10 +78,10 @@ asio::awaitable<std::uint64_t> send_all(Connection& connection, std::uint64_t si
 }
 
 asio::awaitable<std::uint64_t> send_encrypted(Connection& connection, Bytes bytes, Pace pace) {
-  Patience patience(connection, pace);
+  SendDeadline deadline(connection, pace);
   std::uint64_t sent = 0;
   while (sent < bytes.size()) {
-    patience.renew(sent);
+    deadline.renew(sent);
     const Bytes left = bytes.subspan(sent);
     const auto [error, taken] = co_await connection.socket.async_write_some(
         asio::buffer(left.data(), left.size()), kNoThrow);
@@ -99,10 +102,10 @@ asio::awaitable<std::uint64_t> send_memory(Connection& connection, Bytes bytes, 
 }
 
 iovec part_of(Bytes bytes) {
-  return {const_cast<std::uint8_t*>(bytes.data()), bytes.size()};  // is only read
+  return {const_cast<std::uint8_t*>(bytes.data()), bytes.size()};  // the bytes are only read
 }
 
-// `head` and then `body`, as they lie.
+// Sends `head` and then `body` from memory.
 asio::awaitable<std::uint64_t> send_both(Connection& connection, Bytes head, Bytes body,
                                          Pace pace) {
   if (connection.socket.is_encrypted()) {
@@ -132,7 +135,8 @@ asio::awaitable<std::uint64_t> send_file(Connection& connection, int file, const
   co_return co_await send_all(connection, body.length, pace, write);
 }
 
-// An object without a descriptor, or whose bytes are to be encrypted: a piece at a time.
+// Sends a stored object piece by piece. Used for an object without a file descriptor and for an
+// encrypted connection.
 asio::awaitable<std::uint64_t> send_pieces(Connection& connection, const StoredBytes& body,
                                            Pace pace) {
   constexpr std::uint64_t kPiece = 64 * 1024;
@@ -160,7 +164,7 @@ asio::awaitable<std::uint64_t> send_stored(Connection& connection, const StoredB
 
 asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string head, Body body,
                                              Pace pace) {
-  connection.expires_after(pace.patience);
+  connection.expires_after(pace.timeout);
   if (const auto* stored = std::get_if<StoredBytes>(&body)) {
     const int flags = stored->length > 0 ? MSG_MORE : 0;
     const std::uint64_t sent = co_await send_memory(connection, bytes_of(head), flags, pace);
@@ -174,8 +178,8 @@ asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string
 }
 
 asio::awaitable<std::uint64_t> send_text(Connection& connection, std::string_view text, Pace pace) {
-  connection.expires_after(pace.patience);
+  connection.expires_after(pace.timeout);
   co_return co_await send_memory(connection, bytes_of(text), 0, pace);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends a response's head and body.
+// Sends the head and the body of a response.
 #pragma once
 
 #include <chrono>
 
 #include "server/http/connection.h"
-#include "server/http/response.h"
+#include "server/messages/response.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// How slow a peer may be.
+// Limits on how slowly a peer may receive.
 struct Pace {
-  std::chrono::seconds patience;  // to take a byte
-  std::uint32_t min_rate = 0;     // bytes a second on average, once `patience` is over; 0: any
+  std::chrono::seconds timeout;  // time within which the peer must accept a byte
+  // Minimum average rate in bytes per second, enforced once `timeout` has passed; 0: no minimum.
+  std::uint32_t min_rate = 0;
 };
 
-// Returns the body bytes sent; fewer than body_size(body) where the peer went away or is too slow.
-// Memory per connection does not grow with the body: what is stored in a file goes by sendfile(2),
-// but where it is encrypted.
+// Sends a response. Returns the number of body bytes sent, which is less than body_size(body) if
+// the peer disconnected or is too slow. Memory per connection does not grow with the body. A stored
+// file is sent with sendfile(2), or piece by piece if the connection is encrypted.
 asio::awaitable<std::uint64_t> send_response(Connection& connection, std::string head, Body body,
                                              Pace pace);
 
-// Returns the bytes of `text` sent, on the same terms. `text` must live until then.
+// Sends a text, which the caller must keep alive. Returns the number of bytes sent.
 asio::awaitable<std::uint64_t> send_text(Connection& connection, std::string_view text, Pace pace);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// One connection: requests in, responses out, until one side ends it.
+// Serves one connection: reads requests and writes responses until one side ends it.
 #pragma once
 
 #include <memory>
 
 #include "server/http/http_server.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 asio::awaitable<void> run_session(std::shared_ptr<Connection> connection, HttpServer& server);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

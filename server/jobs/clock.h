@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+// The current time in the unit of the catalogue's records.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Milliseconds since 1970, UTC, as records have them.
+// Returns the current time in milliseconds since 1970, UTC.
 inline std::int64_t now_in_milliseconds() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
              std::chrono::system_clock::now().time_since_epoch())
       .count();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

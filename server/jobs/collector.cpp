@@ -5,11 +5,11 @@
 
 #include "server/jobs/publish_jobs.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 Expected<std::set<UploadId>> Collector::uploads_in_use() {
-  const auto jobs = means_.jobs.unfinished_jobs();
-  if (!jobs) return Unexpected(jobs.error());
+  const auto jobs = needs_.jobs.unfinished_jobs();
+  if (!jobs) return tl::unexpected(jobs.error());
   std::set<UploadId> uploads;
   for (const JobRecord& job : *jobs) {
     if (const auto upload = PublishJobs::upload_of(job)) uploads.insert(*upload);
@@ -19,27 +19,27 @@ Expected<std::set<UploadId>> Collector::uploads_in_use() {
 
 Expected<std::size_t> Collector::forget_jobs(std::int64_t now) {
   const auto before = [now](std::chrono::milliseconds age) { return now - age.count(); };
-  return means_.jobs.forget(before(kKeyAge), before(kJobAge));
+  return needs_.jobs.forget(before(kKeyAge), before(kJobAge));
 }
 
-// With the store's lock held nobody is between putting an object and naming it; who has lost it
-// meanwhile takes nothing away any more.
+// Holds the store's lock, because another process may have stored an object without having added a
+// reference yet. If the lock is lost, this collection removes no more objects.
 Expected<Collector::Collected> Collector::collect(std::int64_t now) {
   const auto in_use = uploads_in_use();
-  if (!in_use) return Unexpected(in_use.error());
-  const auto uploads = means_.uploads.sweep(*in_use, now);
+  if (!in_use) return tl::unexpected(in_use.error());
+  const auto uploads = needs_.uploads.sweep(*in_use, now);
   if (!uploads) return fail(ErrorCode::kIo, uploads.error().message);
   const auto jobs = forget_jobs(now);
-  if (!jobs) return Unexpected(jobs.error());
-  const auto lock = means_.store.lock();
-  if (!lock) return Unexpected(lock.error());
-  const auto files = means_.catalogue.files();
-  if (!files) return Unexpected(files.error());
+  if (!jobs) return tl::unexpected(jobs.error());
+  const auto lock = needs_.store.lock();
+  if (!lock) return tl::unexpected(lock.error());
+  const auto files = needs_.catalogue.files();
+  if (!files) return tl::unexpected(files.error());
   std::set<Sha256> named;
   for (const NamedFile& file : *files)
     named.insert(file.file);
-  const auto objects = means_.store.sweep(named, means_.grace, **lock);
-  if (!objects) return Unexpected(objects.error());
+  const auto objects = needs_.store.sweep(named, needs_.grace, **lock);
+  if (!objects) return tl::unexpected(objects.error());
   return Collected{*objects, *uploads, *jobs};
 }
 
@@ -47,14 +47,14 @@ void Collector::collect_and_tell() {
   Expected<Collected> collected;
   try {
     collected = collect();
-  } catch (const std::exception& fault) {  // out of memory: the daemon goes on, and the next time
+  } catch (const std::exception& fault) {  // out of memory: collect again after the next pause
     collected = fail(ErrorCode::kIo, std::string("cannot collect: ") + fault.what());
   }
-  if (!collected) return means_.events.event(Severity::kError, collected.error().message);
+  if (!collected) return needs_.events.event(Severity::kError, collected.error().message);
   if (collected->objects + collected->uploads + collected->jobs == 0) return;
-  means_.events.event(
+  needs_.events.event(
       Severity::kInfo,
-      fmt::format("collected {} objects that nothing names, {} old uploads and {} old jobs",
+      fmt::format("collected {} unreferenced objects, {} old uploads and {} old jobs",
                   collected->objects, collected->uploads, collected->jobs));
 }
 
@@ -81,4 +81,4 @@ void Collector::stop() {
   thread_ = {};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

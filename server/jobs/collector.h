@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Garbage collection: what no model, upload or unfinished job names is taken away after a grace,
-// and what is of old times after ages. Any number of processes may do so on one data folder at a
-// time.
+// Garbage collection. Removes old jobs and idempotency keys, expired uploads, and objects that no
+// model refers to. Objects are kept for a grace period first. Several processes may collect in one
+// data folder at the same time.
 #pragma once
 
 #include <chrono>
@@ -17,35 +17,36 @@
 #include "server/store/object_store.h"
 #include "server/store/uploads.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// All of it outlives the collector.
-struct CollectorMeans {
+// All references must outlive the collector.
+struct CollectorDependencies {
   ObjectStore& store;
   Catalogue& catalogue;
   JobCatalogue& jobs;
   Uploads& uploads;
   const Log& events;
-  std::chrono::seconds grace{3600};  // that an object stays which nothing names
+  std::chrono::seconds grace{3600};  // how long an unreferenced object is kept
 };
 
 class Collector {
  public:
-  // How long an Idempotency-Key is known after its job has begun, and a job after it has ended,
-  // unless it is the newest of a scan.
+  // How long an idempotency key is kept after its job was added, and how long a job is kept after
+  // its end. The newest job of a scan is always kept.
   static constexpr std::chrono::days kKeyAge{30}, kJobAge{365};
 
-  explicit Collector(const CollectorMeans& means) : means_(means) {}
+  explicit Collector(const CollectorDependencies& needs) : needs_(needs) {}
 
   struct Collected {
     std::size_t objects = 0, uploads = 0, jobs = 0;
   };
-  // `now` in milliseconds since 1970. Fails (kIo) where the catalogue or the disk refuses.
+  // Collects once and returns the numbers of removed objects, uploads and jobs. `now` is in
+  // milliseconds since 1970. kIo if the catalogue or the disk fails.
   Expected<Collected> collect(std::int64_t now = now_in_milliseconds());
 
-  // Collects once and then each time that `pause` has gone, on a thread of its own, until stop().
+  // Starts a thread that collects at once and then every `pause`, until stop().
   void start(std::chrono::seconds pause);
-  // Collects soon.
+  // Makes the thread start the next collection without waiting for the rest of the pause.
   void hurry();
   void stop();
 
@@ -55,11 +56,11 @@ class Collector {
   void collect_and_tell();
   void run(const std::stop_token& stop, std::chrono::seconds pause);
 
-  const CollectorMeans means_;
-  std::mutex mutex_;  // guards what follows
+  const CollectorDependencies needs_;
+  std::mutex mutex_;  // guards the members below
   std::condition_variable_any changed_;
   bool hurries_ = false;
   std::jthread thread_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -3,17 +3,17 @@
 
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using May = std::function<Expected<void>()>;
 
-class FencedBoard final : public Board {
+class FencedBoard final : public acquisition::Board {
  public:
-  FencedBoard(std::unique_ptr<Board> board, May may)
+  FencedBoard(std::unique_ptr<acquisition::Board> board, May may)
       : board_(std::move(board)), may_(std::move(may)) {}
 
-  const BoardIdentity& identity() const override { return board_->identity(); }
+  const acquisition::BoardIdentity& identity() const override { return board_->identity(); }
   Expected<std::optional<double>> position() override {
     return may_().and_then([this] { return board_->position(); });
   }
@@ -29,23 +29,23 @@ class FencedBoard final : public Board {
   Expected<void> rest() override {
     return may_().and_then([this] { return board_->rest(); });
   }
-  // The red button is never refused.
+  // An emergency stop is never refused.
   void emergency_stop() noexcept override { board_->emergency_stop(); }
 
  private:
-  const std::unique_ptr<Board> board_;
+  const std::unique_ptr<acquisition::Board> board_;
   const May may_;
 };
 
 }  // namespace
 
-ScannerDevices fenced(ScannerDevices devices, const May& may) {
-  ScannerDevices fenced;
+acquisition::ScannerDevices fenced(acquisition::ScannerDevices devices, const May& may) {
+  acquisition::ScannerDevices fenced;
   fenced.open_camera = [open = std::move(devices.open_camera), may] {
     return may().and_then([&] { return open(); });
   };
   fenced.open_board = [open = std::move(devices.open_board),
-                       may]() -> Expected<std::unique_ptr<Board>> {
+                       may]() -> Expected<std::unique_ptr<acquisition::Board>> {
     auto board = may().and_then([&] { return open(); });
     if (!board) return board;
     return std::make_unique<FencedBoard>(std::move(*board), may);
@@ -53,4 +53,4 @@ ScannerDevices fenced(ScannerDevices devices, const May& may) {
   return fenced;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

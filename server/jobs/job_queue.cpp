@@ -8,19 +8,20 @@
 
 #include "server/jobs/clock.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// Jobs that need no device share a lane.
-std::string lane_name(const JobRecord& job) {
+// Returns the name of the executor that runs the job. Jobs that need no device share one.
+std::string executor_name(const JobRecord& job) {
   return needs_scanner(job.kind) ? job.scanner : "";
 }
 
 constexpr std::uint32_t kMaxAttempts = 3;
 constexpr std::chrono::milliseconds kBeat{500};
 constexpr std::chrono::seconds kLease{15};
-constexpr std::chrono::minutes kTelling{10};  // in which a webhook is told, or given up
-constexpr std::uint32_t kAtATime = 16;        // jobs that are looked for
+// The time in which a daemon calls a webhook or gives it up.
+constexpr std::chrono::minutes kWebhookTimeout{10};
+constexpr std::uint32_t kAtATime = 16;  // most jobs that one search claims
 
 std::vector<JobKind> kinds_of(const TakenJobs& taken) {
   std::vector<JobKind> kinds;
@@ -30,7 +31,8 @@ std::vector<JobKind> kinds_of(const TakenJobs& taken) {
   return kinds;
 }
 
-// It ran when a daemon died, and the two before that as well: it may be what they died of.
+// Whether the job was running each of the last kMaxAttempts times that a daemon died. The job may
+// then be the cause.
 bool is_hopeless(const JobRecord& job) {
   return job.state == JobState::kRunning && job.attempts >= kMaxAttempts;
 }
@@ -57,8 +59,8 @@ Expected<void> JobQueue::start() {
     believes_from_ = std::chrono::steady_clock::now() + kLease;
   }
   look_for_jobs(UINT32_MAX);
-  tell_ends();
-  heart_.emplace(kBeat, events_, [this] { beat(); });
+  call_webhooks();
+  lease_renewal_.emplace(kBeat, events_, [this] { beat(); });
   return {};
 }
 
@@ -68,30 +70,30 @@ void JobQueue::beat() {
   static_cast<void>(take_up_paused());
   look_for_jobs(kAtATime);
   look_at_others();
-  tell_ends();
+  call_webhooks();
 }
 
 void JobQueue::stop() {
-  std::map<std::string, std::unique_ptr<Lane>> lanes;
+  std::map<std::string, std::unique_ptr<SerialExecutor>> executors;
   {
     const std::scoped_lock lock(mutex_);
-    stopping_ = true;
+    is_stopping_ = true;
     for (const auto& [id, run] : runs_)
-      run->ask(JobWish::kStop);
-    lanes.swap(lanes_);
+      run->request_stop(StopRequest::kStop);
+    executors.swap(executors_);
   }
-  for (const auto& [name, lane] : lanes)
-    lane->finish();
-  heart_.reset();  // what ends slowly is held until then
+  for (const auto& [name, executor] : executors)
+    executor->finish();
+  lease_renewal_.reset();  // only now, so that jobs that stop slowly keep their leases
 }
 
 bool JobQueue::is_stopping() const {
   const std::scoped_lock lock(mutex_);
-  return stopping_;
+  return is_stopping_;
 }
 
 void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
-  const Run run = std::make_shared<JobRun>(job);
+  const SharedRun run = std::make_shared<JobRun>(job);
   run->stops_known_ = stops;
   run->entered_stage_ = [this](const JobRecord& now) { static_cast<void>(store(now)); };
   runs_[job.id] = run;
@@ -101,30 +103,32 @@ void JobQueue::take_up(const JobRecord& job, std::uint64_t stops) {
   post(run);
 }
 
-// Taken first, so that whoever may be at it still has no say in it any more.
-void JobQueue::give_up(const Run& run) {
+// Ends a hopeless job as failed. Claims the job first, so that a daemon that still runs it can no
+// longer change it.
+void JobQueue::give_up(const SharedRun& run) {
   const auto taken = catalogue_.claim(run->job().id, {taken_.holder, kLease});
   if (!taken || !*taken) return lose(run);
   {
     const std::scoped_lock lock(run->mutex_);
     run->status_.record = **taken;
     run->status_.record.error = fmt::format(
-        "the daemon died {} times at work on this; look into its log, then start it again",
+        "the daemon died {} times while running this job; see its log, then start the job again",
         kMaxAttempts);
   }
   set_state(run, JobState::kFailed);
 }
 
-void JobQueue::post(const Run& run) {
-  lane_of(lane_name(run->job())).post([this, run] { work(run); });
+void JobQueue::post(const SharedRun& run) {
+  executor_of(executor_name(run->job())).post([this, run] { work(run); });
 }
 
-Expected<std::optional<JobRecord>> JobQueue::begun_by(const std::optional<OnceKey>& once) const {
-  if (!once) return std::nullopt;
-  const auto earlier = catalogue_.find_once(once->key);
-  if (!earlier) return Unexpected(earlier.error());
+Expected<std::optional<JobRecord>> JobQueue::begun_by(
+    const std::optional<IdempotencyKey>& key) const {
+  if (!key) return std::nullopt;
+  const auto earlier = catalogue_.find_key(key->key);
+  if (!earlier) return tl::unexpected(earlier.error());
   if (!*earlier) return std::nullopt;
-  if ((*earlier)->request != once->request) {
+  if ((*earlier)->request != key->request) {
     return fail(ErrorCode::kBadInput,
                 "the key was used for another request; give each request a key of its own");
   }
@@ -132,22 +136,22 @@ Expected<std::optional<JobRecord>> JobQueue::begun_by(const std::optional<OnceKe
 }
 
 Expected<JobRecord> JobQueue::add(const JobRecord& job, const std::optional<ScanEntry>& scan,
-                                  const std::optional<OnceKey>& once, std::uint64_t stops) {
+                                  const std::optional<IdempotencyKey>& key, std::uint64_t stops) {
   const std::scoped_lock lock(mutex_);
-  const auto earlier = begun_by(once);
-  if (!earlier) return Unexpected(earlier.error());
+  const auto earlier = begun_by(key);
+  if (!earlier) return tl::unexpected(earlier.error());
   if (*earlier) return **earlier;
-  if (stopping_) return stopping();
+  if (is_stopping_) return stopping();
   if (needs_scanner(job.kind)) {
-    if (auto is_free = check_free(job.scanner); !is_free) return Unexpected(is_free.error());
+    if (auto is_free = check_free(job.scanner); !is_free) return tl::unexpected(is_free.error());
   }
-  if (auto added = catalogue_.add(job, scan, once); !added) return Unexpected(added.error());
+  if (auto added = catalogue_.add(job, scan, key); !added) return tl::unexpected(added.error());
   if (taken_.has(job)) take_up(job, stops);
   return job;
 }
 
 Expected<void> JobQueue::check_free(const std::string& scanner) const {
-  const Run busy = run_of(scanner);
+  const SharedRun busy = run_of(scanner);
   if (!busy) return {};
   return fail(ErrorCode::kState,
               fmt::format("scanner {} is busy with job {}; wait for its end or cancel it", scanner,
@@ -157,24 +161,24 @@ Expected<void> JobQueue::check_free(const std::string& scanner) const {
 Expected<void> JobQueue::post_command(const std::string& scanner, std::function<void()> command,
                                       bool beside_paused) {
   const std::scoped_lock lock(mutex_);
-  if (stopping_) return stopping();
-  const Run busy = run_of(scanner);
+  if (is_stopping_) return stopping();
+  const SharedRun busy = run_of(scanner);
   const bool is_beside = beside_paused && busy && is_aside(*busy);
   if (auto is_free = check_free(scanner); !is_free && !is_beside) return is_free;
-  lane_of(scanner).post(std::move(command));
+  executor_of(scanner).post(std::move(command));
   return {};
 }
 
-Expected<JobQueue::Run> JobQueue::unfinished(const JobId& id) const {
+Expected<JobQueue::SharedRun> JobQueue::unfinished(const JobId& id) const {
   const auto found = runs_.find(id);
   if (found != runs_.end()) return found->second;
   const auto job = catalogue_.find_job(id);
-  if (!job) return Unexpected(job.error());
+  if (!job) return tl::unexpected(job.error());
   if (*job && !has_ended((*job)->state)) return not_now(**job, "is another daemon's");
   return fail(ErrorCode::kState, fmt::format("job {} has ended; start another", id.to_string()));
 }
 
-JobQueue::Run JobQueue::run_of(const std::string& scanner) const {
+JobQueue::SharedRun JobQueue::run_of(const std::string& scanner) const {
   for (const auto& [id, run] : runs_) {
     const JobRecord job = run->job();
     if (needs_scanner(job.kind) && job.scanner == scanner) return run;
@@ -191,17 +195,17 @@ std::shared_ptr<const JobRun> JobQueue::run(const JobId& id) const {
 Expected<std::shared_ptr<const JobRun>> JobQueue::watch(const JobId& id) {
   if (auto own = run(id)) return own;
   const auto job = catalogue_.find_job(id);
-  if (!job) return Unexpected(job.error());
+  if (!job) return tl::unexpected(job.error());
   if (!*job || has_ended((*job)->state)) return nullptr;
   const std::scoped_lock lock(mutex_);
-  Run other = others_[id].lock();
+  SharedRun other = others_[id].lock();
   if (!other) others_[id] = other = std::make_shared<JobRun>(**job);
   return other;
 }
 
 std::optional<JobStatus> JobQueue::job_of(const std::string& scanner) const {
   const std::scoped_lock lock(mutex_);
-  const Run run = run_of(scanner);
+  const SharedRun run = run_of(scanner);
   return run ? std::optional(run->status()) : std::nullopt;
 }
 
@@ -209,12 +213,12 @@ Expected<std::optional<JobRecord>> JobQueue::job_where(
     const std::function<bool(const JobRecord&)>& is) {
   store_again();
   auto jobs = catalogue_.unfinished_jobs();
-  if (!jobs) return Unexpected(jobs.error());
+  if (!jobs) return tl::unexpected(jobs.error());
   const auto found = std::ranges::find_if(*jobs, is);
   return found == jobs->end() ? std::nullopt : std::optional(std::move(*found));
 }
 
-bool JobQueue::set_state(const Run& run, JobState state) {
+bool JobQueue::set_state(const SharedRun& run, JobState state) {
   JobStatus next = run->status();
   next.record.state = state;
   next.eta.reset();
@@ -227,7 +231,7 @@ bool JobQueue::set_state(const Run& run, JobState state) {
   {
     const std::scoped_lock lock(run->mutex_);
     if (state == JobState::kQueued) {
-      run->wish_ = JobWish::kNone;
+      run->stop_request_ = StopRequest::kNone;
       run->pause_reason_.clear();
     }
     next.note = state == JobState::kPaused ? run->pause_reason_ : "";
@@ -235,12 +239,13 @@ bool JobQueue::set_state(const Run& run, JobState state) {
   }
   if (!has_ended(state)) return true;
   runs_.erase(run->job().id);
-  tell_ends();
+  call_webhooks();
   return true;
 }
 
-// Whoever watches it goes on to see what becomes of it.
-void JobQueue::lose(const Run& run) {
+// Abandons a job that another daemon has claimed. Clients of this daemon that watch the job still
+// receive its progress.
+void JobQueue::lose(const SharedRun& run) {
   const JobId id = run->job().id;
   runs_.erase(id);
   others_[id] = run;
@@ -249,22 +254,22 @@ void JobQueue::lose(const Run& run) {
 Expected<JobStatus> JobQueue::pause(const JobId& id, std::string_view reason) {
   const std::scoped_lock lock(mutex_);
   const auto run = unfinished(id);
-  if (!run) return Unexpected(run.error());
+  if (!run) return tl::unexpected(run.error());
   const JobRecord job = (*run)->job();
   if (job.state == JobState::kPaused) return not_now(job, "is paused already");
-  (*run)->ask(JobWish::kPause, reason);
+  (*run)->request_stop(StopRequest::kPause, reason);
   if (job.state == JobState::kQueued && !set_state(*run, JobState::kPaused))
-    return not_now(job, "has been taken or ended meanwhile");
+    return not_now(job, "was claimed or ended meanwhile");
   return (*run)->status();
 }
 
 Expected<JobStatus> JobQueue::resume(const JobId& id, std::uint64_t stops) {
   const std::scoped_lock lock(mutex_);
   const auto run = unfinished(id);
-  if (!run) return Unexpected(run.error());
+  if (!run) return tl::unexpected(run.error());
   const JobRecord job = (*run)->job();
   if (job.state != JobState::kPaused) return not_now(job, "is not paused");
-  if (stopping_) return stopping();
+  if (is_stopping_) return stopping();
   {
     const std::scoped_lock inner((*run)->mutex_);
     (*run)->stops_known_ = stops;
@@ -274,7 +279,7 @@ Expected<JobStatus> JobQueue::resume(const JobId& id, std::uint64_t stops) {
   } else if (set_state(*run, JobState::kQueued)) {
     post(*run);
   } else {
-    return not_now(job, "has been taken or ended meanwhile");
+    return not_now(job, "was claimed or ended meanwhile");
   }
   return (*run)->status();
 }
@@ -282,13 +287,13 @@ Expected<JobStatus> JobQueue::resume(const JobId& id, std::uint64_t stops) {
 Expected<JobStatus> JobQueue::cancel(const JobId& id) {
   const std::scoped_lock lock(mutex_);
   const auto found = runs_.find(id);
-  const Run run = found == runs_.end() ? nullptr : found->second;
-  if (run && run->is_at_work() && run->wish() != JobWish::kLost) {
-    run->ask(JobWish::kCancel);
+  const SharedRun run = found == runs_.end() ? nullptr : found->second;
+  if (run && run->is_at_work() && run->stop_request() != StopRequest::kLost) {
+    run->request_stop(StopRequest::kCancel);
     return run->status();
   }
   const auto cancelled = catalogue_.cancel(id, now_in_milliseconds());
-  if (!cancelled) return Unexpected(cancelled.error());
+  if (!cancelled) return tl::unexpected(cancelled.error());
   const JobStatus status{*cancelled, std::nullopt, {}};
   if (!has_ended(status.record.state)) return status;
   if (run) {
@@ -296,7 +301,7 @@ Expected<JobStatus> JobQueue::cancel(const JobId& id) {
     run->status_ = status;
   }
   runs_.erase(id);
-  tell_ends();
+  call_webhooks();
   return status;
 }
 
@@ -305,39 +310,40 @@ Expected<std::optional<JobStatus>> JobQueue::find(const JobId& id) {
   store_again();
   if (const auto waiting = unstored(id)) return JobStatus{*waiting, std::nullopt, {}};
   const auto stored = catalogue_.find_job(id);
-  if (!stored) return Unexpected(stored.error());
+  if (!stored) return tl::unexpected(stored.error());
   if (!*stored) return std::nullopt;
   return JobStatus{**stored, std::nullopt, {}};
 }
 
-Expected<std::vector<JobStatus>> JobQueue::list(const PageOf& page) {
+Expected<std::vector<JobStatus>> JobQueue::list(const PageOf<JobId>& page) {
   store_again();
   const auto stored = catalogue_.jobs(page);
-  if (!stored) return Unexpected(stored.error());
+  if (!stored) return tl::unexpected(stored.error());
   std::vector<JobStatus> jobs;
   for (const JobRecord& job : *stored) {
     const auto now = find(job.id);
-    if (!now) return Unexpected(now.error());
+    if (!now) return tl::unexpected(now.error());
     if (*now) jobs.push_back(**now);
   }
   return jobs;
 }
 
-Lane& JobQueue::lane(const std::string& scanner) {
+SerialExecutor& JobQueue::executor(const std::string& scanner) {
   const std::scoped_lock lock(mutex_);
-  return lane_of(scanner);
+  return executor_of(scanner);
 }
 
-Lane& JobQueue::lane_of(const std::string& name) {
-  auto& lane = lanes_[name];
-  if (!lane) lane = std::make_unique<Lane>(events_);
-  return *lane;
+SerialExecutor& JobQueue::executor_of(const std::string& name) {
+  auto& executor = executors_[name];
+  if (!executor) executor = std::make_unique<SerialExecutor>(events_);
+  return *executor;
 }
 
-// Begins it, unless somebody else has.
-bool JobQueue::take(const Run& run) {
+// Claims a queued job. Returns false if the job cannot run now, for example because another daemon
+// has claimed it.
+bool JobQueue::take(const SharedRun& run) {
   const std::scoped_lock lock(mutex_);
-  if (stopping_ || run->job().state != JobState::kQueued) return false;
+  if (is_stopping_ || run->job().state != JobState::kQueued) return false;
   const auto taken = catalogue_.claim(run->job().id, {taken_.holder, kLease});
   if (!taken) {
     events_.event(Severity::kError, taken.error().message);
@@ -353,35 +359,38 @@ bool JobQueue::take(const Run& run) {
   return true;
 }
 
-void JobQueue::work(const Run& run) {
+void JobQueue::work(const SharedRun& run) {
   if (!take(run)) return;
   Expected<JobEnd> result = JobEnd::kDone;
   try {
     result = task_(*run);
-  } catch (const std::exception& fault) {  // out of memory: this job ends, the daemon goes on
+  } catch (const std::exception& fault) {  // out of memory: only this job fails
     result = fail(ErrorCode::kIo, fault.what());
   }
   end(run, result);
 }
 
-// Of a job that has come to an end here, and why where it has failed.
+// Returns the new state of a job whose task has returned. If the job has failed, sets the error in
+// its record.
 JobState JobQueue::state_after(JobRun& run, const Expected<JobEnd>& result) {
-  const JobWish wish = run.wish();
+  const StopRequest request = run.stop_request();
   if (result && *result == JobEnd::kDone) return JobState::kDone;
-  if (wish == JobWish::kCancel) return JobState::kCancelled;
-  // What a scan says of itself meanwhile must not go under; a failed one is resumed as well.
+  if (request == StopRequest::kCancel) return JobState::kCancelled;
+  // Only kState is expected after a request to pause. Any other error makes the job fail, so that
+  // the error is not lost; a failed scan can be resumed, too.
   const bool is_put_aside = result || result.error().code == ErrorCode::kState;
-  if (wish == JobWish::kPause && is_put_aside) return JobState::kPaused;
-  if (wish == JobWish::kStop) return JobState::kQueued;  // goes on at the next start
+  if (request == StopRequest::kPause && is_put_aside) return JobState::kPaused;
+  if (request == StopRequest::kStop) return JobState::kQueued;  // continues at the next start
   const std::scoped_lock lock(run.mutex_);
-  run.status_.record.error = result ? "the job was put aside unasked" : result.error().message;
+  run.status_.record.error =
+      result ? "the job stopped without a request; start it again" : result.error().message;
   return JobState::kFailed;
 }
 
-void JobQueue::end(const Run& run, const Expected<JobEnd>& result) {
+void JobQueue::end(const SharedRun& run, const Expected<JobEnd>& result) {
   const std::scoped_lock lock(mutex_);
-  const JobWish wish = run->wish();
-  if (wish == JobWish::kLost) return lose(run);
+  const StopRequest request = run->stop_request();
+  if (request == StopRequest::kLost) return lose(run);
   {
     const std::scoped_lock inner(run->mutex_);
     run->status_.record.attempts = 0;
@@ -390,23 +399,23 @@ void JobQueue::end(const Run& run, const Expected<JobEnd>& result) {
 }
 
 void JobQueue::renew_leases() {
-  std::vector<Run> runs;
+  std::vector<SharedRun> runs;
   {
     const std::scoped_lock lock(mutex_);
     for (const auto& [id, run] : runs_) {
       if (run->is_at_work()) runs.push_back(run);
     }
   }
-  for (const Run& run : runs) {
+  for (const SharedRun& run : runs) {
     const JobRecord job = run->job();
     const auto wanted = catalogue_.renew(job, kLease);
     const std::scoped_lock lock(mutex_);
     const bool is_same = run->is_at_work() && run->job().fence == job.fence;
     if (!is_same) continue;
-    if (wanted && *wanted) run->ask(JobWish::kCancel);
+    if (wanted && *wanted) run->request_stop(StopRequest::kCancel);
     if (wanted || wanted.error().code != ErrorCode::kState) continue;
     events_.event(Severity::kWarning, wanted.error().message);
-    run->ask(JobWish::kLost);
+    run->request_stop(StopRequest::kLost);
   }
 }
 
@@ -414,22 +423,25 @@ bool JobQueue::is_aside(const JobRun& run) {
   return run.job().state == JobState::kPaused && !run.is_at_work();
 }
 
-// Those of a scanner that this daemon has come to drive, too. A job is looked at again under the
-// lock: it may have gone on since, or ended.
+// Adds the paused jobs that this daemon runs, including those of scanners that it has acquired
+// recently. Each job is read again under the lock, because another daemon may have resumed or ended
+// it meanwhile.
 Expected<void> JobQueue::take_up_paused() {
   const auto paused = catalogue_.paused_jobs();
-  if (!paused) return Unexpected(paused.error());
+  if (!paused) return tl::unexpected(paused.error());
   const std::scoped_lock lock(mutex_);
   for (const JobRecord& job : *paused) {
     const bool is_new = !runs_.contains(job.id) && !unstored(job.id);
-    if (stopping_ || !is_new || !taken_.has(job)) continue;
+    if (is_stopping_ || !is_new || !taken_.has(job)) continue;
     const auto now = catalogue_.find_job(job.id);
     if (now && *now && (*now)->state == JobState::kPaused) take_up(**now, 0);
   }
   return {};
 }
 
-// Who holds a job and could not reach the catalogue either has the time of a lease to come back.
+// Looks for jobs to run. If the catalogue was unreachable, other daemons may have been unable to
+// renew their leases, too. They get the time of one lease to do so before this daemon claims jobs
+// whose lease has expired.
 void JobQueue::look_for_jobs(std::uint32_t limit) {
   const auto believes_from = [this] {
     const std::scoped_lock lock(mutex_);
@@ -439,8 +451,8 @@ void JobQueue::look_for_jobs(std::uint32_t limit) {
   const auto waiting = catalogue_.waiting_jobs(kinds_of(taken_), limit, overdue);
   const std::scoped_lock lock(mutex_);
   if (!waiting) believes_from_ = std::chrono::steady_clock::now() + kLease;
-  if (stopping_ || !waiting) return;
-  for (const Run& run : std::exchange(again_, {}))
+  if (is_stopping_ || !waiting) return;
+  for (const SharedRun& run : std::exchange(again_, {}))
     post(run);
   for (const JobRecord& job : *waiting) {
     if (!runs_.contains(job.id) && !unstored(job.id) && taken_.has(job)) take_up(job, 0);
@@ -448,22 +460,22 @@ void JobQueue::look_for_jobs(std::uint32_t limit) {
 }
 
 void JobQueue::look_at_others() {
-  std::vector<Run> others;
+  std::vector<SharedRun> others;
   {
     const std::scoped_lock lock(mutex_);
     std::erase_if(others_, [](const auto& other) { return other.second.expired(); });
     for (const auto& [id, other] : others_) {
-      if (Run run = other.lock()) others.push_back(std::move(run));
+      if (SharedRun run = other.lock()) others.push_back(std::move(run));
     }
-    for (const auto& [id, run] : runs_) {  // what is put aside others may cancel, or take over
+    for (const auto& [id, run] : runs_) {  // another daemon may cancel or claim a paused job
       if (is_aside(*run)) others.push_back(run);
     }
   }
-  for (const Run& other : others)
+  for (const SharedRun& other : others)
     look_at(other);
 }
 
-void JobQueue::look_at(const Run& other) {
+void JobQueue::look_at(const SharedRun& other) {
   const auto job = catalogue_.find_job(other->job().id);
   if (!job || !*job) return;
   const std::scoped_lock lock(mutex_);
@@ -474,26 +486,26 @@ void JobQueue::look_at(const Run& other) {
     runs_.erase(id);
   } else if (const auto own = runs_.find(id); own != runs_.end()) {
     if (own->second != other) {
-      now = own->second->status();  // was watched as another's, and has been taken up here since
+      now = own->second->status();  // this daemon has claimed the job since
     } else {
       if (!is_aside(*other) || taken_.has(**job)) return;
-      lose(other);  // another drives its scanner by now
+      lose(other);  // another daemon drives the scanner now
     }
   }
   const std::scoped_lock inner(other->mutex_);
   other->status_ = std::move(now);
 }
 
-void JobQueue::tell_ends() {
+void JobQueue::call_webhooks() {
   if (!ended_) return;
-  const auto ends = catalogue_.claim_untold({taken_.holder, kTelling});
+  const auto ends = catalogue_.claim_unnotified({taken_.holder, kWebhookTimeout});
   if (!ends) return;
   for (const JobRecord& job : *ends)
     ended_(JobStatus{job, std::nullopt, {}});
 }
 
-bool JobQueue::may_tell(const JobId& id) {
-  const auto renewed = catalogue_.renew_untold(id, {taken_.holder, kTelling});
+bool JobQueue::may_notify(const JobId& id) {
+  const auto renewed = catalogue_.renew_unnotified(id, {taken_.holder, kWebhookTimeout});
   return renewed || renewed.error().code != ErrorCode::kState;
 }
 
@@ -524,4 +536,4 @@ std::optional<JobRecord> JobQueue::unstored(const JobId& id) {
   return found == unstored_.end() ? std::nullopt : std::optional(found->second);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

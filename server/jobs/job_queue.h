@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jobs and their states. Each scanner has a lane of its own and at most one unfinished job; what
-// needs no scanner shares another lane and waits there. All is in the catalogue, so that a daemon
-// that died goes on where it was, and several share what is to be done: who begins a job takes it,
-// holds it by a lease that is renewed, and lets go of it once somebody else has it.
+// The queue of jobs and their states. Each scanner has a serial executor and at most one unfinished
+// job; jobs without a scanner share another executor. The catalogue stores all jobs, so that a
+// restarted daemon continues its jobs and several daemons share the work. A daemon claims a job and
+// renews its lease while it works. If another daemon claims the job, the first one abandons it.
 #pragma once
 
 #include <condition_variable>
@@ -14,77 +14,84 @@
 #include <vector>
 
 #include "server/catalogue/jobs.h"
-#include "server/jobs/heart.h"
-#include "server/jobs/lane.h"
+#include "server/jobs/periodic_task.h"
+#include "server/jobs/serial_executor.h"
 #include "server/log/log.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// What somebody wants of a job that runs.
-enum class JobWish : std::uint8_t {
+// Why a running job is asked to stop.
+enum class StopRequest : std::uint8_t {
   kNone,
-  kPause,   // to put it aside, until it is resumed
-  kCancel,  // to end it; what is done stays
-  kStop,    // to put it aside, because the daemon ends
-  kLost,    // to leave it alone: somebody else has it
+  kPause,   // stop the work until the job is resumed
+  kCancel,  // end the job; its results so far are kept
+  kStop,    // stop the work, because the daemon ends
+  kLost,    // abandon the job, because another daemon has claimed it
 };
 
-enum class JobEnd : std::uint8_t { kDone, kPutAside };  // the latter where a wish asked for it
+// How a task ended: kDone if the job is complete, kPutAside if the task followed a StopRequest and
+// can continue later.
+enum class JobEnd : std::uint8_t { kDone, kPutAside };
 
 struct JobStatus {
   JobRecord record;
-  std::optional<double> eta;  // seconds
-  std::string note;           // what it waits for: a camera that is gone; mostly empty
+  std::optional<double> eta;  // remaining seconds
+  std::string note;           // why the job waits, for example for a camera; usually empty
 
   bool operator==(const JobStatus&) const = default;
 };
 
-// A job as its task sees it. Thread-safe.
+// A job while it runs: the interface between its task and the queue. Thread-safe.
 class JobRun {
  public:
   explicit JobRun(JobRecord job) : status_{std::move(job), std::nullopt, {}} {}
 
-  JobStatus status() const;  // also once it has ended
+  JobStatus status() const;  // may be called after the job has ended, too
   JobRecord job() const { return status().record; }
-  JobWish wish() const;
-  // Of its scanner's emergency stops, how many whoever handed it in knew of.
+  StopRequest stop_request() const;
+  // Returns the number of emergency stops of the scanner that the client knew of when it requested
+  // the job.
   std::uint64_t stops_known() const;
 
-  // `stage` in a word; `progress` 0..1 of the whole job, which never goes back; seconds that are
-  // left, where known; JobStatus::note.
+  // Reports progress. `stage` is one word. `progress` is that of the whole job, 0..1, and never
+  // decreases. `eta` is the remaining time in seconds, if known. `note`: JobStatus::note.
   void report(std::string_view stage, double progress, std::optional<double> eta = {},
               std::string_view note = {});
   void made(const ModelId& model);
-  // What was done so far is to be done again.
-  void begin_anew();
+  // Resets the progress to 0, because the work so far has to be repeated.
+  void restart();
 
-  // Tells what somebody is to do, and waits as a paused job until it is resumed; false where a wish
-  // comes instead. A daemon that ends leaves the job paused: its task starts anew.
+  // Reports in `note` what the operator has to do, and pauses the job until it is resumed. Returns
+  // false if a stop is requested instead. If the daemon ends, the job stays paused, and its task
+  // restarts after the job is resumed.
   bool await_resume(std::string_view stage, double progress, std::string_view note);
 
  private:
   friend class JobQueue;
   friend class Reaction;
-  // Replaces the one before; {} takes it away, and it is not being called any more on return.
+  // Sets the function to call when a stop is requested, in place of the previous one. An empty
+  // function removes it. On return, the previous function is no longer running.
   void when_asked(std::function<void()> react);
-  void ask(JobWish wish, std::string_view reason = {});
-  bool go_on();             // false where it does not wait
-  bool is_at_work() const;  // its task has not returned
+  void request_stop(StopRequest request, std::string_view reason = {});
+  bool go_on();             // ends await_resume(); returns false if the job does not wait
+  bool is_at_work() const;  // whether the job's task is still running
 
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the members below
   JobStatus status_;
-  JobWish wish_ = JobWish::kNone;
-  bool waits_ = false;        // in await_resume()
-  std::string pause_reason_;  // that came with kPause; its note from then on
+  StopRequest stop_request_ = StopRequest::kNone;
+  bool waits_ = false;        // whether await_resume() is waiting
+  std::string pause_reason_;  // reason of a kPause request; becomes the job's note
   std::condition_variable changed_;
   std::uint64_t stops_known_ = 0;
   std::function<void()> react_;
 
-  std::function<void(const JobRecord&)> entered_stage_;  // set once, before the task starts
+  // Called with the job's record each time the job enters another stage. Set before the task
+  // starts.
+  std::function<void(const JobRecord&)> entered_stage_;
 };
 
-// Has `react` called, by another thread, when a wish comes, and at once where one has come already,
-// as long as this lives; one at a time for a run.
+// Calls `react` from another thread when a stop is requested, until this object is destroyed. If a
+// stop was requested before, calls it at once. A run can have one Reaction at a time.
 class Reaction {
  public:
   Reaction(JobRun& run, std::function<void()> react) : run_(run) {
@@ -98,10 +105,11 @@ class Reaction {
   JobRun& run_;
 };
 
-// Does one job, or goes on with it. An error is the end of the job, unless a wish came meanwhile.
+// A function that runs or continues one job. An error that it returns ends the job, unless a stop
+// was requested meanwhile.
 using JobTask = std::function<Expected<JobEnd>(JobRun& run)>;
 
-// Which jobs a daemon does itself; the others it leaves to those that do.
+// Selects the jobs that this daemon runs. All other jobs are left to other daemons.
 struct TakenJobs {
   bool builds = true, scans = true;
   std::string holder = {};  // Lease::holder
@@ -112,97 +120,104 @@ struct TakenJobs {
   }
 };
 
-// Thread-safe. Errors: kState where a job is not in a state for that, kIo of the catalogue.
+// Thread-safe. Errors: kState if the job's state does not allow the call, kIo if the catalogue
+// fails.
 class JobQueue {
  public:
   JobQueue(JobCatalogue& catalogue, const Log& events, JobTask task, TakenJobs taken = {});
   ~JobQueue() { stop(); }
 
-  // Has `told` called with every job that has ended and has a webhook, by one of all daemons, once
-  // unless that one dies meanwhile: for who comes before start(). Of what is not told within ten
-  // minutes, somebody's is called again.
-  void when_ended(std::function<void(const JobStatus&)> told) { ended_ = std::move(told); }
-  // To be asked when it comes to telling, which may be that while later: false where another has
-  // told it meanwhile.
-  bool may_tell(const JobId& id);
+  // Sets the function that calls webhooks. The queue calls it with each job that has ended and has
+  // a webhook. Call when_ended() before start(). Only one daemon calls the webhook of a job. If
+  // that daemon ends before the call, another daemon makes the call ten minutes later.
+  void when_ended(std::function<void(const JobStatus&)> ended) { ended_ = std::move(ended); }
+  // Whether this daemon may still call the job's webhook. False if another daemon has called or
+  // claimed the webhook meanwhile. Check this right before the call.
+  bool may_notify(const JobId& id);
 
-  // Takes up what an earlier daemon left: what was paused stays paused, all else goes on, but for
-  // what three daemons have died at: that has failed. From then on there is a beat() twice a
-  // second.
+  // Continues the unfinished jobs of an earlier run of this daemon. Paused jobs stay paused. A job
+  // fails if it was running each of the last three times that a daemon died. After this call,
+  // beat() runs twice per second until stop().
   Expected<void> start();
 
-  // Renews the leases of what runs here, hears of what others want of it, and looks for what waits
-  // to be done, or to be told.
+  // Renews the leases of the jobs that run in this daemon, receives cancellations, and looks for
+  // jobs to run and webhooks to call.
   void beat();
 
-  // Every job that runs is put aside, and every lane ends.
+  // Stops all running jobs so that they can continue later, and ends all executors.
   void stop();
   bool is_stopping() const;
 
-  // The job that a request with this key began; kBadInput where it was another request.
-  Expected<std::optional<JobRecord>> begun_by(const std::optional<OnceKey>& once) const;
+  // Returns the job that a request with this idempotency key started, or nullopt if there is none.
+  // kBadInput if the key was used for a different request.
+  Expected<std::optional<JobRecord>> begun_by(const std::optional<IdempotencyKey>& key) const;
 
-  // kState where the scanner is busy; kBadInput where the key was used with another request, and
-  // with the same one the job of then is the result. `stops`: JobRun::stops_known().
+  // Adds a job and returns it. If the key was used for the same request before, returns the job of
+  // that request. kBadInput if the key was used for a different request, kState if the scanner is
+  // busy. `stops`: JobRun::stops_known().
   Expected<JobRecord> add(const JobRecord& job, const std::optional<ScanEntry>& scan,
-                          const std::optional<OnceKey>& once, std::uint64_t stops = 0);
+                          const std::optional<IdempotencyKey>& key, std::uint64_t stops = 0);
 
-  // `reason`, and what to do: its note until it is resumed or the daemon ends.
+  // Pauses a running job. `reason` says what the operator should do. The reason is the job's note
+  // until the job is resumed or the daemon ends.
   Expected<JobStatus> pause(const JobId& id, std::string_view reason = {});
   Expected<JobStatus> resume(const JobId& id, std::uint64_t stops = 0);
   Expected<JobStatus> cancel(const JobId& id);
 
-  // Nothing where there is no such job.
+  // Returns nullopt if there is no such job.
   Expected<std::optional<JobStatus>> find(const JobId& id);
-  Expected<std::vector<JobStatus>> list(const PageOf& page);
+  Expected<std::vector<JobStatus>> list(const PageOf<JobId>& page);
   Expected<JobCounts> count() { return catalogue_.count_jobs(); }
 
-  // An unfinished job of this daemon, to be watched to its end; null where there is none.
+  // Returns an unfinished job of this daemon, whose status can be read until and after its end.
+  // Null if there is none.
   std::shared_ptr<const JobRun> run(const JobId& id) const;
-  // The same of any daemon's, seen a beat later where it is another's.
+  // Returns a job of any daemon, whose status can be read at any time. Changes by other daemons
+  // appear at the next beat().
   Expected<std::shared_ptr<const JobRun>> watch(const JobId& id);
 
-  // The unfinished job of a scanner.
+  // Returns the unfinished job of a scanner, or nullopt.
   std::optional<JobStatus> job_of(const std::string& scanner) const;
 
-  // The oldest unfinished job, of whichever daemon, that is such a one.
+  // Returns the oldest unfinished job of any daemon for which `is` returns true, or nullopt.
   Expected<std::optional<JobRecord>> job_where(const std::function<bool(const JobRecord&)>& is);
 
-  // Has something short done by the scanner's lane, where all of its jobs run. kState, and nothing
-  // is done, where it is busy; a job that is put aside is in the way unless `beside_paused`.
+  // Posts a short command to the scanner's executor, which also runs the scanner's jobs. kState if
+  // the scanner is busy; the command is then not run. A paused job makes the scanner busy unless
+  // `beside_paused` is true.
   Expected<void> post_command(const std::string& scanner, std::function<void()> command,
                               bool beside_paused = false);
 
-  // Where the scanner's devices are used.
-  Lane& lane(const std::string& scanner);
+  // Returns the executor whose thread uses the scanner's devices.
+  SerialExecutor& executor(const std::string& scanner);
 
  private:
-  using Run = std::shared_ptr<JobRun>;
+  using SharedRun = std::shared_ptr<JobRun>;
 
-  // With the lock held, as all until the next line.
+  // The caller of the functions up to the next empty line holds mutex_.
   Expected<void> check_free(const std::string& scanner) const;
-  Expected<Run> unfinished(const JobId& id) const;
-  Run run_of(const std::string& scanner) const;
+  Expected<SharedRun> unfinished(const JobId& id) const;
+  SharedRun run_of(const std::string& scanner) const;
   void take_up(const JobRecord& job, std::uint64_t stops);
-  void give_up(const Run& run);
-  void post(const Run& run);
-  bool set_state(const Run& run, JobState state);  // false where somebody else has it
-  void lose(const Run& run);
-  bool take(const Run& run);
-  Lane& lane_of(const std::string& name);
+  void give_up(const SharedRun& run);
+  void post(const SharedRun& run);
+  bool set_state(const SharedRun& run, JobState state);  // false if another daemon claimed it
+  void lose(const SharedRun& run);
+  bool take(const SharedRun& run);
+  SerialExecutor& executor_of(const std::string& name);
 
-  void work(const Run& run);
+  void work(const SharedRun& run);
   static JobState state_after(JobRun& run, const Expected<JobEnd>& result);
-  void end(const Run& run, const Expected<JobEnd>& result);
-  static bool is_aside(const JobRun& run);  // paused, and its task has returned
+  void end(const SharedRun& run, const Expected<JobEnd>& result);
+  static bool is_aside(const JobRun& run);  // whether the job is paused and its task has returned
   void renew_leases();
   Expected<void> take_up_paused();
   void look_for_jobs(std::uint32_t limit);
   void look_at_others();
-  void look_at(const Run& other);
-  void tell_ends();
-  // What the catalogue refuses, as it is away, is stored with the next beat. False where somebody
-  // else has the job.
+  void look_at(const SharedRun& other);
+  void call_webhooks();
+  // Stores the record in the catalogue. If the catalogue is unreachable, the next beat() tries
+  // again. Returns false if another daemon has claimed the job.
   bool store(const JobRecord& job);
   void store_again();
   std::optional<JobRecord> unstored(const JobId& id);
@@ -213,19 +228,20 @@ class JobQueue {
   const TakenJobs taken_;
   std::function<void(const JobStatus&)> ended_;
 
-  mutable std::mutex mutex_;                       // guards what follows
-  std::map<JobId, Run> runs_;                      // the unfinished ones
-  std::map<JobId, std::weak_ptr<JobRun>> others_;  // that somebody watches here
-  std::vector<Run> again_;  // that could not be taken: the catalogue was away
-  // When leases that have run out are believed: while the catalogue is away nobody can renew one.
+  mutable std::mutex mutex_;                       // guards the members below
+  std::map<JobId, SharedRun> runs_;                // unfinished jobs
+  std::map<JobId, std::weak_ptr<JobRun>> others_;  // jobs of other daemons that watch() returned
+  std::vector<SharedRun> again_;  // jobs to claim when the catalogue is reachable again
+  // Expired leases of other daemons are respected until this time. While the catalogue is
+  // unreachable, no daemon can renew its leases.
   std::chrono::steady_clock::time_point believes_from_{};
-  std::map<std::string, std::unique_ptr<Lane>> lanes_;
-  bool stopping_ = false;
+  std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;
+  bool is_stopping_ = false;
 
-  std::mutex storing_;  // guards what follows
+  std::mutex storing_;  // guards the members below
   std::map<JobId, JobRecord> unstored_;
 
-  std::optional<Heart> heart_;
+  std::optional<PeriodicTask> lease_renewal_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

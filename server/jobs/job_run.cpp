@@ -4,16 +4,16 @@
 
 #include "server/jobs/job_queue.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 JobStatus JobRun::status() const {
   const std::scoped_lock lock(mutex_);
   return status_;
 }
 
-JobWish JobRun::wish() const {
+StopRequest JobRun::stop_request() const {
   const std::scoped_lock lock(mutex_);
-  return wish_;
+  return stop_request_;
 }
 
 std::uint64_t JobRun::stops_known() const {
@@ -24,22 +24,22 @@ std::uint64_t JobRun::stops_known() const {
 void JobRun::when_asked(std::function<void()> react) {
   const std::scoped_lock lock(mutex_);
   react_ = std::move(react);
-  if (react_ && wish_ != JobWish::kNone) react_();
+  if (react_ && stop_request_ != StopRequest::kNone) react_();
 }
 
-void JobRun::ask(JobWish wish, std::string_view reason) {
+void JobRun::request_stop(StopRequest request, std::string_view reason) {
   const std::scoped_lock lock(mutex_);
-  if (waits_ && wish == JobWish::kStop) wish = JobWish::kPause;
-  // Nothing takes a cancellation back, and what is paused stays so when the daemon ends; but who
-  // has lost the job has no say in it.
-  if (wish_ == JobWish::kLost) return;
-  const bool holds =
-      wish_ == JobWish::kCancel || (wish_ == JobWish::kPause && wish == JobWish::kStop);
-  if (holds && wish != JobWish::kLost) return;
-  wish_ = wish;
+  if (waits_ && request == StopRequest::kStop) request = StopRequest::kPause;
+  // A request to cancel stays in force, and a paused job stays paused when the daemon ends. Only
+  // the loss of the job to another daemon overrides these rules.
+  if (stop_request_ == StopRequest::kLost) return;
+  const bool holds = stop_request_ == StopRequest::kCancel ||
+                     (stop_request_ == StopRequest::kPause && request == StopRequest::kStop);
+  if (holds && request != StopRequest::kLost) return;
+  stop_request_ = request;
   if (!reason.empty()) status_.note = pause_reason_ = reason;
   changed_.notify_all();
-  if (react_ && wish != JobWish::kNone) react_();
+  if (react_ && request != StopRequest::kNone) react_();
 }
 
 bool JobRun::await_resume(std::string_view stage, double progress, std::string_view note) {
@@ -49,15 +49,15 @@ bool JobRun::await_resume(std::string_view stage, double progress, std::string_v
   paused.record.progress = std::max(paused.record.progress, progress);
   paused.eta.reset();
   paused.note = note;
-  entered_stage_(paused.record);  // before anybody can resume it
+  entered_stage_(paused.record);  // called before an operator can resume the job
   std::unique_lock lock(mutex_);
-  if (wish_ != JobWish::kNone) return false;
+  if (stop_request_ != StopRequest::kNone) return false;
   status_ = std::move(paused);
   waits_ = true;
-  changed_.wait(lock, [this] { return !waits_ || wish_ != JobWish::kNone; });
+  changed_.wait(lock, [this] { return !waits_ || stop_request_ != StopRequest::kNone; });
   waits_ = false;
   status_.record.state = JobState::kRunning;
-  return wish_ == JobWish::kNone;
+  return stop_request_ == StopRequest::kNone;
 }
 
 bool JobRun::go_on() {
@@ -94,9 +94,9 @@ void JobRun::made(const ModelId& model) {
   status_.record.model = model;
 }
 
-void JobRun::begin_anew() {
+void JobRun::restart() {
   const std::scoped_lock lock(mutex_);
   status_.record.progress = 0;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -3,7 +3,7 @@
 
 #include "codec/mesh/unit.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Json = nlohmann::json;
@@ -12,12 +12,13 @@ constexpr std::string_view kMembers[] = {"upload", "metadata",  "publish", "repl
                                          "bits",   "placement", "unit",    "up"};
 constexpr std::string_view kAxes[] = {"y", "z"};
 
-std::optional<ModelId> read_id(Fields& fields, const Json& body, const char* name,
-                               const char* expected) {
+template <class Id>
+std::optional<Id> read_id(Fields& fields, const Json& body, const char* name,
+                          const char* expected) {
   const auto found = body.find(name);
   if (found == body.end() || found->is_null()) return std::nullopt;
   const auto* text = found->get_ptr<const std::string*>();
-  const auto id = text == nullptr ? std::nullopt : ModelId::parse(*text);
+  const auto id = text == nullptr ? std::nullopt : Id::parse(*text);
   if (!id) fields.fault(name, expected);
   return id;
 }
@@ -39,12 +40,12 @@ tl::expected<ModelOrder, FieldFaults> parse_model_order(const Json& body) {
   ModelOrder order;
   fields.only(kMembers);
   constexpr const char* kUpload = "the id of an upload: what follows /api/v1/uploads/";
-  const auto upload = read_id(fields, body, "upload", kUpload);
+  const auto upload = read_id<UploadId>(fields, body, "upload", kUpload);
   if (!body.contains("upload")) fields.fault("upload", kUpload);
   order.upload = upload.value_or(UploadId());
   read_metadata(fields, body, order.metadata, faults);
-  fields.flag("publish", order.publish);
-  order.replace = read_id(fields, body, "replace", "the id of a model");
+  fields.flag("publish", order.is_public);
+  order.replace = read_id<ModelId>(fields, body, "replace", "the id of a model");
   fields.text("webhook", order.webhook);
   read_bits(fields, body, order.bits);
   fields.choice("placement", kPlacementNames, order.placement);
@@ -58,7 +59,7 @@ tl::expected<ModelOrder, FieldFaults> parse_model_order(const Json& body) {
 std::string to_json_text(const ModelOrder& order) {
   Json json = {{"upload", order.upload.to_string()},
                {"metadata", to_json(order.metadata)},
-               {"publish", order.publish},
+               {"publish", order.is_public},
                {"bits", order.bits},
                {"placement", kPlacementNames[static_cast<std::size_t>(order.placement)]},
                {"up", kAxes[order.z_is_up ? 1 : 0]}};
@@ -68,4 +69,4 @@ std::string to_json_text(const ModelOrder& order) {
   return json.dump();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an operator asks to be made of an upload.
+// Reads and writes requests to make a model from an upload.
 #pragma once
 
-#include "server/jobs/build_child.h"
 #include "server/jobs/order_fields.h"
+#include "server/sandbox/build_child.h"
 #include "server/store/uploads.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct ModelOrder {
   UploadId upload;
   ModelMetadata metadata;
-  bool publish = false;            // else a draft comes of it
-  std::optional<ModelId> replace;  // the model whose place it takes; whose texts, too, where none
-                                   // are given
-  std::string webhook;             // a URL that is told of the end; empty: none
+  bool is_public = false;  // whether the model is published at once; else it is a draft
+  // The model to replace. Its metadata stays, except for texts that `metadata` contains.
+  std::optional<ModelId> replace;
+  std::string webhook;  // URL to call when the job ends; empty: none
 
-  // Of a mesh; a .pmesh has its own.
-  int bits = 0;  // as in BuildOptions
+  // Options for building a mesh. They do not apply to a .pmesh file.
+  int bits = 0;  // BuildOptions::bits
   Placement placement = Placement::kMidpoint;
-  std::string unit;  // of kLengthUnits; empty: what the file states
+  std::string unit;  // one of kLengthUnits; empty: the unit in the file
   bool z_is_up = false;
 };
 
-// All faults at once; a field that is not known is one.
+// Parses a request. Returns either the order or all faults of the request. An unknown field is a
+// fault.
 tl::expected<ModelOrder, FieldFaults> parse_model_order(const nlohmann::json& body);
 
-// As it is kept until it is carried out: parse_model_order() reads it.
+// Writes an order as JSON for the job's record. parse_model_order() reads that text.
 std::string to_json_text(const ModelOrder& order);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

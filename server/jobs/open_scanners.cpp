@@ -10,7 +10,7 @@
 #include "server/jobs/fenced_devices.h"
 #include "server/jobs/session_backend.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::size_t kMaxName = 32;
@@ -34,15 +34,15 @@ Expected<std::vector<std::unique_ptr<ScannerBackend>>> open_scanners(
   std::vector<std::unique_ptr<ScannerBackend>> scanners;
   std::set<std::string> names;
   for (const std::filesystem::path& path : configs) {
-    auto config = read_scanner_config(path);
-    if (!config) return Unexpected(config.error());
-    if (auto named = check_name(config->name, path); !named) return Unexpected(named.error());
+    auto config = acquisition::read_scanner_config(path);
+    if (!config) return tl::unexpected(config.error());
+    if (auto named = check_name(config->name, path); !named) return tl::unexpected(named.error());
     if (!names.insert(config->name).second) {
       return fail(ErrorCode::kBadInput,
                   fmt::format("{}: another scanner is named {}; give one of them another name",
                               path.string(), config->name));
     }
-    Scanner scanner = open_scanner(*config);
+    acquisition::Scanner scanner = acquisition::open_scanner(*config);
     scanner.devices =
         fenced(std::move(scanner.devices), [may, name = config->name] { return may(name); });
     scanners.push_back(std::make_unique<SessionBackend>(std::move(*config), std::move(scanner)));
@@ -50,4 +50,4 @@ Expected<std::vector<std::unique_ptr<ScannerBackend>>> open_scanners(
   return scanners;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

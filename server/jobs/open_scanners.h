@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Creates the backends of the scanners that the configuration lists.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +10,15 @@
 
 #include "server/jobs/scanner_backend.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Whether a scanner may be commanded now.
+// Succeeds if this daemon may command the scanner now.
 using MayCommand = std::function<Expected<void>(const std::string& scanner)>;
 
-// The scanners that rig.json files describe, commanded as long as they may be. Nothing is opened
-// yet. Fails (kBadInput) where two have one name or a name is none for a path, and as
-// read_scanner_config().
+// Creates a backend for each rig.json file, without opening its devices. Commands to a scanner fail
+// while `may` fails for it. kBadInput if two scanners have the same name, or if a name contains
+// characters other than a-z, 0-9 and -. Also fails with the errors of read_scanner_config().
 Expected<std::vector<std::unique_ptr<ScannerBackend>>> open_scanners(
     std::span<const std::filesystem::path> configs, const MayCommand& may);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

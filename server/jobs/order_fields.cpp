@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/jobs/order_fields.h"
 
-#include "codec/progressive/manifest.h"
+#include "codec/format/manifest.h"
 #include "server/store/text.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Json = nlohmann::json;
@@ -99,4 +99,4 @@ Json to_json(const ModelMetadata& metadata) {
   return json;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

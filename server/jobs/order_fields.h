@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what an operator asks for out of JSON: all faults at once, each with its field.
+// Reads the fields of a JSON request and collects all faults, each with the name of its field.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,27 +15,27 @@
 
 #include "server/store/publish.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct FieldFault {
-  std::string field, detail;  // "metadata.title"; what is expected
+  std::string field, detail;  // the field, such as "metadata.title", and the expected value
 };
 using FieldFaults = std::vector<FieldFault>;
 
 inline constexpr std::string_view kPlacementNames[] = {"midpoint", "pyramid"};
 
-// Reads the members of one object; what is absent or wrong stays as it was.
+// Reads the members of a JSON object. If a member is absent or wrong, its variable stays unchanged.
 class Fields {
  public:
   Fields(const nlohmann::json& object, std::string prefix, FieldFaults& faults)
       : object_(object), prefix_(std::move(prefix)), faults_(faults) {}
 
-  void only(std::span<const std::string_view> known);  // all others are faults
+  void only(std::span<const std::string_view> known);  // reports each member not in `known`
   void text(const char* name, std::string& value);
   void whole(const char* name, int low, int high, int& value);
   void flag(const char* name, bool& value);
 
-  // double or std::optional<double>
+  // Reads a number from `low` to `high`. `value` is a double or a std::optional<double>.
   void real(const char* name, double low, double high, auto& value) {
     const auto found = object_.find(name);
     if (found == object_.end() || found->is_null()) return;
@@ -71,14 +71,16 @@ tl::expected<Order, FieldFaults> order_or_faults(Order order, FieldFaults faults
   return order;
 }
 
-// What several orders have: "bits" (0 and "auto": by the mesh) and "metadata".
+// Read fields that several requests have in common: "bits" (0 or "auto": chosen for the mesh) and
+// "metadata".
 void read_bits(Fields& fields, const nlohmann::json& body, int& bits);
 void read_metadata(Fields& fields, const nlohmann::json& body, ModelMetadata& metadata,
                    FieldFaults& faults);
 
-// The texts themselves: title, creator, rights, licence and the elements of Dublin Core.
+// Returns the names of the metadata texts: title, creator, rights, licence and the elements of
+// Dublin Core.
 std::vector<std::string_view> metadata_names();
 void read_texts(Fields& fields, ModelMetadata& metadata);
 nlohmann::json to_json(const ModelMetadata& metadata);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

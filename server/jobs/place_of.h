@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// Derives the locations of an installation from the settings.
 #pragma once
 
 #include "server/config/settings.h"
 #include "server/store/installation.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Where the settings say that the installation is.
 inline InstallationPlace place_of(const Settings& settings) {
   return {.folder = settings.data,
           .store = settings.store,
@@ -19,4 +19,4 @@ inline std::filesystem::path uploads_of(const Settings& settings) {
   return settings.uploads.empty() ? settings.data / "uploads" : settings.uploads;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

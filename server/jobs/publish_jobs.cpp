@@ -7,18 +7,19 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "codec/progressive/manifest.h"
-#include "codec/progressive/signature.h"
+#include "codec/format/manifest.h"
+#include "codec/format/signature.h"
 #include "server/jobs/clock.h"
-#include "server/jobs/patience.h"
+#include "server/jobs/job_claim.h"
+#include "server/jobs/retry_while_unreachable.h"
 #include "server/store/change.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr double kChildDone = 0.98;  // progress at the end of the child's work
+constexpr double kChildDone = 0.98;  // progress of the job when the child has finished
 
 Expected<ModelOrder> order_of(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
@@ -60,39 +61,38 @@ std::optional<UploadId> PublishJobs::upload_of(const JobRecord& job) {
   return order ? std::optional(order->upload) : std::nullopt;
 }
 
-// What it made is in the catalogue before the upload goes: a daemon that dies in between does
-// nothing twice.
+// Adds the model to the catalogue before it removes the upload. If the daemon dies in between, the
+// job runs again and does not publish a second model.
 Expected<JobEnd> PublishJobs::work(JobRun& run) {
   const auto order = order_of(run.job());
-  if (!order) return Unexpected(order.error());
+  if (!order) return tl::unexpected(order.error());
   if (!run.job().model) {
     const auto made = make(run, *order);
-    if (!made) return Unexpected(made.error());
+    if (!made) return tl::unexpected(made.error());
     run.made(made->id);
     run.report("published", 1);
   }
-  static_cast<void>(means_.uploads.remove(order->upload));
+  static_cast<void>(needs_.uploads.remove(order->upload));
   return JobEnd::kDone;
 }
 
 Expected<Publication> PublishJobs::make(JobRun& run, const ModelOrder& order) {
-  const auto file = means_.uploads.open(order.upload);
-  if (!file && file.error().kind != UploadFault::kGone)
+  const auto file = needs_.uploads.open(order.upload);
+  if (!file && file.error().cause != UploadFault::kGone)
     return fail(ErrorCode::kIo, file.error().message);
   if (!file) {
     return fail(ErrorCode::kState, "the upload is gone or not whole; upload the file again");
   }
   auto pmesh = build(run, order, *file);
-  if (!pmesh) return Unexpected(pmesh.error());
+  if (!pmesh) return tl::unexpected(pmesh.error());
   run.report("publishing", kChildDone);
-  // The model has the job's id, so that a job which is interrupted after this makes no second one.
-  const PublishAs as{.state = order.publish ? ModelState::kPublished : ModelState::kDraft,
-                     .id = order.replace.value_or(run.job().id),
-                     .quota = &means_.quota,
+  const PublishAs as{.state = order.is_public ? ModelState::kPublished : ModelState::kDraft,
+                     .id = order.replace.value_or(model_id_of(run.job())),
+                     .quota = &needs_.quota,
                      .upload = order.upload,
-                     .by = JobClaim{run.job().id, run.job().fence}};
-  return patiently(run, [&] {
-    return (order.replace ? replace : publish)(means_.store, means_.catalogue, *pmesh,
+                     .by = claim_of(run.job())};
+  return retry_while_unreachable(run, [&] {
+    return (order.replace ? replace : publish)(needs_.store, needs_.catalogue, *pmesh,
                                                order.metadata, as);
   });
 }
@@ -110,11 +110,11 @@ Expected<Bytes> PublishJobs::build(JobRun& run, const ModelOrder& order,
                        .placement = order.placement,
                        .z_is_up = order.z_is_up,
                        .unit = order.unit,
-                       .folder = means_.data,
-                       .program = means_.program};
+                       .folder = needs_.data,
+                       .program = needs_.program};
   auto pmesh = child.build(
       file, how, [&](std::string_view, double done) { run.report(stage, kChildDone * done); });
   return pmesh && is_built ? read_all(file) : std::move(pmesh);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uploads become models, as jobs: a mesh is built, a .pmesh is verified, both in the sandboxed
-// child, and then it is published.
+// Jobs that publish uploads. A job builds a model from a mesh, or verifies a .pmesh file, in the
+// sandboxed child (build_child.h), and publishes the result.
 #pragma once
 
 #include "server/jobs/job_queue.h"
@@ -9,29 +9,29 @@
 #include "server/store/quota.h"
 #include "server/store/uploads.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// All of it outlives the jobs.
-struct PublishMeans {
+// All references must outlive the jobs.
+struct PublishDependencies {
   ObjectStore& store;
   Catalogue& catalogue;
   Uploads& uploads;
   Quota& quota;
-  std::filesystem::path data;                        // of the installation
+  std::filesystem::path data;                        // data folder of the installation
   std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
 };
 
 class PublishJobs {
  public:
-  explicit PublishJobs(const PublishMeans& means) : means_(means) {}
+  explicit PublishJobs(const PublishDependencies& needs) : needs_(needs) {}
 
-  // A job for it, to be given to the queue.
+  // Creates the job for an order. The caller adds it to the queue.
   static JobRecord job_for(const ModelOrder& order);
 
-  // Does one. The upload is gone where it succeeds, and stays for another try where not.
+  // Runs a job. Removes the upload if the job succeeds. Otherwise the upload stays for another try.
   Expected<JobEnd> work(JobRun& run);
 
-  // The upload that a job is about, or was.
+  // Returns the upload that a job uses, or nullopt if it uses none.
   static std::optional<UploadId> upload_of(const JobRecord& job);
 
  private:
@@ -39,7 +39,7 @@ class PublishJobs {
   Expected<std::vector<std::uint8_t>> build(JobRun& run, const ModelOrder& order,
                                             const FileDescriptor& file);
 
-  const PublishMeans means_;
+  const PublishDependencies needs_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -11,52 +11,53 @@
 #include "acquisition/session/scan_request.h"
 #include "server/jobs/order_fields.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kLeastExposure = 1;  // microseconds
+constexpr double kLeastExposure = 1;  // shortest exposure, in microseconds
 
 void read_length(Fields& fields, const Json& body, int& length) {
   const auto found = body.find("length");
   if (found == body.end()) return;
-  const bool fits =
-      found->is_number_integer() &&
-      std::ranges::find(kSamplingLengths, found->get<std::int64_t>()) != kSamplingLengths.end();
+  const bool fits = found->is_number_integer() &&
+                    std::ranges::find(acquisition::kSamplingLengths, found->get<std::int64_t>()) !=
+                        acquisition::kSamplingLengths.end();
   if (!fits)
-    return fields.fault("length", fmt::format("one of {}", fmt::join(kSamplingLengths, ", ")));
+    return fields.fault("length",
+                        fmt::format("one of {}", fmt::join(acquisition::kSamplingLengths, ", ")));
   length = found->get<int>();
 }
 
-void read_processing(Fields& fields, const Json& body, Processing& processing) {
+void read_processing(Fields& fields, const Json& body, acquisition::Processing& processing) {
   auto& [stripe, sampling, surface] = processing;
-  fields.choice("stripe", kStripeNames, stripe.method);
-  fields.choice("sampling", kSamplingNames, sampling.method);
+  fields.choice("stripe", acquisition::kStripeNames, stripe.method);
+  fields.choice("sampling", acquisition::kSamplingNames, sampling.method);
   read_length(fields, body, sampling.window);
-  fields.real("largest_angle", 0, kMostAngle, surface.largest_angle);
-  fields.real("largest_hole", 0, kMostHole, surface.largest_hole);
+  fields.real("largest_angle", 0, acquisition::kMostAngle, surface.largest_angle);
+  fields.real("largest_hole", 0, acquisition::kMostHole, surface.largest_hole);
 }
 
 void read_model(Fields& fields, const Json& body, ScanOrder& order, FieldFaults& faults) {
-  fields.whole("calibration", 1, kMostCalibration, order.calibration);
+  fields.whole("calibration", 1, acquisition::kMostCalibration, order.calibration);
   read_processing(fields, body, order.request.processing);
   read_bits(fields, body, order.bits);
   fields.choice("placement", kPlacementNames, order.placement);
   read_metadata(fields, body, order.metadata, faults);
-  fields.flag("publish", order.publish);
+  fields.flag("publish", order.is_public);
   fields.text("webhook", order.webhook);
 }
 
 void read_scan(Fields& fields, const Json& body, ScanOrder& order) {
   fields.text("scanner", order.scanner);
   if (!body.contains("scanner")) fields.fault("scanner", "the name of one of /api/v1/scanners");
-  fields.whole("steps", kLeastSteps, kMostSteps, order.request.steps);
-  fields.real("exposure", kLeastExposure, kMostExposure, order.request.exposure_us);
+  fields.whole("steps", acquisition::kLeastSteps, acquisition::kMostSteps, order.request.steps);
+  fields.real("exposure", kLeastExposure, acquisition::kMostExposure, order.request.exposure_us);
   fields.flag("keep_frames", order.request.keep_frames);
 }
 
-// What may be said, by whom.
+// The allowed fields: kOfScan for new scans only, kOfModel for scans and rebuilds.
 constexpr std::string_view kOfScan[] = {"scanner", "steps", "exposure", "keep_frames"};
 constexpr std::string_view kOfModel[] = {"calibration",   "stripe",       "sampling", "length",
                                          "largest_angle", "largest_hole", "bits",     "placement",
@@ -121,19 +122,19 @@ std::string to_json_text(const ScanOrder& order) {
   Json json = {{"scanner", order.scanner},
                {"steps", order.request.steps},
                {"keep_frames", order.request.keep_frames},
-               {"stripe", kStripeNames[static_cast<std::size_t>(stripe.method)]},
-               {"sampling", kSamplingNames[static_cast<std::size_t>(sampling.method)]},
+               {"stripe", acquisition::kStripeNames[static_cast<std::size_t>(stripe.method)]},
+               {"sampling", acquisition::kSamplingNames[static_cast<std::size_t>(sampling.method)]},
                {"length", sampling.window},
                {"largest_angle", surface.largest_angle},
                {"largest_hole", surface.largest_hole},
                {"bits", order.bits},
                {"placement", kPlacementNames[static_cast<std::size_t>(order.placement)]},
                {"metadata", to_json(order.metadata)},
-               {"publish", order.publish}};
+               {"publish", order.is_public}};
   if (!order.webhook.empty()) json["webhook"] = order.webhook;
   if (order.request.exposure_us) json["exposure"] = *order.request.exposure_us;
   if (order.calibration > 0) json["calibration"] = order.calibration;
   return json.dump();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

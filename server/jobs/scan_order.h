@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an operator asks of a scan, and of what is made of it.
+// Reads and writes requests to scan, to rebuild a scan's mesh, and to calibrate.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,42 +12,44 @@
 #include "codec/simplify/simplify.h"
 #include "server/jobs/order_fields.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct ScanOrder {
-  std::string scanner;  // its name
-  ScanRequest request;
-  int calibration = 0;  // its number; 0: the newest, or the own of a scan that is made anew
+  std::string scanner;  // name of the scanner
+  acquisition::ScanRequest request;
+  // Number of the calibration. 0: the newest one, or, for a rebuild, the one that the scan used.
+  int calibration = 0;
 
-  int bits = 0;  // as in BuildOptions
+  int bits = 0;  // BuildOptions::bits
   Placement placement = Placement::kMidpoint;
 
   ModelMetadata metadata;
-  bool publish = false;  // else a draft comes of it
-  std::string webhook;   // a URL that is told of the end; empty: none
+  bool is_public = false;  // whether the model is published at once; else it is a draft
+  std::string webhook;     // URL to call when the job ends; empty: none
 };
 
 inline constexpr int kLeastPoses = 3, kMostPoses = 200;
 
 struct CalibrationOrder {
-  int poses = 20;            // of the target, that somebody places by hand
-  std::string webhook = {};  // as in ScanOrder
+  int poses = 20;            // number of poses in which the operator places the target
+  std::string webhook = {};  // ScanOrder::webhook
 };
 
-// A new scan. All faults at once; a field that is not known is one.
+// Parses a request for a new scan. Returns either the order or all faults of the request. An
+// unknown field is a fault.
 tl::expected<ScanOrder, FieldFaults> parse_scan_order(const nlohmann::json& body);
 
-// Another model of the scan that was ordered as `scan`, whose own wishes are the defaults: what
-// concerns the scanner is fixed.
+// Parses a request to rebuild the mesh of a stored scan. Options not given keep the values of
+// `scan`. Options of the scanner cannot be changed.
 tl::expected<ScanOrder, FieldFaults> parse_reprocess_order(const nlohmann::json& body,
                                                            const ScanOrder& scan);
 
-// Also what was kept.
+// Parses a client's request, or a text that to_json_text() has written.
 tl::expected<CalibrationOrder, FieldFaults> parse_calibration_order(const nlohmann::json& body);
 std::string to_json_text(const CalibrationOrder& order);
 
-// An order of either kind of scan as it is kept until it is carried out, and what was kept.
+// Writes an order to scan or to rebuild for the job's record. parse_kept_order() reads that text.
 std::string to_json_text(const ScanOrder& order);
 tl::expected<ScanOrder, FieldFaults> parse_kept_order(const nlohmann::json& kept);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

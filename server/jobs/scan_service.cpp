@@ -11,16 +11,17 @@
 
 #include "acquisition/session/reprocess.h"
 #include "codec/export/write_mesh.h"
-#include "server/jobs/build_child.h"
 #include "server/jobs/clock.h"
-#include "server/jobs/patience.h"
-#include "server/jobs/turn.h"
+#include "server/jobs/job_claim.h"
+#include "server/jobs/retry_while_unreachable.h"
+#include "server/jobs/revolution.h"
+#include "server/sandbox/build_child.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-constexpr double kMeshed = 0.85, kBuilt = 0.99;  // progress at the ends of the stages
-constexpr std::size_t kViews = 4;                // of ended scans, kept in memory
+constexpr double kMeshed = 0.85, kBuilt = 0.99;  // progress after meshing, after building
+constexpr std::size_t kViews = 4;                // most views of ended scans in memory
 
 JobRecord new_job(JobKind kind, const std::string& scanner) {
   JobRecord job;
@@ -44,7 +45,7 @@ ScanEntry new_scan(ScanOrder order) {
   scan.created = now_in_milliseconds();
   order.metadata.title = title_of(order, scan.created);
   scan.scanner = order.scanner;
-  scan.is_public = order.publish;
+  scan.is_public = order.is_public;
   scan.title = order.metadata.title;
   scan.parameters = to_json_text(order);
   scan.steps = order.request.steps;
@@ -61,18 +62,14 @@ Expected<ScanOrder> stored_order(const std::string& parameters) {
 
 Expected<void> check_calibrated(ScannerBackend& scanner) {
   const auto all = scanner.calibrations();
-  if (!all) return Unexpected(all.error());
+  if (!all) return tl::unexpected(all.error());
   if (std::ranges::any_of(*all, [](const auto& one) { return one.problem.empty(); })) return {};
   return fail(ErrorCode::kState, fmt::format("scanner {0} has no calibration; POST "
                                              "/api/v1/scanners/{0}/calibrations first",
                                              scanner.name()));
 }
 
-JobClaim claim_of(const JobRecord& job) {
-  return {job.id, job.fence};
-}
-
-// One that an earlier version has left has no parameters.
+// Returns the order of a calibration job. Jobs of earlier versions have no parameters.
 CalibrationOrder calibration_order(const JobRecord& job) {
   const auto json = nlohmann::json::parse(job.parameters, nullptr, /*allow_exceptions=*/false);
   return parse_calibration_order(json.is_object() ? json : nlohmann::json::object())
@@ -81,7 +78,7 @@ CalibrationOrder calibration_order(const JobRecord& job) {
 
 }  // namespace
 
-// Carries what a backend tells into the job, the row and the view.
+// Passes the progress of a backend on to the job, the catalogue's row and the view.
 class ScanService::Listener final : public ScanListener {
  public:
   Listener(ScanService& service, JobRun& run, ScanEntry entry)
@@ -98,22 +95,23 @@ class ScanService::Listener final : public ScanListener {
     service_.live_[entry_.id] = {entry_, view_};
   }
 
-  void told(const ScanTold& told) override {
-    const bool calibration_is_new = entry_.calibration != told.calibration && told.calibration > 0;
-    entry_.step = told.step;
-    if (calibration_is_new) entry_.calibration = told.calibration;
-    if (told.rows) entry_.rows = told.rows;
+  void report(const ScanProgress& progress) override {
+    const bool calibration_is_new =
+        entry_.calibration != progress.calibration && progress.calibration > 0;
+    entry_.step = progress.step;
+    if (calibration_is_new) entry_.calibration = progress.calibration;
+    if (progress.rows) entry_.rows = progress.rows;
     if (view_) entry_.points = view_->points();
     {
       const std::scoped_lock lock(service_.mutex_);
       service_.live_[entry_.id] = {entry_, view_};
     }
-    run_.report(told.stage, kMeshed * told.progress, told.eta, told.note);
+    run_.report(progress.stage, kMeshed * progress.progress, progress.eta, progress.note);
     if (calibration_is_new) keep();
   }
 
-  bool is_interrupted() const override { return run_.wish() != JobWish::kNone; }
-  bool is_cancelled() const override { return run_.wish() == JobWish::kCancel; }
+  bool is_interrupted() const override { return run_.stop_request() != StopRequest::kNone; }
+  bool is_cancelled() const override { return run_.stop_request() == StopRequest::kCancel; }
 
   void keep() { service_.keep(entry_, run_.job()); }
 
@@ -124,19 +122,19 @@ class ScanService::Listener final : public ScanListener {
   std::shared_ptr<const ScanView> view_;
 };
 
-ScanService::ScanService(const ScanMeans& means,
+ScanService::ScanService(const ScanServiceOptions& options,
                          std::vector<std::unique_ptr<ScannerBackend>> scanners)
-    : means_(means),
+    : options_(options),
       backends_(std::move(scanners)),
       queue_(
-          means.jobs, means.events, [this](JobRun& run) { return work(run); }, means.taken) {
+          options.jobs, options.events, [this](JobRun& run) { return work(run); }, options.taken) {
   for (const auto& backend : backends_)
-    stations_.push_back(std::make_unique<ScannerStation>(*backend, queue_, means.patience));
+    stations_.push_back(std::make_unique<ScannerStation>(*backend, queue_, options.idle_timeout));
 }
 
 Expected<void> ScanService::start() {
   std::error_code error;
-  const std::filesystem::path scans = means_.data / "scans";
+  const std::filesystem::path scans = options_.data / "scans";
   std::filesystem::create_directories(scans, error);
   if (error) {
     return fail(ErrorCode::kIo,
@@ -149,34 +147,34 @@ Expected<void> ScanService::start() {
   return queue_.start();
 }
 
-// The catalogue is told of a few steps only: how far scans really were when a daemon died, their
-// folders know.
+// After a crash, reads the scans' actual numbers of steps from their folders, because the catalogue
+// is updated only every few steps.
 Expected<void> ScanService::recall() {
-  const auto left = means_.jobs.unfinished_jobs();
-  if (!left) return Unexpected(left.error());
+  const auto left = options_.jobs.unfinished_jobs();
+  if (!left) return tl::unexpected(left.error());
   for (const JobRecord& job : *left) {
-    if (job.kind == JobKind::kScan && job.scan && means_.taken.has(job)) recall(job);
+    if (job.kind == JobKind::kScan && job.scan && options_.taken.has(job)) recall(job);
   }
   return {};
 }
 
-// What cannot be read is the job's own business.
+// Ignores a scan that cannot be read; the scan's job reports the error when it runs.
 void ScanService::recall(JobRecord job) {
   ScannerStation* station = scanner(job.scanner);
-  auto entry = means_.jobs.find_scan(*job.scan);
+  auto entry = options_.jobs.find_scan(*job.scan);
   if (station == nullptr || !entry || !*entry) return;
-  if (!holds_turn(folder_of(*job.scan), (*entry)->turn).value_or(false)) return;
+  if (!holds_revolution(folder_of(*job.scan), (*entry)->revolution).value_or(false)) return;
   const auto view = station->backend().view(folder_of(*job.scan));
   if (!view || *view == nullptr) return;
-  const ScanTold told = (*view)->told();
-  (*entry)->step = std::max((*entry)->step, told.step);
+  const ScanProgress progress = (*view)->progress();
+  (*entry)->step = std::max((*entry)->step, progress.step);
   (*entry)->points = (*view)->points();
-  if (told.calibration > 0) (*entry)->calibration = told.calibration;
-  if (told.rows) (*entry)->rows = told.rows;
+  if (progress.calibration > 0) (*entry)->calibration = progress.calibration;
+  if (progress.rows) (*entry)->rows = progress.rows;
   keep(**entry, job);
-  job.progress = std::max(job.progress, kMeshed * told.progress);
-  if (auto kept = means_.jobs.update(job); !kept)
-    means_.events.event(Severity::kError, kept.error().message);
+  job.progress = std::max(job.progress, kMeshed * progress.progress);
+  if (auto kept = options_.jobs.update(job); !kept)
+    options_.events.event(Severity::kError, kept.error().message);
 }
 
 void ScanService::stop() {
@@ -201,12 +199,12 @@ std::vector<std::string> ScanService::names() const {
 }
 
 std::optional<std::string> ScanService::address_of(const std::string& name) const {
-  return means_.claims == nullptr ? std::nullopt : means_.claims->address_of(name);
+  return options_.claims == nullptr ? std::nullopt : options_.claims->address_of(name);
 }
 
 std::map<std::string, std::vector<std::string>> ScanService::others() const {
-  if (means_.claims == nullptr) return {};
-  return means_.claims->others();
+  if (options_.claims == nullptr) return {};
+  return options_.claims->others();
 }
 
 ScannerStation* ScanService::scanner(std::string_view name) {
@@ -215,7 +213,7 @@ ScannerStation* ScanService::scanner(std::string_view name) {
   return found == stations_.end() ? nullptr : found->get();
 }
 
-Expected<Frame> ScanService::picture(ScannerStation& scanner) {
+Expected<acquisition::Frame> ScanService::picture(ScannerStation& scanner) {
   const auto job = queue_.job_of(scanner.name());
   const bool scans = job && job->record.scan && job->record.state != JobState::kPaused;
   if (!scans) return scanner.picture();
@@ -230,63 +228,63 @@ Expected<Frame> ScanService::picture(ScannerStation& scanner) {
 }
 
 Expected<JobRecord> ScanService::calibrate(ScannerStation& scanner, const CalibrationOrder& order,
-                                           const std::optional<OnceKey>& once) {
+                                           const std::optional<IdempotencyKey>& key) {
   JobRecord job = new_job(JobKind::kCalibrate, scanner.name());
   job.parameters = to_json_text(order);
   job.webhook = order.webhook;
-  return queue_.add(job, std::nullopt, once, scanner.backend().stops());
+  return queue_.add(job, std::nullopt, key, scanner.backend().stops());
 }
 
 Expected<ScanStarted> ScanService::add(JobRecord job, ScanEntry scan,
-                                       const std::optional<OnceKey>& once) {
+                                       const std::optional<IdempotencyKey>& key) {
   job.scan = scan.id;
   scan.job = job.id;
-  const auto added = queue_.add(job, scan, once, stops_of(job.scanner));
-  if (!added) return Unexpected(added.error());
+  const auto added = queue_.add(job, scan, key, stops_of(job.scanner));
+  if (!added) return tl::unexpected(added.error());
   return ScanStarted{added->scan.value_or(scan.id), added->id};
 }
 
 Expected<ScanStarted> ScanService::scan(const ScanOrder& order,
-                                        const std::optional<OnceKey>& once) {
-  const auto begun = queue_.begun_by(once);
-  if (!begun) return Unexpected(begun.error());
+                                        const std::optional<IdempotencyKey>& key) {
+  const auto begun = queue_.begun_by(key);
+  if (!begun) return tl::unexpected(begun.error());
   if (*begun) return ScanStarted{(*begun)->scan.value_or(ScanId()), (*begun)->id};
   auto calibrated = check_calibrated(scanner(order.scanner)->backend());
-  if (!calibrated) return Unexpected(calibrated.error());
+  if (!calibrated) return tl::unexpected(calibrated.error());
   JobRecord job = new_job(JobKind::kScan, order.scanner);
   job.webhook = order.webhook;
-  return add(std::move(job), new_scan(order), once);
+  return add(std::move(job), new_scan(order), key);
 }
 
 Expected<ScanStarted> ScanService::reprocess(const ScanEntry& scan, const ScanOrder& order,
-                                             const std::optional<OnceKey>& once) {
-  const auto begun = queue_.begun_by(once);
-  if (!begun) return Unexpected(begun.error());
+                                             const std::optional<IdempotencyKey>& key) {
+  const auto begun = queue_.begun_by(key);
+  if (!begun) return tl::unexpected(begun.error());
   if (*begun) return ScanStarted{scan.id, (*begun)->id};
-  if (auto unused = check_unused(scan); !unused) return Unexpected(unused.error());
+  if (auto unused = check_unused(scan); !unused) return tl::unexpected(unused.error());
   if (scan.step == 0)
     return fail(ErrorCode::kState, "the scan has no steps to make a model of; resume it first");
-  if (auto here = check_turn(scan); !here) return Unexpected(here.error());
+  if (auto here = check_revolution(scan); !here) return tl::unexpected(here.error());
   const auto ordered = order_of(scan);
-  if (!ordered) return Unexpected(ordered.error());
+  if (!ordered) return tl::unexpected(ordered.error());
   ScanOrder whole = order;
   if (whole.calibration == 0) whole.calibration = scan.calibration;
-  const ReprocessOptions options{.processing = whole.request.processing,
-                                 .calibration = whole.calibration};
+  const acquisition::ReprocessOptions options{.processing = whole.request.processing,
+                                              .calibration = whole.calibration};
   if (auto kept = check_pictures(ordered->request, scan.calibration, options); !kept)
-    return Unexpected(kept.error());
+    return tl::unexpected(kept.error());
   JobRecord job = new_job(JobKind::kReprocess, scan.scanner);
   job.scan = scan.id;
   job.parameters = to_json_text(whole);
   job.webhook = whole.webhook;
-  const auto added = queue_.add(job, std::nullopt, once);
-  if (!added) return Unexpected(added.error());
+  const auto added = queue_.add(job, std::nullopt, key);
+  if (!added) return tl::unexpected(added.error());
   return ScanStarted{scan.id, added->id};
 }
 
 Expected<void> ScanService::check_unused(const ScanEntry& scan) {
   const auto job = queue_.job_where([&](const JobRecord& one) { return one.scan == scan.id; });
-  if (!job) return Unexpected(job.error());
+  if (!job) return tl::unexpected(job.error());
   if (!*job) return {};
   return fail(ErrorCode::kState,
               fmt::format("job {} works on the scan; wait for its end", (*job)->id.to_string()));
@@ -294,22 +292,22 @@ Expected<void> ScanService::check_unused(const ScanEntry& scan) {
 
 Expected<void> ScanService::pause(const ScanEntry& scan) {
   const auto paused = queue_.pause(scan.job);
-  return paused ? Expected<void>{} : Unexpected(paused.error());
+  return paused ? Expected<void>{} : tl::unexpected(paused.error());
 }
 
 Expected<void> ScanService::resume(const ScanEntry& scan) {
   const auto job = queue_.find(scan.job);
-  if (!job) return Unexpected(job.error());
+  if (!job) return tl::unexpected(job.error());
   if (*job && (*job)->record.state == JobState::kFailed) {
     if (auto unused = check_unused(scan); !unused) return unused;
     JobRecord next = new_job(JobKind::kScan, scan.scanner);
     next.progress = (*job)->record.progress;
     next.webhook = (*job)->record.webhook;
     const auto added = add(next, scan, std::nullopt);
-    return added ? Expected<void>{} : Unexpected(added.error());
+    return added ? Expected<void>{} : tl::unexpected(added.error());
   }
   const auto resumed = queue_.resume(scan.job, stops_of(scan.scanner));
-  return resumed ? Expected<void>{} : Unexpected(resumed.error());
+  return resumed ? Expected<void>{} : tl::unexpected(resumed.error());
 }
 
 Expected<JobStatus> ScanService::resume(const JobRecord& job) {
@@ -322,26 +320,26 @@ Expected<ScanInfo> ScanService::with_job(ScanEntry entry) {
     if (const auto live = live_.find(entry.id); live != live_.end()) entry = live->second.entry;
   }
   const auto job = queue_.find(entry.job);
-  if (!job) return Unexpected(job.error());
+  if (!job) return tl::unexpected(job.error());
   return ScanInfo{std::move(entry), job->value_or(JobStatus{})};
 }
 
 Expected<std::optional<ScanInfo>> ScanService::find(const ScanId& id) {
-  const auto entry = means_.jobs.find_scan(id);
-  if (!entry) return Unexpected(entry.error());
+  const auto entry = options_.jobs.find_scan(id);
+  if (!entry) return tl::unexpected(entry.error());
   if (!*entry) return std::nullopt;
   const auto status = with_job(**entry);
-  if (!status) return Unexpected(status.error());
+  if (!status) return tl::unexpected(status.error());
   return *status;
 }
 
-Expected<std::vector<ScanInfo>> ScanService::list(const PageOf& page) {
-  const auto entries = means_.jobs.scans(page);
-  if (!entries) return Unexpected(entries.error());
+Expected<std::vector<ScanInfo>> ScanService::list(const PageOf<ScanId>& page) {
+  const auto entries = options_.jobs.scans(page);
+  if (!entries) return tl::unexpected(entries.error());
   std::vector<ScanInfo> scans;
   for (const ScanEntry& entry : *entries) {
     auto status = with_job(entry);
-    if (!status) return Unexpected(status.error());
+    if (!status) return tl::unexpected(status.error());
     scans.push_back(std::move(*status));
   }
   return scans;
@@ -359,7 +357,7 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   }
   ScannerStation* station = scanner(scan.scanner);
   if (station == nullptr || scan.step == 0) return nullptr;
-  if (auto here = check_turn(scan); !here) return Unexpected(here.error());
+  if (auto here = check_revolution(scan); !here) return tl::unexpected(here.error());
   auto view = station->backend().view(folder_of(scan.id));
   if (!view) return view;
   const std::scoped_lock lock(mutex_);
@@ -368,40 +366,43 @@ Expected<std::shared_ptr<const ScanView>> ScanService::view(const ScanEntry& sca
   return view;
 }
 
-Expected<void> ScanService::check_turn(const ScanEntry& scan) const {
-  const auto is_here = holds_turn(folder_of(scan.id), scan.turn);
-  if (!is_here) return Unexpected(is_here.error());
+Expected<void> ScanService::check_revolution(const ScanEntry& scan) const {
+  const auto is_here = holds_revolution(folder_of(scan.id), scan.revolution);
+  if (!is_here) return tl::unexpected(is_here.error());
   if (*is_here) return {};
-  return fail(ErrorCode::kState,
-              fmt::format("the folder scans/{} of the data is gone, or another daemon has measured "
-                          "the scan into its own; have that one drive the scanner, restore the "
-                          "folder from a backup, or scan again",
-                          scan.id.to_string()));
+  return fail(
+      ErrorCode::kState,
+      fmt::format("the folder scans/{} is missing from the data folder, or another daemon measured "
+                  "the scan into its own; let that daemon drive the scanner, restore the "
+                  "folder from a backup, or scan again",
+                  scan.id.to_string()));
 }
 
-// Has what is measured from now on be the scan's. What is not here another daemon has measured,
-// and has turned the table since.
-Expected<void> ScanService::settle_turn(JobRun& run, ScanEntry& scan) {
+// Ensures that this daemon's folder holds the scan's revolution. If another daemon measured the
+// steps, they are not in the folder and the table has moved since, so the scan restarts.
+Expected<void> ScanService::settle_revolution(JobRun& run, ScanEntry& scan) {
   const std::filesystem::path folder = folder_of(scan.id);
-  const auto is_here = holds_turn(folder, scan.turn);
-  if (!is_here) return Unexpected(is_here.error());  // what was measured is not to be lost
+  const auto is_here = holds_revolution(folder, scan.revolution);
+  // If the folder cannot be read, does not restart the scan, because the folder may contain steps.
+  if (!is_here) return tl::unexpected(is_here.error());
   if (*is_here) return {};
   if (scan.step > 0) {
-    means_.events.event(Severity::kWarning,
-                        fmt::format("scan {} begins anew: another daemon has measured its {} steps",
-                                    scan.id.to_string(), scan.step));
+    options_.events.event(Severity::kWarning,
+                          fmt::format("scan {} restarts: another daemon measured its {} steps",
+                                      scan.id.to_string(), scan.step));
   }
-  scan.turn = ModelId::generate().to_string();
+  scan.revolution = to_string(generate_ulid());
   scan.step = 0;
   scan.points = 0;
   scan.rows.reset();
-  run.begin_anew();
-  const auto kept = patiently(run, [&] { return means_.jobs.update(scan, claim_of(run.job())); });
-  return kept ? begin_turn(folder, scan.turn) : kept;
+  run.restart();
+  const auto kept =
+      retry_while_unreachable(run, [&] { return options_.jobs.update(scan, claim_of(run.job())); });
+  return kept ? begin_revolution(folder, scan.revolution) : kept;
 }
 
 std::filesystem::path ScanService::folder_of(const ScanId& id) const {
-  return means_.data / "scans" / id.to_string();
+  return options_.data / "scans" / id.to_string();
 }
 
 std::uint64_t ScanService::stops_of(const std::string& name) {
@@ -410,13 +411,13 @@ std::uint64_t ScanService::stops_of(const std::string& name) {
 }
 
 void ScanService::keep(const ScanEntry& entry, const JobRecord& by) {
-  const auto kept = means_.jobs.update(entry, claim_of(by));
-  if (!kept) means_.events.event(Severity::kError, kept.error().message);
+  const auto kept = options_.jobs.update(entry, claim_of(by));
+  if (!kept) options_.events.event(Severity::kError, kept.error().message);
 }
 
 Expected<JobEnd> ScanService::work(JobRun& run) {
   const JobRecord job = run.job();
-  if (job.kind == JobKind::kPublish) return means_.publishing(run);
+  if (job.kind == JobKind::kPublish) return options_.publishing(run);
   ScannerStation* station = scanner(job.scanner);
   if (station == nullptr) {
     return fail(ErrorCode::kState,
@@ -426,24 +427,25 @@ Expected<JobEnd> ScanService::work(JobRun& run) {
   if (job.kind == JobKind::kReprocess) return reprocess(run, *station);
   station->backend().allow(run.stops_known());
   auto end = job.kind == JobKind::kScan ? work_on_scan(run, *station) : calibrate(run, *station);
-  if (!queue_.is_stopping()) station->look();  // what is known of it may have changed
+  if (!queue_.is_stopping()) station->look();  // devices may have been connected or unplugged
   return end;
 }
 
 Expected<ScanEntry> ScanService::scan_of(const JobRun& run) {
-  auto scan =
-      patiently(run, [&] { return means_.jobs.find_scan(run.job().scan.value_or(ScanId())); });
-  if (!scan) return Unexpected(scan.error());
+  auto scan = retry_while_unreachable(
+      run, [&] { return options_.jobs.find_scan(run.job().scan.value_or(ScanId())); });
+  if (!scan) return tl::unexpected(scan.error());
   if (!*scan) return fail(ErrorCode::kState, "the scan is not in the catalogue; scan again");
   return **scan;
 }
 
 Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station) {
   auto scan = scan_of(run);
-  if (!scan) return Unexpected(scan.error());
+  if (!scan) return tl::unexpected(scan.error());
   const auto order = stored_order(scan->parameters);
-  if (!order) return Unexpected(order.error());
-  if (auto settled = settle_turn(run, *scan); !settled) return Unexpected(settled.error());
+  if (!order) return tl::unexpected(order.error());
+  if (auto settled = settle_revolution(run, *scan); !settled)
+    return tl::unexpected(settled.error());
   Expected<std::optional<TriangleMesh>> mesh;
   {
     Listener listener(*this, run, *scan);
@@ -451,20 +453,21 @@ Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station)
     mesh = station.backend().scan(*order, folder_of(scan->id), listener);
     listener.keep();
   }
-  if (!mesh) return Unexpected(mesh.error());
+  if (!mesh) return tl::unexpected(mesh.error());
   return *mesh ? make_model(run, *order, **mesh) : JobEnd::kPutAside;
 }
 
 Expected<JobEnd> ScanService::reprocess(JobRun& run, ScannerStation& station) {
   const auto order = stored_order(run.job().parameters);
-  if (!order) return Unexpected(order.error());
-  // Another daemon may have ordered it, or measured the scan anew since.
+  if (!order) return tl::unexpected(order.error());
+  // The request may have come to another daemon, or another daemon may have measured the scan
+  // again.
   const auto scan = scan_of(run);
-  if (!scan) return Unexpected(scan.error());
-  if (auto here = check_turn(*scan); !here) return Unexpected(here.error());
+  if (!scan) return tl::unexpected(scan.error());
+  if (auto here = check_revolution(*scan); !here) return tl::unexpected(here.error());
   run.report("meshing", 0);
-  const auto mesh = station.backend().mesh_anew(*order, folder_of(scan->id));
-  if (!mesh) return Unexpected(mesh.error());
+  const auto mesh = station.backend().rebuild_mesh(*order, folder_of(scan->id));
+  if (!mesh) return tl::unexpected(mesh.error());
   return make_model(run, *order, *mesh);
 }
 
@@ -472,69 +475,71 @@ Expected<JobEnd> ScanService::calibrate(JobRun& run, ScannerStation& station) {
   class Progress final : public CalibrationListener {
    public:
     explicit Progress(JobRun& r) : run_(r) {}
-    void told(const CalibrationTold& told) override {
-      run_.report(told.stage, told.progress, std::nullopt, told.note);
+    void report(const CalibrationProgress& progress) override {
+      run_.report(progress.stage, progress.progress, std::nullopt, progress.note);
     }
-    bool await_operator(const CalibrationTold& told) override {
-      return run_.await_resume(told.stage, told.progress, told.note);
+    bool await_operator(const CalibrationProgress& progress) override {
+      return run_.await_resume(progress.stage, progress.progress, progress.note);
     }
-    bool is_interrupted() const override { return run_.wish() != JobWish::kNone; }
+    bool is_interrupted() const override { return run_.stop_request() != StopRequest::kNone; }
 
    private:
     JobRun& run_;
   };
   Progress progress(run);
-  progress.told({});
+  progress.report({});
   const auto number = station.backend().calibrate(calibration_order(run.job()), progress);
-  return number ? Expected<JobEnd>(JobEnd::kDone) : Unexpected(number.error());
+  return number ? Expected<JobEnd>(JobEnd::kDone) : tl::unexpected(number.error());
 }
 
-// The model has the job's id, so that a job which is interrupted after this makes no second one.
 Expected<JobEnd> ScanService::make_model(JobRun& run, const ScanOrder& order,
                                          const TriangleMesh& mesh) {
   run.report("building", kMeshed);
   const auto file = write_mesh(mesh, MeshFormat::kPly, "mm");
-  if (!file) return Unexpected(file.error());
+  if (!file) return tl::unexpected(file.error());
   BuildChild child;
   const Reaction stop(run, [&child] { child.stop(); });
   const BuildOrder build{.bits = order.bits,
                          .placement = order.placement,
                          .z_is_up = true,
-                         .folder = means_.data,
-                         .program = means_.program};
+                         .folder = options_.data,
+                         .program = options_.program};
   const auto pmesh = child.build(*file, build, [&](std::string_view, double done) {
     run.report("building", std::lerp(kMeshed, kBuilt, done));
   });
-  if (!pmesh) return Unexpected(pmesh.error());
-  const auto state = order.publish ? ModelState::kPublished : ModelState::kDraft;
-  const auto model = patiently(run, [&] {
-    return publish(
-        means_.store, means_.catalogue, *pmesh, order.metadata,
-        {.state = state, .id = run.job().id, .quota = means_.quota, .by = claim_of(run.job())});
+  if (!pmesh) return tl::unexpected(pmesh.error());
+  const auto state = order.is_public ? ModelState::kPublished : ModelState::kDraft;
+  const auto model = retry_while_unreachable(run, [&] {
+    return publish(options_.store, options_.catalogue, *pmesh, order.metadata,
+                   {.state = state,
+                    .id = model_id_of(run.job()),
+                    .quota = options_.quota,
+                    .by = claim_of(run.job())});
   });
-  if (!model) return Unexpected(model.error());
+  if (!model) return tl::unexpected(model.error());
   run.made(model->id);
-  const auto shown = patiently(run, [&] { return show(run, order, model->id); });
-  return shown ? Expected<JobEnd>(JobEnd::kDone) : Unexpected(shown.error());
+  const auto shown = retry_while_unreachable(run, [&] { return show(run, order, model->id); });
+  return shown ? Expected<JobEnd>(JobEnd::kDone) : tl::unexpected(shown.error());
 }
 
-// Has the scan tell of its model.
+// Makes `model` the scan's model.
 Expected<void> ScanService::show(const JobRun& run, const ScanOrder& order, const ModelId& model) {
-  auto entry = means_.jobs.find_scan(run.job().scan.value_or(ScanId()));
-  if (!entry) return Unexpected(entry.error());
+  auto entry = options_.jobs.find_scan(run.job().scan.value_or(ScanId()));
+  if (!entry) return tl::unexpected(entry.error());
   if (!*entry) return {};
   auto& shown = (*entry)->model;
-  if (order.publish && shown && *shown != model) {  // one of a scan is enough for visitors
-    auto hidden = means_.catalogue.set_state(*shown, ModelState::kDraft);
+  // Hides the scan's previous model, because visitors see only one model of a scan.
+  if (order.is_public && shown && *shown != model) {
+    auto hidden = options_.catalogue.set_state(*shown, ModelState::kDraft);
     if (!hidden) return hidden;
   }
-  if (!order.publish && shown) {  // a trial does not take the place of what visitors see
-    const auto before = means_.catalogue.find(*shown);
-    if (!before) return Unexpected(before.error());
+  if (!order.is_public && shown) {  // a draft does not replace the model that visitors see
+    const auto before = options_.catalogue.find(*shown);
+    if (!before) return tl::unexpected(before.error());
     if (*before && (*before)->state == ModelState::kPublished) return {};
   }
   shown = model;
-  return means_.jobs.update(**entry, claim_of(run.job()));
+  return options_.jobs.update(**entry, claim_of(run.job()));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scanners, their scans and calibrations, for the handlers of the API: orders become jobs, and a
-// scan becomes a model. A scan is a folder DATA/scans/ID, a row in the catalogue, and a view in
-// memory while it grows.
+// The scanners with their scans and calibrations, as the handlers of the API use them. Turns orders
+// into jobs, and scans into models. A scan consists of a folder DATA/scans/ID, a row in the
+// catalogue, and a view in memory while it runs.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +16,11 @@
 #include "server/store/object_store.h"
 #include "server/store/quota.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct ScanInfo {
   ScanEntry entry;
-  JobStatus job;  // the newest that scans or scanned it
+  JobStatus job;  // the newest job that measures the scan
 };
 
 struct ScanStarted {
@@ -28,63 +28,65 @@ struct ScanStarted {
   JobId job;
 };
 
-// All of it outlives the service.
-struct ScanMeans {
+// All references and pointers must outlive the service.
+struct ScanServiceOptions {
   ObjectStore& store;
   Catalogue& catalogue;
   JobCatalogue& jobs;
   const Log& events;
-  std::filesystem::path data;                        // of the installation
+  std::filesystem::path data;                        // data folder of the installation
   std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
-  std::chrono::milliseconds patience{10'000};        // that devices stay open for the next command
-  JobTask publishing = {};                           // what becomes of jobs of that kind
-  Quota* quota = nullptr;                            // of which models take; null: there is none
-  TakenJobs taken = {};                              // which jobs are done here
-  const ScannerClaims* claims = nullptr;  // null: every scanner is here, and this daemon's
+  std::chrono::milliseconds idle_timeout{10'000};    // devices unused for this long are closed
+  JobTask publishing = {};                           // runs the jobs that publish models
+  Quota* quota = nullptr;                            // limits the bytes of models; null: no limit
+  TakenJobs taken = {};                              // the jobs that this daemon runs
+  const ScannerClaims* claims = nullptr;             // null: this daemon drives every scanner
 };
 
-// Thread-safe. Errors: kState where something is not possible now, kBadInput where an idempotency
-// key was used otherwise, kIo.
+// Thread-safe. Errors: kState if the call is not possible now, kBadInput if an idempotency key was
+// used for another request, kIo.
 class ScanService {
  public:
-  ScanService(const ScanMeans& means, std::vector<std::unique_ptr<ScannerBackend>> scanners);
+  ScanService(const ScanServiceOptions& options,
+              std::vector<std::unique_ptr<ScannerBackend>> scanners);
   ~ScanService() { stop(); }
 
-  // Takes up what an earlier daemon left, and looks for the scanners.
+  // Continues the jobs that an earlier run of the daemon left, and looks for the scanners.
   Expected<void> start();
-  // Puts aside what runs: it goes on at the next start. Laser and motor are off on return.
+  // Stops running jobs, which continue at the next start. Laser and motor are off on return.
   void stop();
 
   JobQueue& jobs() { return queue_; }
 
   std::vector<ScannerStatus> scanners();
-  ScannerStation* scanner(std::string_view name);  // null where there is none of that name
-  std::vector<std::string> names() const;          // of those that are configured here
-  // As those of ScannerClaims.
+  ScannerStation* scanner(std::string_view name);  // null if there is no scanner of that name
+  std::vector<std::string> names() const;          // scanners configured in this daemon
+  // These return the results of the functions of the same names in ScannerClaims.
   std::optional<std::string> address_of(const std::string& name) const;
   std::map<std::string, std::vector<std::string>> others() const;
-  // A fresh picture, the latest of the scan while one is under way.
-  Expected<Frame> picture(ScannerStation& scanner);
+  // Returns a new picture, or, while a scan runs, the latest picture of the scan.
+  Expected<acquisition::Frame> picture(ScannerStation& scanner);
   Expected<JobRecord> calibrate(ScannerStation& scanner, const CalibrationOrder& order,
-                                const std::optional<OnceKey>& once);
+                                const std::optional<IdempotencyKey>& key);
 
-  // `order.scanner` is that of a station.
-  Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<OnceKey>& once);
-  // Another model of a scan that nobody works on, that has steps, and whose pictures were kept
-  // where the order needs them; its own state stays.
+  // Starts a scan. `order.scanner` must be the name of a configured scanner.
+  Expected<ScanStarted> scan(const ScanOrder& order, const std::optional<IdempotencyKey>& key);
+  // Starts a job that makes another model from a scan. The scan must have steps, and no job may use
+  // it. If the order needs the scan's pictures, they must have been kept. Does not change the
+  // scan's state.
   Expected<ScanStarted> reprocess(const ScanEntry& scan, const ScanOrder& order,
-                                  const std::optional<OnceKey>& once);
+                                  const std::optional<IdempotencyKey>& key);
   Expected<void> pause(const ScanEntry& scan);
-  // Goes on with one that is paused, or, as a new job, that failed.
+  // Continues a paused scan. Continues a failed scan with a new job.
   Expected<void> resume(const ScanEntry& scan);
-  // One of any kind that is paused, or that waits for somebody.
+  // Continues a job of any kind that is paused or waits for the operator.
   Expected<JobStatus> resume(const JobRecord& job);
 
   Expected<std::optional<ScanInfo>> find(const ScanId& id);
-  Expected<std::vector<ScanInfo>> list(const PageOf& page);
+  Expected<std::vector<ScanInfo>> list(const PageOf<ScanId>& page);
   static Expected<ScanOrder> order_of(const ScanEntry& scan);
 
-  // Null where nothing is to be seen yet; kState where the scan's folder is gone.
+  // Returns the view of a scan. Null if the scan has no data yet, kState if its folder is missing.
   Expected<std::shared_ptr<const ScanView>> view(const ScanEntry& scan);
 
  private:
@@ -97,31 +99,32 @@ class ScanService {
   Expected<JobEnd> work(JobRun& run);
   Expected<ScanEntry> scan_of(const JobRun& run);
   Expected<JobEnd> work_on_scan(JobRun& run, ScannerStation& station);
-  Expected<void> settle_turn(JobRun& run, ScanEntry& scan);
-  Expected<void> check_turn(const ScanEntry& scan) const;
+  Expected<void> settle_revolution(JobRun& run, ScanEntry& scan);
+  Expected<void> check_revolution(const ScanEntry& scan) const;
   Expected<JobEnd> reprocess(JobRun& run, ScannerStation& station);
   Expected<JobEnd> calibrate(JobRun& run, ScannerStation& station);
   Expected<JobEnd> make_model(JobRun& run, const ScanOrder& order, const TriangleMesh& mesh);
   Expected<void> show(const JobRun& run, const ScanOrder& order, const ModelId& model);
   std::filesystem::path folder_of(const ScanId& id) const;
-  std::uint64_t stops_of(const std::string& name);  // of that scanner so far
+  std::uint64_t stops_of(const std::string& name);  // emergency stops of the scanner
   Expected<ScanInfo> with_job(ScanEntry entry);
   void keep(const ScanEntry& entry, const JobRecord& by);
   Expected<void> recall();
   void recall(JobRecord job);
-  Expected<ScanStarted> add(JobRecord job, ScanEntry scan, const std::optional<OnceKey>& once);
+  Expected<ScanStarted> add(JobRecord job, ScanEntry scan,
+                            const std::optional<IdempotencyKey>& key);
   Expected<void> check_unused(const ScanEntry& scan);
 
-  const ScanMeans means_;
-  std::mutex stopping_;  // one stop() at a time
+  const ScanServiceOptions options_;
+  std::mutex stopping_;  // lets one stop() run at a time
   std::vector<std::unique_ptr<ScannerBackend>> backends_;
 
-  std::mutex mutex_;                                         // guards what follows
-  std::map<ScanId, Live> live_;                              // those that grow
-  std::map<ScanId, std::shared_ptr<const ScanView>> views_;  // of a few that have ended
+  std::mutex mutex_;                                         // guards the members below
+  std::map<ScanId, Live> live_;                              // running scans
+  std::map<ScanId, std::shared_ptr<const ScanView>> views_;  // views of a few ended scans
 
   JobQueue queue_;
   std::vector<std::unique_ptr<ScannerStation>> stations_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

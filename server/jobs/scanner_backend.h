@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One scanner as jobs use it: devices, scans and calibrations.
+// The interface of a scanner to the jobs: its devices, scans and calibrations.
 #pragma once
 
 #include <array>
@@ -16,114 +16,120 @@
 #include "server/catalogue/jobs.h"
 #include "server/jobs/scan_order.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct ScannerIdentity {
-  CameraIdentity camera;
-  BoardIdentity board;
-  std::optional<int> calibration;  // the newest that fits the camera; nothing: there is none
+  acquisition::CameraIdentity camera;
+  acquisition::BoardIdentity board;
+  std::optional<int> calibration;  // newest one that fits the camera; nullopt: none
 };
 
-struct ScanTold {
-  const char* stage = "scanning";  // or "meshing"
-  int step = 0;                    // done so far
-  double progress = 0;             // 0..1 of the stages above
-  std::optional<double> eta;       // seconds
-  int calibration = 0;             // its number; 0: not known yet
+struct ScanProgress {
+  const char* stage = "scanning";  // "scanning" or "meshing"
+  int step = 0;                    // steps done
+  double progress = 0;             // progress of both stages together, 0..1
+  std::optional<double> eta;       // remaining seconds
+  int calibration = 0;             // number of the calibration; 0: not known yet
   std::optional<ScannedRows> rows;
-  std::string note;  // what it waits for: a camera that is gone; mostly empty
+  std::string note;  // why the scan waits, for example for a camera; usually empty
 };
 
-// What is to be seen of a scan while it grows and afterwards. Thread-safe; nobody waits for long.
+// A view of a scan while it runs and after it has ended. Thread-safe; calls return quickly.
 class ScanView {
  public:
   virtual ~ScanView() = default;
 
-  virtual std::shared_ptr<const Frame> frame() const = 0;  // the latest, laser on; may be null
-  virtual std::vector<std::array<double, 2>> profile() const = 0;  // the latest: rho, z in mm
-  virtual ScanTold told() const = 0;                               // how far it is
+  // Returns the latest picture with the laser on, or null if there is none yet.
+  virtual std::shared_ptr<const acquisition::Frame> frame() const = 0;
+  // Returns the points of the latest profile as rho and z, in mm.
+  virtual std::vector<std::array<double, 2>> profile() const = 0;
+  virtual ScanProgress progress() const = 0;
   virtual std::size_t points() const = 0;
-  // mm, z upwards, in the order in which they came, from number `first` on. Grows only.
+  // Returns the points from number `first` on, in mm, z upwards, in the order of measurement.
+  // Existing points never change.
   virtual std::vector<std::array<float, 3>> points_from(std::size_t first) const = 0;
 };
 
-// Who is told about a scan, from the thread that does it, and may put it aside.
+// Receives the progress of a scan, and can interrupt it. The thread that scans calls the functions.
 class ScanListener {
  public:
   virtual ~ScanListener() = default;
 
   virtual void begins(std::shared_ptr<const ScanView> view) = 0;
-  virtual void told(const ScanTold& told) = 0;
+  virtual void report(const ScanProgress& progress) = 0;
   virtual bool is_interrupted() const = 0;
-  virtual bool is_cancelled() const = 0;  // is_interrupted(), and not to be gone on with
+  virtual bool is_cancelled() const = 0;  // whether the interrupted scan will not be continued
 };
 
-struct CalibrationTold {
-  std::string stage = "calibrating";  // or what somebody is asked to do
+struct CalibrationProgress {
+  std::string stage = "calibrating";  // "calibrating" or an instruction to the operator
   double progress = 0;                // 0..1
-  std::string note;                   // what has come of it so far
+  std::string note;                   // interim result
 };
 
-// Who is told about a calibration, from the thread that does it, and may end it.
+// Receives the progress of a calibration, and can interrupt it. The thread that calibrates calls
+// the functions.
 class CalibrationListener {
  public:
   virtual ~CalibrationListener() = default;
 
-  virtual void told(const CalibrationTold& told) = 0;
-  // Until somebody has done what the stage says; false where it is interrupted.
-  virtual bool await_operator(const CalibrationTold& told) = 0;
+  virtual void report(const CalibrationProgress& progress) = 0;
+  // Waits until the operator has followed the instruction in `stage`. Returns false if interrupted.
+  virtual bool await_operator(const CalibrationProgress& progress) = 0;
   virtual bool is_interrupted() const = 0;
 };
 
 struct CalibrationSummary {
   int number = 0;
-  std::string problem;  // why it cannot be used, and there is nothing below; mostly empty
+  std::string problem;  // why the calibration is unusable; empty if it is usable
   std::string created, camera;
-  SensorRegion region;
-  double rms = 0, p95 = 0, max = 0;  // mm, over held-out poses
-  double coverage = 0;               // share of the picture
+  acquisition::SensorRegion region;
+  double rms = 0, p95 = 0, max = 0;  // residuals in mm, measured on held-out poses
+  double coverage = 0;               // share of the picture that the target covered, 0..1
 };
 
-// Everything up to `close` is called by one thread, the rest by any.
+// A scanner. Only one thread may call the functions up to `close`; any thread may call the others.
 class ScannerBackend {
  public:
   virtual ~ScannerBackend() = default;
 
-  // These open the devices where they are closed. An error closes them.
+  // The functions up to `close` open the devices if they are closed, and close them on an error.
   virtual Expected<ScannerIdentity> identify() = 0;
-  virtual Expected<void> jog(double degrees) = 0;  // from where the table stands
+  virtual Expected<void> jog(double degrees) = 0;  // turns the table by an angle
   virtual Expected<void> laser(bool on) = 0;
-  // By the camera alone: also after an emergency stop.
-  virtual Expected<Frame> picture() = 0;
+  // Takes a picture. Uses only the camera, so it also works after an emergency stop.
+  virtual Expected<acquisition::Frame> picture() = 0;
 
-  // Scans what `folder` does not hold yet, and meshes all of it; nothing where it was interrupted:
-  // a later call goes on. Laser and motor are off on return.
+  // Measures the steps that `folder` does not contain yet, and meshes all steps. Returns nullopt if
+  // interrupted; a later call continues. Laser and motor are off on return.
   virtual Expected<std::optional<TriangleMesh>> scan(const ScanOrder& order,
                                                      const std::filesystem::path& folder,
                                                      ScanListener& listener) = 0;
-  // The new calibration's number. Whoever is there places the target; the simulated rig does that
-  // itself, in poses of its own.
+  // Calibrates the scanner and returns the number of the new calibration. The operator places the
+  // target; the simulated rig places it by itself.
   virtual Expected<int> calibrate(const CalibrationOrder& order, CalibrationListener& listener) = 0;
 
   virtual void close() = 0;
 
   virtual const std::string& name() const = 0;
 
-  // Laser and motor off at once, and the board is not used before allow().
+  // Turns laser and motor off at once. The board stays unused until allow() is called.
   virtual void emergency_stop() noexcept = 0;
-  virtual std::uint64_t stops() const noexcept = 0;  // how many so far
-  // Takes back the first `stops`: a later one holds.
+  virtual std::uint64_t stops() const noexcept = 0;  // number of emergency stops so far
+  // Allows commands again if there were no more than `stops` emergency stops; a later stop stays in
+  // force.
   virtual void allow(std::uint64_t stops) noexcept = 0;
 
-  // Of a scan that nobody works on.
-  virtual Expected<TriangleMesh> mesh_anew(const ScanOrder& order,
-                                           const std::filesystem::path& folder) = 0;
+  // Rebuilds the mesh of a stored scan that no job uses.
+  virtual Expected<TriangleMesh> rebuild_mesh(const ScanOrder& order,
+                                              const std::filesystem::path& folder) = 0;
   virtual Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) = 0;
 
-  virtual Expected<std::vector<CalibrationSummary>> calibrations() = 0;  // newest first
-  // JSON and SVG; nothing where there is no such number.
+  // Returns the newest calibration first.
+  virtual Expected<std::vector<CalibrationSummary>> calibrations() = 0;
+  // Return the report as JSON and the plot as SVG, or nullopt if no calibration has this number.
   virtual Expected<std::optional<std::string>> calibration_report(int number) = 0;
   virtual Expected<std::optional<std::string>> residual_plot(int number) = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -7,11 +7,11 @@
 #include <ctime>
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kScannerBeat{2};
-constexpr std::chrono::seconds kMargin{1};  // by which this machine's clock may be slower
+constexpr std::chrono::seconds kMargin{1};  // margin by which a lease ends early here
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void ScannerClaims::start(std::vector<std::string> names) {
     names_ = std::move(names);
   }
   beat();
-  heart_.emplace(kScannerBeat, events_, [this] { beat(); });
+  lease_renewal_.emplace(kScannerBeat, events_, [this] { beat(); });
 }
 
 void ScannerClaims::beat() {
@@ -43,7 +43,7 @@ void ScannerClaims::beat() {
     names = names_;
   }
   for (const std::string& name : names) {
-    std::optional<Held> held;
+    std::optional<HeldScanner> held;
     {
       const std::scoped_lock lock(mutex_);
       if (const auto found = held_.find(name); found != held_.end()) held = found->second;
@@ -57,7 +57,8 @@ void ScannerClaims::beat() {
   look_at_others();
 }
 
-// Who drives it and could not reach the catalogue either has the time of a lease to come back.
+// Whether this daemon may try to acquire the scanner. If the catalogue was unreachable, the daemon
+// that drives the scanner gets the time of one lease to renew its lease.
 bool ScannerClaims::may_take(const std::string& scanner) const {
   const std::scoped_lock lock(mutex_);
   const auto driver = std::ranges::find(drivers_, scanner, &ScannerDriver::scanner);
@@ -65,7 +66,8 @@ bool ScannerClaims::may_take(const std::string& scanner) const {
   return !is_anothers || now() >= believes_from_;
 }
 
-// The lease is counted from before the catalogue was asked.
+// Acquires the scanner. The lease counts from before the request to the catalogue, so that it ends
+// early rather than late.
 void ScannerClaims::take(const std::string& scanner) {
   const Clock until = now() + lease_.time - kMargin;
   const auto epoch = catalogue_.take_scanner(scanner, lease_, address_);
@@ -75,7 +77,7 @@ void ScannerClaims::take(const std::string& scanner) {
   held_[scanner] = {**epoch, until};
 }
 
-void ScannerClaims::renew(const std::string& scanner, const Held& held) {
+void ScannerClaims::renew(const std::string& scanner, const HeldScanner& held) {
   const Clock until = now() + lease_.time - kMargin;
   const auto renewed = catalogue_.renew_scanner(scanner, held.epoch, lease_.time);
   if (!renewed) events_.event(Severity::kWarning, renewed.error().message);
@@ -98,11 +100,11 @@ Expected<void> ScannerClaims::check(const std::string& scanner) const {
   const std::scoped_lock lock(mutex_);
   const auto held = held_.find(scanner);
   if (held != held_.end() && now() < held->second.until) return {};
-  return fail(
-      ErrorCode::kIo,
-      held == held_.end()
-          ? fmt::format("another daemon drives scanner {}; stop one of them", scanner)
-          : fmt::format("the catalogue is away, so that scanner {} rests; check it", scanner));
+  return fail(ErrorCode::kIo,
+              held == held_.end()
+                  ? fmt::format("another daemon drives scanner {}; stop one of them", scanner)
+                  : fmt::format("the catalogue is unreachable, so scanner {} is paused; check it",
+                                scanner));
 }
 
 bool ScannerClaims::has_jobs_of(const std::string& scanner) const {
@@ -116,7 +118,7 @@ bool ScannerClaims::has_jobs_of(const std::string& scanner) const {
 std::optional<std::string> ScannerClaims::address_of(const std::string& scanner) const {
   const std::scoped_lock lock(mutex_);
   const auto driver = std::ranges::find(drivers_, scanner, &ScannerDriver::scanner);
-  if (driver == drivers_.end() || held_.contains(scanner) || !is_elsewhere(*driver))
+  if (driver == drivers_.end() || held_.contains(scanner) || !is_another_daemon(*driver))
     return std::nullopt;
   return driver->is_current ? driver->address : "";
 }
@@ -125,13 +127,14 @@ std::map<std::string, std::vector<std::string>> ScannerClaims::others() const {
   const std::scoped_lock lock(mutex_);
   std::map<std::string, std::vector<std::string>> all;
   for (const ScannerDriver& driver : drivers_) {
-    if (is_elsewhere(driver) && driver.is_current) all[driver.address].push_back(driver.scanner);
+    if (is_another_daemon(driver) && driver.is_current)
+      all[driver.address].push_back(driver.scanner);
   }
   return all;
 }
 
-bool ScannerClaims::is_elsewhere(const ScannerDriver& driver) const {
+bool ScannerClaims::is_another_daemon(const ScannerDriver& driver) const {
   return driver.holder != lease_.holder && !driver.address.empty();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which scanners are this daemon's: of all daemons that are configured for one, one at a time
-// drives it, in an epoch that ends where its lease is not renewed. Who was stopped beyond that, or
-// cannot reach the catalogue, commands no device.
+// The scanners that this daemon drives. Several daemons may be configured for a scanner, but only
+// one at a time drives it. That daemon holds a lease on the scanner; each acquisition begins a new
+// epoch. A daemon that was suspended for longer than its lease, or that cannot reach the catalogue,
+// sends no command to a device.
 #pragma once
 
 #include <chrono>
@@ -12,61 +13,63 @@
 #include <vector>
 
 #include "server/catalogue/jobs.h"
-#include "server/jobs/heart.h"
+#include "server/jobs/periodic_task.h"
 #include "server/log/log.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 // Thread-safe.
 class ScannerClaims {
  public:
-  // `address`: ScannerDriver::address. The catalogue outlives it.
+  // `address`: ScannerDriver::address. The catalogue must outlive this object.
   ScannerClaims(JobCatalogue& catalogue, Log events, Lease lease, std::string address);
-  // Takes those of `names`, which are configured here, that are free. From then on there is a
-  // beat() every two seconds.
+  // Acquires the scanners in `names` that no other daemon drives. `names` are all scanners
+  // configured in this daemon. Then runs beat() every two seconds.
   void start(std::vector<std::string> names);
-  // Renews what is held, and takes what has become free.
+  // Renews the leases on the held scanners and acquires scanners that have become free.
   void beat();
-  // Nothing is renewed or taken any more.
-  void stop() { heart_.reset(); }
+  // Stops renewing and acquiring.
+  void stop() { lease_renewal_.reset(); }
 
-  // Whether the scanner may be commanded now: kIo where not, with who may or why.
+  // Succeeds if this daemon may command the scanner now. Otherwise returns kIo with the reason.
   Expected<void> check(const std::string& scanner) const;
-  // Whether its jobs are this daemon's: it drives the scanner, or nobody ever did but itself.
+  // Whether this daemon runs the scanner's jobs. True if it drives the scanner. For a scanner that
+  // is not configured here, also true if no other daemon has driven it last.
   bool has_jobs_of(const std::string& scanner) const;
-  // Where the daemon is that drives it; empty where it did last and has let its lease run out.
-  // Nothing where that is this one, or nobody, or where it is not to be reached.
+  // Returns the address of another daemon that drives the scanner, or an empty text if that
+  // daemon's lease has expired. Returns nullopt if this daemon or none drives the scanner, or if
+  // the other daemon has no address.
   std::optional<std::string> address_of(const std::string& scanner) const;
-  // The others that are there, by their addresses, and which scanners they drive.
+  // Returns the addresses of the other running daemons, each with the scanners that it drives.
   std::map<std::string, std::vector<std::string>> others() const;
 
  private:
-  using Clock = std::chrono::nanoseconds;  // since the machine has started, suspended or not
-  struct Held {
+  using Clock = std::chrono::nanoseconds;  // time since the machine started, suspension included
+  struct HeldScanner {
     std::uint64_t epoch = 0;
-    Clock until{};  // by this machine's clock, a little before the catalogue thinks so
+    Clock until{};  // end of the lease by this machine's clock, minus a margin
   };
   static Clock now();
   bool may_take(const std::string& scanner) const;
   void take(const std::string& scanner);
-  void renew(const std::string& scanner, const Held& held);
+  void renew(const std::string& scanner, const HeldScanner& held);
   void look_at_others();
-  bool is_elsewhere(const ScannerDriver& driver) const;
+  bool is_another_daemon(const ScannerDriver& driver) const;
 
   JobCatalogue& catalogue_;
   const Log events_;
   const Lease lease_;
   const std::string address_;
 
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::vector<std::string> names_;
-  std::map<std::string, Held> held_;
-  std::vector<ScannerDriver> drivers_;  // as last seen
-  // When others' leases that have run out are believed: while the catalogue is away nobody can
-  // renew one.
+  std::map<std::string, HeldScanner> held_;
+  std::vector<ScannerDriver> drivers_;  // drivers as last read from the catalogue
+  // Other daemons' leases are respected until this time, even if they have expired. While the
+  // catalogue is unreachable, no daemon can renew its leases.
   Clock believes_from_{};
 
-  std::optional<Heart> heart_;
+  std::optional<PeriodicTask> lease_renewal_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -5,10 +5,11 @@
 
 #include <exception>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-constexpr std::chrono::seconds kPatience{3};  // with a scanner that is looked for
+// Longest time that status() waits for the first look.
+constexpr std::chrono::seconds kLookTimeout{3};
 constexpr std::string_view kStopped =
     "stopped by the operator; make sure that it is safe, then resume";
 
@@ -29,15 +30,15 @@ auto ScannerStation::caught(Task task) -> decltype(task()) try {
 }
 
 ScannerStation::ScannerStation(ScannerBackend& backend, JobQueue& jobs,
-                               std::chrono::milliseconds patience)
+                               std::chrono::milliseconds idle_timeout)
     : backend_(backend), jobs_(jobs) {
-  jobs_.lane(name()).when_idle(patience, [this] { backend_.close(); });
+  jobs_.executor(name()).when_idle(idle_timeout, [this] { backend_.close(); });
 }
 
 void ScannerStation::look_for_it() {
   const auto done = std::make_shared<std::promise<void>>();
   looked_ = done->get_future().share();
-  jobs_.lane(name()).post([this, done] {
+  jobs_.executor(name()).post([this, done] {
     look();
     done->set_value();
   });
@@ -49,25 +50,27 @@ void ScannerStation::look() {
 }
 
 void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
-  if (!seen && seen.error().code == ErrorCode::kState) return;  // stopped: that is no absence
+  if (!seen && seen.error().code == ErrorCode::kState) return;  // stopped, but not unreachable
   const std::scoped_lock lock(mutex_);
   if (seen) identity_ = *seen;
   problem_ = seen ? "" : seen.error().message;
 }
 
-// It may have been plugged in. One look at a time, and none that a job would have to wait for.
+// Looks for the scanner again, because it may have been connected. Only one look runs at a time,
+// and none while the scanner has an unfinished job.
 void ScannerStation::look_again() {
-  if (looking_.exchange(true)) return;
+  if (is_looking_.exchange(true)) return;
   const auto posted = jobs_.post_command(name(), [this] {
     look();
-    looking_ = false;
+    is_looking_ = false;
   });
-  if (!posted) looking_ = false;
+  if (!posted) is_looking_ = false;
 }
 
 ScannerStatus ScannerStation::status() {
   const auto job = jobs_.job_of(name());
-  if (!job && looked_.valid()) looked_.wait_for(kPatience);  // a job may be in front of the look
+  if (!job && looked_.valid())
+    looked_.wait_for(kLookTimeout);  // only without a job, because a job may delay the look
   ScannerStatus status{.name = name()};
   {
     const std::scoped_lock lock(mutex_);
@@ -85,21 +88,21 @@ ScannerStatus ScannerStation::status() {
 }
 
 template <class Task>
-auto ScannerStation::in_lane(Task task, bool beside_paused) -> decltype(task()) {
+auto ScannerStation::on_executor(Task task, bool beside_paused) -> decltype(task()) {
   std::promise<decltype(task())> done;
   const auto posted = jobs_.post_command(
       name(), [&] { done.set_value(task()); }, beside_paused);
-  if (!posted) return Unexpected(posted.error());
+  if (!posted) return tl::unexpected(posted.error());
   return done.get_future().get();
 }
 
 template <class Action>
 auto ScannerStation::command(Action action) -> decltype(action()) {
-  return in_lane([&, stops = backend_.stops()]() -> decltype(action()) {
+  return on_executor([&, stops = backend_.stops()]() -> decltype(action()) {
     backend_.allow(stops);
     const auto seen = caught([this] { return backend_.identify(); });
-    auto done = seen ? caught(action) : decltype(action())(Unexpected(seen.error()));
-    remember(done ? seen : Unexpected(done.error()));
+    auto done = seen ? caught(action) : decltype(action())(tl::unexpected(seen.error()));
+    remember(done ? seen : tl::unexpected(done.error()));
     return done;
   });
 }
@@ -112,17 +115,17 @@ Expected<void> ScannerStation::laser(bool on) {
   return command([&] { return backend_.laser(on); });
 }
 
-Expected<Frame> ScannerStation::picture() {
+Expected<acquisition::Frame> ScannerStation::picture() {
   const auto capture = [&] {
     auto frame = caught([this] { return backend_.picture(); });
-    if (!frame) remember(Unexpected(frame.error()));
+    if (!frame) remember(tl::unexpected(frame.error()));
     return frame;
   };
-  return in_lane(capture, /*beside_paused=*/true);
+  return on_executor(capture, /*beside_paused=*/true);
 }
 
 void ScannerStation::stop() {
-  backend_.emergency_stop();  // first of all
+  backend_.emergency_stop();  // comes before any other work
   const auto job = jobs_.job_of(name());
   if (!job) return;
   const bool can_be_resumed = job->record.kind == JobKind::kScan;
@@ -131,7 +134,7 @@ void ScannerStation::stop() {
 }
 
 void ScannerStation::close_after_all() {
-  jobs_.lane(name()).post([this] { backend_.close(); });
+  jobs_.executor(name()).post([this] { backend_.close(); });
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

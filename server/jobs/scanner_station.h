@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner between its jobs: what is known of it, and the commands that an operator gives by hand.
+// A scanner outside of its jobs: its state and an operator's manual commands.
 #pragma once
 
 #include <atomic>
@@ -11,56 +11,57 @@
 #include "server/jobs/job_queue.h"
 #include "server/jobs/scanner_backend.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 enum class ScannerState : std::uint8_t { kIdle, kBusy, kUnreachable };
 
 struct ScannerStatus {
   std::string name;
   ScannerState state = ScannerState::kIdle;
-  std::optional<ScannerIdentity> identity;  // as last seen; nothing before that
-  std::optional<ScanId> scan;               // that it works on or has paused
-  std::string problem;                      // why it is unreachable
+  std::optional<ScannerIdentity> identity;  // as last seen; nullopt if never seen
+  std::optional<ScanId> scan;               // the running or paused scan
+  std::string problem;                      // why the scanner is unreachable
 };
 
-// Thread-safe. Commands fail with kState while a job has the scanner, and with the devices' own
-// errors.
+// Thread-safe. Commands fail with kState while a job uses the scanner, and with the errors of the
+// devices.
 class ScannerStation {
  public:
-  // Both outlive it. Devices that no command was given to for `patience` are closed, for other
-  // programs to use.
-  ScannerStation(ScannerBackend& backend, JobQueue& jobs, std::chrono::milliseconds patience);
+  // `backend` and `jobs` must outlive the station. Devices without a command for `idle_timeout` are
+  // closed, so that other programs can use them.
+  ScannerStation(ScannerBackend& backend, JobQueue& jobs, std::chrono::milliseconds idle_timeout);
 
-  // Has the scanner looked for, once; status() waits for that.
+  // Starts the first look for the scanner. Call it once. status() waits briefly for the result.
   void look_for_it();
 
   ScannerBackend& backend() { return backend_; }
   const std::string& name() const { return backend_.name(); }
 
-  // Uses no device itself; one that is unreachable is looked for again meanwhile.
+  // Returns the state without using a device. If the scanner is unreachable, starts another look
+  // for it.
   ScannerStatus status();
 
   Expected<void> jog(double degrees);
   Expected<void> laser(bool on);
-  Expected<Frame> picture();  // takes no stop back; also beside a scan that is paused
+  // Takes a picture. Works during a paused scan, and does not undo an emergency stop.
+  Expected<acquisition::Frame> picture();
 
-  // Laser and motor off at once, whatever is under way; a scan is paused, and a
-  // calibration ends.
+  // Turns laser and motor off at once. Pauses a running scan and ends a running calibration.
   void stop();
 
-  // By the scanner's lane: who it is now. Closes the devices.
+  // Looks for the scanner: identifies its devices and closes them. Runs on the scanner's executor.
   void look();
-  // Closes the devices once the lane has done what it has been given.
+  // Posts a task to the scanner's executor that closes the devices.
   void close_after_all();
 
  private:
-  // What `task` throws is its error, not the end of the lane; the devices that it used are closed.
+  // Runs `task`. Converts an exception to an error and closes the devices.
   template <class Task>
   auto caught(Task task) -> decltype(task());
-  // Has `task` done by the scanner's lane, and returns what it returns.
+  // Runs `task` on the scanner's executor and returns its result.
   template <class Task>
-  auto in_lane(Task task, bool beside_paused = false) -> decltype(task());
-  // Does `action` with devices that are open, unless they are stopped between now and then.
+  auto on_executor(Task task, bool beside_paused = false) -> decltype(task());
+  // Runs a command on the scanner's executor, unless an emergency stop comes first.
   template <class Action>
   auto command(Action action) -> decltype(action());
   void remember(const Expected<ScannerIdentity>& seen);
@@ -68,12 +69,12 @@ class ScannerStation {
 
   ScannerBackend& backend_;
   JobQueue& jobs_;
-  std::shared_future<void> looked_;  // valid once look_for_it() was called
-  std::atomic<bool> looking_{false};
+  std::shared_future<void> looked_;  // the first look; valid after look_for_it()
+  std::atomic<bool> is_looking_{false};
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::optional<ScannerIdentity> identity_;
   std::string problem_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner with real devices, or with those of the simulated rig.
+// A scanner backend for real devices and for the devices of the simulated rig.
 #pragma once
 
 #include <mutex>
@@ -10,18 +10,18 @@
 #include "acquisition/session/scanner_config.h"
 #include "server/jobs/scanner_backend.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 class SessionBackend final : public ScannerBackend {
  public:
-  SessionBackend(ScannerConfig config, Scanner scanner)
+  SessionBackend(acquisition::ScannerConfig config, acquisition::Scanner scanner)
       : config_(std::move(config)), scanner_(std::move(scanner)) {}
   ~SessionBackend() override { close(); }
 
   Expected<ScannerIdentity> identify() override;
   Expected<void> jog(double degrees) override;
   Expected<void> laser(bool on) override;
-  Expected<Frame> picture() override;
+  Expected<acquisition::Frame> picture() override;
   Expected<std::optional<TriangleMesh>> scan(const ScanOrder& order,
                                              const std::filesystem::path& folder,
                                              ScanListener& listener) override;
@@ -32,8 +32,8 @@ class SessionBackend final : public ScannerBackend {
   void emergency_stop() noexcept override;
   std::uint64_t stops() const noexcept override { return stop_.presses(); }
   void allow(std::uint64_t stops) noexcept override { stop_.release(stops); }
-  Expected<TriangleMesh> mesh_anew(const ScanOrder& order,
-                                   const std::filesystem::path& folder) override;
+  Expected<TriangleMesh> rebuild_mesh(const ScanOrder& order,
+                                      const std::filesystem::path& folder) override;
   Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override;
   Expected<std::vector<CalibrationSummary>> calibrations() override;
   Expected<std::optional<std::string>> calibration_report(int number) override;
@@ -43,23 +43,23 @@ class SessionBackend final : public ScannerBackend {
   Expected<void> open();
   Expected<void> open_board();
   Expected<void> open_camera();
-  // Closes the devices where `result` is an error.
+  // Returns `result`; closes the devices if it is an error.
   template <class T>
   Expected<T> closed_on_error(Expected<T> result);
-  Expected<std::shared_ptr<Scan>> open_scan(const ScanOrder& order,
-                                            const std::filesystem::path& folder);
-  void drive(const std::shared_ptr<Scan>& scan);
-  Expected<CalibrationInput> picture_at_rig(CalibrationListener& listener);
-  Expected<CalibrationInput> picture_by_hand(int poses, CalibrationListener& listener);
+  Expected<std::shared_ptr<acquisition::Scan>> open_scan(const ScanOrder& order,
+                                                         const std::filesystem::path& folder);
+  void drive(const std::shared_ptr<acquisition::Scan>& scan);
+  Expected<acquisition::CalibrationInput> picture_at_rig(CalibrationListener& listener);
+  Expected<acquisition::CalibrationInput> picture_by_hand(int poses, CalibrationListener& listener);
 
-  const ScannerConfig config_;
-  const Scanner scanner_;
-  EmergencyStop stop_;
-  std::unique_ptr<Camera> camera_;  // between jobs
-  std::unique_ptr<Board> board_;
+  const acquisition::ScannerConfig config_;
+  const acquisition::Scanner scanner_;
+  acquisition::EmergencyStop stop_;
+  std::unique_ptr<acquisition::Camera> camera_;  // kept open between jobs
+  std::unique_ptr<acquisition::Board> board_;
 
-  std::mutex mutex_;            // guards what follows
-  std::shared_ptr<Scan> scan_;  // that runs
+  std::mutex mutex_;                         // guards the members below
+  std::shared_ptr<acquisition::Scan> scan_;  // the running scan, or null
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

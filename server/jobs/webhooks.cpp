@@ -7,11 +7,11 @@
 
 #include "server/remote/remote_server.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr int kTries = 3;
-constexpr std::chrono::seconds kDeadline{10};  // of one
+constexpr std::chrono::seconds kDeadline{10};  // time limit of each request
 
 }  // namespace
 
@@ -22,38 +22,38 @@ bool Webhooks::allows(std::string_view url) const {
   return std::ranges::find(hosts_, host) != hosts_.end();
 }
 
-void Webhooks::tell(const std::string& url, const std::string& json, std::function<bool()> may,
+void Webhooks::call(const std::string& url, const std::string& json, std::function<bool()> may,
                     std::function<void()> done) {
   if (!allows(url)) return;
   const std::scoped_lock lock(mutex_);
-  if (stopping_ || !waiting_.emplace(url, json).second) return;
-  auto& lane = lanes_[origin_of(url)];
-  if (!lane) lane = std::make_unique<Lane>(events_);
-  lane->post(
+  if (is_stopping_ || !waiting_.emplace(url, json).second) return;
+  auto& executor = executors_[origin_of(url)];
+  if (!executor) executor = std::make_unique<SerialExecutor>(events_);
+  executor->post(
       [this, message = Message{url, json, std::move(may), std::move(done)}] { deliver(message); });
 }
 
 void Webhooks::stop() {
-  std::map<std::string, std::unique_ptr<Lane>> lanes;
+  std::map<std::string, std::unique_ptr<SerialExecutor>> executors;
   {
     const std::scoped_lock lock(mutex_);
-    stopping_ = true;
-    lanes.swap(lanes_);
+    is_stopping_ = true;
+    executors.swap(executors_);
   }
-  for (const auto& [origin, lane] : lanes)
-    lane->finish();
+  for (const auto& [origin, executor] : executors)
+    executor->finish();
 }
 
-// False where it ends meanwhile.
+// Waits before the next try. Returns false if stop() is called meanwhile.
 bool Webhooks::pause(int tries) {
   constexpr std::chrono::milliseconds kStep{100};
-  for (int i = 0; i < 10 * tries * tries && !stopping_; ++i)
+  for (int i = 0; i < 10 * tries * tries && !is_stopping_; ++i)
     std::this_thread::sleep_for(kStep);
-  return !stopping_;
+  return !is_stopping_;
 }
 
 void Webhooks::deliver(const Message& message) {
-  if (!stopping_ && message.may()) post(message);
+  if (!is_stopping_ && message.may()) post(message);
   const std::scoped_lock lock(mutex_);
   waiting_.erase({message.url, message.json});
 }
@@ -62,23 +62,24 @@ void Webhooks::post(const Message& message) {
   const std::string origin = origin_of(message.url);
   RemoteServer server;
   std::string fault;
-  for (int tries = 0; tries < kTries && (tries == 0 ? !stopping_ : pause(tries)); ++tries) {
+  for (int tries = 0; tries < kTries && (tries == 0 ? !is_stopping_ : pause(tries)); ++tries) {
     const auto answer = server.ask(
         {.method = "POST",
          .url = message.url,
          .fields = {"Content-Type: application/json"},
          .body = {reinterpret_cast<const std::uint8_t*>(message.json.data()), message.json.size()},
          .deadline = kDeadline,
-         .given_up = [this] { return stopping_.load(); }});
+         .given_up = [this] { return is_stopping_.load(); }});
     if (answer && answer->status < 300) {
       events_.event(Severity::kInfo, fmt::format("webhook {}: {}", origin, answer->status));
       return message.done();
     }
-    fault = answer ? fmt::format("it answers {}", answer->status) : answer.error().message;
+    fault = answer ? fmt::format("the server responds with {}", answer->status)
+                   : answer.error().message;
   }
-  if (stopping_) return;
-  events_.event(Severity::kWarning, fmt::format("webhook {} was not told: {}", origin, fault));
+  if (is_stopping_) return;
+  events_.event(Severity::kWarning, fmt::format("webhook {} was not called: {}", origin, fault));
   message.done();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

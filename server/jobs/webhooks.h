@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other servers are told of the ends of jobs: only those that the operator has named, since a
-// request could else reach what is inside the museum's network.
+// Calls webhooks when jobs end. Only hosts that the operator has named are called. Otherwise a
+// request could reach servers inside the museum's network.
 #pragma once
 
 #include <atomic>
@@ -14,29 +14,30 @@
 #include <utility>
 #include <vector>
 
-#include "server/jobs/lane.h"
+#include "server/jobs/serial_executor.h"
 #include "server/log/log.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 // Thread-safe.
 class Webhooks {
  public:
-  // `hosts`: "host" or "host:port" as URLs have them; none: nobody is told anything.
+  // `hosts`: allowed hosts, "host" or "host:port" as in URLs. If empty, no webhook is called.
   Webhooks(std::vector<std::string> hosts, const Log& events)
       : hosts_(std::move(hosts)), events_(events) {}
   ~Webhooks() { stop(); }
 
   bool allows(std::string_view url) const;
 
-  // Posts `json` there soon, a few times until it is taken; the log has how that went. Each server
-  // has a thread of its own: one that is dead holds up no other. What waits already is not posted
-  // twice. `may` is asked when its turn has come: false where another has told it meanwhile. `done`
-  // is called once it is taken or given up, and not where stop() comes before.
-  void tell(const std::string& url, const std::string& json, std::function<bool()> may,
+  // Posts `json` to the URL on another thread, with a few retries until the server accepts it, and
+  // logs the outcome. Each server has its own thread, so that an unreachable one does not delay
+  // others. A message that already waits is not added again. `may` is called right before each
+  // post; it returns false if another daemon has posted the message meanwhile. `done` is called
+  // when the message is accepted or given up, but not after stop().
+  void call(const std::string& url, const std::string& json, std::function<bool()> may,
             std::function<void()> done);
 
-  // What is under way is put aside, and the rest.
+  // Cancels the messages that are being sent and drops all waiting ones.
   void stop();
 
  private:
@@ -51,11 +52,11 @@ class Webhooks {
 
   const std::vector<std::string> hosts_;
   const Log& events_;
-  std::atomic<bool> stopping_{false};
+  std::atomic<bool> is_stopping_{false};
 
-  std::mutex mutex_;                                       // guards what follows
-  std::map<std::string, std::unique_ptr<Lane>> lanes_;     // by the server's origin
-  std::set<std::pair<std::string, std::string>> waiting_;  // URL and JSON
+  std::mutex mutex_;                                                  // guards the members below
+  std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;  // by origin of the server
+  std::set<std::pair<std::string, std::string>> waiting_;             // URL and JSON
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -3,7 +3,7 @@
 
 #include "server/log/write_whole.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 bool LineBatch::add(std::string_view line, int descriptor) {
   constexpr std::size_t kLarge = 64 * 1024;
@@ -24,4 +24,4 @@ void LineBatch::write(int descriptor) {
   lines_.clear();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -13,20 +13,20 @@
 
 #include "server/log/write_whole.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-using Line = fmt::memory_buffer;
+using LogLine = fmt::memory_buffer;
 
 bool is_plain(char c) {
   return c > ' ' && c < 0x7f && c != '"' && c != '=' && c != '\\';
 }
 
-void append_text(Line& line, std::string_view text) {
+void append_text(LogLine& line, std::string_view text) {
   line.append(text.data(), text.data() + text.size());
 }
 
-void append_value(Line& line, std::string_view value) {
+void append_value(LogLine& line, std::string_view value) {
   if (!value.empty() && std::ranges::all_of(value, is_plain)) return append_text(line, value);
   const auto out = std::back_inserter(line);
   fmt::format_to(out, "\"");
@@ -42,19 +42,19 @@ void append_value(Line& line, std::string_view value) {
   fmt::format_to(out, "\"");
 }
 
-void append(Line& line, std::string_view key, std::string_view value) {
+void append(LogLine& line, std::string_view key, std::string_view value) {
   append_text(line, " ");
   append_text(line, key);
   append_text(line, "=");
   append_value(line, value);
 }
 
-void append_time(Line& line) {
+void append_time(LogLine& line) {
   const auto now =
       std::chrono::time_point_cast<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
   thread_local std::chrono::sys_seconds made{};
-  thread_local std::string text;  // made once a second
+  thread_local std::string text;  // formatted once a second
   if (made != seconds) {
     made = seconds;
     text = fmt::format("time={:%Y-%m-%dT%H:%M:%S}",
@@ -63,9 +63,10 @@ void append_time(Line& line) {
   fmt::format_to(std::back_inserter(line), "{}.{:03}Z", text, (now - seconds).count());
 }
 
-// Of an access or an audit: what both begin with, and what was asked.
-Line line_of(std::string_view event, const auto& record) {
-  Line line;
+// Returns the beginning of a line for an access or an audit record: time, event, and the request's
+// ID and address.
+LogLine line_of(std::string_view event, const auto& record) {
+  LogLine line;
   append_time(line);
   append(line, "event", event);
   append(line, "id", record.request_id);
@@ -73,7 +74,7 @@ Line line_of(std::string_view event, const auto& record) {
   return line;
 }
 
-void append_request(Line& line, const auto& record) {
+void append_request(LogLine& line, const auto& record) {
   append(line, "method", record.method);
   append(line, "route", record.route);
   append(line, "target", record.target);
@@ -91,7 +92,7 @@ std::string_view name(Severity severity) {
   return "";
 }
 
-void write_line(int descriptor, Line& line) {
+void write_line(int descriptor, LogLine& line) {
   line.push_back('\n');
   write_whole(descriptor, {line.data(), line.size()});
 }
@@ -102,7 +103,8 @@ Unexpected refused(const std::filesystem::path& file, int error) {
                           file.string(), std::strerror(error)));
 }
 
-// A descriptor of its own, for standard error, too.
+// Opens the log file and returns a descriptor that the caller must close. For standard error,
+// returns a duplicate.
 Expected<int> open_file(const std::filesystem::path& file) {
   constexpr int kFlags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
   const int descriptor = file == "-"    ? ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)
@@ -116,9 +118,9 @@ Expected<int> open_file(const std::filesystem::path& file) {
 
 Expected<Log> Log::open(const std::filesystem::path& file) {
   const auto descriptor = open_file(file);
-  if (!descriptor) return Unexpected(descriptor.error());
+  if (!descriptor) return tl::unexpected(descriptor.error());
   Log log(*descriptor);
-  log.silent_ = file.empty();
+  log.is_silent_ = file.empty();
   return log;
 }
 
@@ -128,24 +130,24 @@ Log Log::to_stderr() {
 
 Expected<void> Log::reopen(const std::filesystem::path& file) {
   const auto fresh = open_file(file);
-  if (!fresh) return Unexpected(fresh.error());
+  if (!fresh) return tl::unexpected(fresh.error());
   flush();
   const bool replaced = ::dup3(*fresh, descriptor_, O_CLOEXEC) >= 0;
   const int error = errno;
   ::close(*fresh);
   if (!replaced) return refused(file, error);
-  silent_ = file.empty();
+  is_silent_ = file.empty();
   return {};
 }
 
 Log::Log(Log&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
-      silent_(other.silent_.load()),
+      is_silent_(other.is_silent_.load()),
       batch_(std::exchange(other.batch_, std::make_unique<LineBatch>())) {}
 
 Log& Log::operator=(Log&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
-  silent_ = other.silent_.exchange(silent_);
+  is_silent_ = other.is_silent_.exchange(is_silent_);
   std::swap(batch_, other.batch_);
   return *this;
 }
@@ -156,8 +158,8 @@ Log::~Log() {
 }
 
 bool Log::access(const AccessRecord& record) const {
-  if (silent_.load(std::memory_order_relaxed)) return false;
-  Line line = line_of("access", record);
+  if (is_silent_.load(std::memory_order_relaxed)) return false;
+  LogLine line = line_of("access", record);
   append_request(line, record);
   const auto microseconds = static_cast<std::uint64_t>(record.seconds * 1e6 + 0.5);
   fmt::format_to(std::back_inserter(line), " status={} bytes={} seconds={}.{:06}", record.status,
@@ -171,18 +173,19 @@ void Log::flush() const {
 }
 
 void Log::audit(const AuditRecord& record) const {
-  if (silent_.load(std::memory_order_relaxed)) return;
-  Line line = line_of("audit", record);
+  if (is_silent_.load(std::memory_order_relaxed)) return;
+  LogLine line = line_of("audit", record);
   append(line, "token", record.token);
   append_request(line, record);
   fmt::format_to(std::back_inserter(line), " status={}", record.status);
   write_line(descriptor_, line);
 }
 
-// It tells of memory that has run out, too, and nobody could do more if that fails.
+// Ignores exceptions: this function also reports lack of memory, and if that report fails, nothing
+// more can be done.
 void Log::event(Severity severity, std::string_view message) const try {
-  if (silent_.load(std::memory_order_relaxed)) return;
-  Line line;
+  if (is_silent_.load(std::memory_order_relaxed)) return;
+  LogLine line;
   append_time(line);
   append(line, "event", name(severity));
   append(line, "message", message);
@@ -191,9 +194,9 @@ void Log::event(Severity severity, std::string_view message) const try {
 }
 
 std::string logfmt_value(std::string_view value) {
-  Line line;
+  LogLine line;
   append_value(line, value);
   return fmt::to_string(line);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

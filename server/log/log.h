@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structured log lines (logfmt: key=value, values quoted where needed), each written whole.
+// Writes structured log lines. The format is logfmt: key=value, with the value in quotes if needed.
 #pragma once
 
 #include <atomic>
@@ -12,50 +12,51 @@
 #include "codec/core/expected.h"
 #include "server/log/line_batch.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// One answered request. The strings are borrowed for the call.
+// One answered request. The strings need to live only during the call.
 struct AccessRecord {
   std::string_view request_id;
   std::string_view remote;  // address of the peer
   std::string_view method;
-  std::string_view route;   // the route's template, "-" where none matched
-  std::string_view target;  // as sent: hostile text
+  std::string_view route;   // the route's template; "-" if no route matched
+  std::string_view target;  // as sent by the client: untrusted text
   unsigned status = 0;
-  std::uint64_t bytes = 0;  // of the body, as sent
+  std::uint64_t bytes = 0;  // number of body bytes sent
   double seconds = 0;
 };
 
-// A call that was to change something, whoever made it. The strings are borrowed for the call.
+// A request that tried to change data. The strings need to live only during the call.
 struct AuditRecord {
   std::string_view request_id;
   std::string_view remote;  // address of the peer
-  std::string_view token;   // the token's id, "-" where there was none in force
+  std::string_view token;   // the token's ID; "-" without a valid token
   std::string_view method;
   std::string_view route;   // the route's template
-  std::string_view target;  // as sent: hostile text
+  std::string_view target;  // as sent by the client: untrusted text
   unsigned status = 0;
 };
 
 enum class Severity { kInfo, kWarning, kError };
 
-// Thread-safe: lines are written whole to a descriptor opened for appending, so that those of
-// several threads and processes do not mix.
+// Thread-safe. Each line is written as a whole to a descriptor opened for appending, so that lines
+// of several threads and processes do not mix.
 class Log {
  public:
-  // "-" is standard error; an empty path drops everything. Fails (kIo) where the file is refused.
+  // Opens a log. "-" means standard error; an empty path discards all lines. Fails with kIo if the
+  // file cannot be opened.
   static Expected<Log> open(const std::filesystem::path& file);
   static Log to_stderr();
   Log(Log&& other) noexcept;
   Log& operator=(Log&& other) noexcept;
   ~Log();
 
-  // Goes on in `file`, opened anew, as after a rotation or under another name; no line is lost or
-  // torn. Fails (kIo) where the file is refused: the log goes on as it was.
+  // Continues the log in `file`, for example after a rotation or under another name. No line is
+  // lost or torn. If that fails (kIo), the log continues in the old file.
   Expected<void> reopen(const std::filesystem::path& file);
 
-  // The line may wait for others: where this is true, the caller sees to a flush() soon. What waits
-  // when the log is destroyed is written then.
+  // Adds a line to a batch. Returns true if the caller must call flush() soon. The destructor
+  // writes the lines that are left.
   [[nodiscard]] bool access(const AccessRecord& record) const;
   void flush() const;
   void audit(const AuditRecord& record) const;
@@ -64,15 +65,16 @@ class Log {
  private:
   explicit Log(int descriptor) : descriptor_(descriptor) {}
 
-  // Its number stays for life, so that nobody has to be told when it is opened anew. Where nothing
-  // is logged, it is one of /dev/null, and -1 after a move.
+  // The log's descriptor. Its number stays the same when the log is reopened. It refers to
+  // /dev/null if no log is written, and is -1 after a move.
   int descriptor_;
-  std::atomic<bool> silent_{false};
+  std::atomic<bool> is_silent_{false};
   std::unique_ptr<LineBatch> batch_ = std::make_unique<LineBatch>();
 };
 
-// `value` as logfmt: bare where it holds only unambiguous printable ASCII, else quoted with \"
-// and \\ escaped and every control or non-ASCII byte as \xNN, so that no request can forge a line.
+// Returns `value` in logfmt. A value of unambiguous printable ASCII characters stays unquoted. Any
+// other value is quoted: \" and \\ are escaped, and every control or non-ASCII byte becomes \xNN. A
+// request can therefore not forge a line.
 std::string logfmt_value(std::string_view value);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

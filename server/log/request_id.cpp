@@ -6,7 +6,7 @@
 #include <random>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::server {
 
 std::string next_request_id() {
   static const std::uint32_t process = std::random_device{}();
@@ -20,4 +20,4 @@ std::string next_request_id() {
   return text;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A name for one request, shown to the client and in the log: 16 hexadecimal digits.
+// Generates request IDs of 16 hexadecimal digits. The client and the log get the same ID.
 #pragma once
 
 #include <string>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Unique within a process, and across processes but for a chance of 2^-32. Thread-safe.
+// Returns an ID that is unique within the process. Two processes generate equal IDs with
+// probability 2^-32. Thread-safe.
 std::string next_request_id();
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -5,7 +5,7 @@
 
 #include <cerrno>
 
-namespace vitrine {
+namespace vitrine::server {
 
 void write_whole(int descriptor, std::string_view text) {
   while (!text.empty()) {
@@ -16,4 +16,4 @@ void write_whole(int descriptor, std::string_view text) {
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// write(2) that leaves no line half written.
+// Writes a log line completely.
 #pragma once
 
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// In as many write(2) as it takes. A log that cannot be written must not stop the service: then the
-// rest is lost.
+// Calls write(2) until all of `text` is written. If an error occurs, the rest is lost, since a full
+// disk must not stop the service.
 void write_whole(int descriptor, std::string_view text);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

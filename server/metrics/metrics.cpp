@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
@@ -26,15 +26,15 @@ void append_metric(std::string& text, std::string_view name, std::string_view la
 
 Metrics::Metrics(std::span<const std::string_view> routes) {
   for (const std::string_view name : routes) {
-    routes_.push_back(std::make_unique<Route>());
+    routes_.push_back(std::make_unique<RouteCounters>());
     routes_.back()->name = name;
   }
-  routes_.push_back(std::make_unique<Route>());
+  routes_.push_back(std::make_unique<RouteCounters>());
   routes_.back()->name = "none";
 }
 
 void Metrics::request(std::size_t route, unsigned status, std::uint64_t bytes, double seconds) {
-  Route& at = *routes_[std::min(route, routes_.size() - 1)];
+  RouteCounters& at = *routes_[std::min(route, routes_.size() - 1)];
   const std::size_t status_class = std::clamp(status / 100, 1u, 5u) - 1;
   const auto bucket = std::ranges::lower_bound(kBounds, seconds) - kBounds.begin();
   at.statuses[status_class].fetch_add(1, kRelaxed);
@@ -52,11 +52,11 @@ std::string Metrics::text() const {
   append_plain(text, "vitrine_streams", "gauge", "WebSocket streams open now.",
                streams.load(kRelaxed));
   append_plain(text, "vitrine_connections_refused_total", "counter",
-               "Connections closed because there were too many.", refused.load(kRelaxed));
+               "Connections closed because the limit was reached.", refused.load(kRelaxed));
   append_plain(text, "vitrine_stream_bytes_total", "counter", "Chunk bytes sent over streams.",
                stream_bytes.load(kRelaxed));
   append_plain(text, "vitrine_unknown_tokens_total", "counter",
-               "Requests with a token that is nobody's.", unknown_tokens.load(kRelaxed));
+               "Requests with a token that is unknown or revoked.", unknown_tokens.load(kRelaxed));
   return text;
 }
 
@@ -82,7 +82,9 @@ void Metrics::append_requests(std::string& text) const {
 void Metrics::append_durations(std::string& text) const {
   constexpr std::string_view kName = "vitrine_http_request_seconds";
   text += fmt::format(
-      "# HELP {0} From the request's header to the last byte.\n# TYPE {0} histogram\n", kName);
+      "# HELP {0} Time from a request's header to the last byte of the response.\n# TYPE {0} "
+      "histogram\n",
+      kName);
   for (const auto& route : routes_) {
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < kBounds.size(); ++i) {
@@ -98,4 +100,4 @@ void Metrics::append_durations(std::string& text) const {
   }
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

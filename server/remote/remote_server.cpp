@@ -12,11 +12,11 @@
 #include <ctime>
 #include <mutex>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// Of one request, as the library's callbacks see it.
-struct Transfer {
+// A running request with its answer, for libcurl's callbacks.
+struct HttpTransfer {
   CURL* curl;
   const RemoteRequest& request;
   RemoteAnswer& answer;
@@ -30,7 +30,7 @@ bool is_success(CURL* curl) {
 }
 
 std::size_t take_body(char* bytes, std::size_t size, std::size_t count, void* to) {
-  const auto& transfer = *static_cast<Transfer*>(to);
+  const auto& transfer = *static_cast<HttpTransfer*>(to);
   const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes);
   if (transfer.request.take && is_success(transfer.curl))
     return transfer.request.take({first, size * count}) ? size * count : 0;
@@ -42,8 +42,8 @@ std::size_t take_body(char* bytes, std::size_t size, std::size_t count, void* to
 
 std::size_t take_field(char* bytes, std::size_t size, std::size_t count, void* to) {
   const std::string_view line(bytes, size * count);
-  auto& fields = static_cast<Transfer*>(to)->answer.fields;
-  if (line.starts_with("HTTP/")) fields.clear();  // after a 100
+  auto& fields = static_cast<HttpTransfer*>(to)->answer.fields;
+  if (line.starts_with("HTTP/")) fields.clear();  // drops the fields of an interim (1xx) response
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return line.size();
   std::string name(line.substr(0, colon));
@@ -58,7 +58,7 @@ std::size_t take_field(char* bytes, std::size_t size, std::size_t count, void* t
 }
 
 std::size_t give_body(char* bytes, std::size_t size, std::size_t count, void* from) {
-  auto& transfer = *static_cast<Transfer*>(from);
+  auto& transfer = *static_cast<HttpTransfer*>(from);
   const auto left = transfer.request.body.subspan(transfer.sent);
   const std::size_t fits = std::min(size * count, left.size());
   std::memcpy(bytes, left.data(), fits);
@@ -69,7 +69,7 @@ std::size_t give_body(char* bytes, std::size_t size, std::size_t count, void* fr
 
 int rewind_body(void* from, curl_off_t offset, int origin) {
   if (origin != SEEK_SET) return CURL_SEEKFUNC_CANTSEEK;
-  static_cast<Transfer*>(from)->sent = static_cast<std::size_t>(offset);
+  static_cast<HttpTransfer*>(from)->sent = static_cast<std::size_t>(offset);
   return CURL_SEEKFUNC_OK;
 }
 
@@ -98,7 +98,7 @@ List list_of(const std::vector<std::string>& lines) {
   return list;
 }
 
-void set_body(CURL* curl, Transfer& transfer) {
+void set_body(CURL* curl, HttpTransfer& transfer) {
   if (transfer.request.body.data() == nullptr) {
     curl_easy_setopt(curl, CURLOPT_POSTFIELDSIZE, 0L);
     return;
@@ -119,7 +119,8 @@ void sign(CURL* curl, const RemoteSigner& signer) {
   curl_easy_setopt(curl, CURLOPT_PASSWORD, signer.secret_key.c_str());
 }
 
-// "Expire date:Feb  3 12:00:00 2027 GMT", of the server's own certificate, which comes first.
+// Returns the days until the server's own certificate, the first in the chain, expires. Parses
+// libcurl's text, such as "Expire date:Feb  3 12:00:00 2027 GMT".
 std::optional<double> days_left(CURL* curl) {
   curl_certinfo* chain = nullptr;
   curl_easy_getinfo(curl, CURLINFO_CERTINFO, &chain);
@@ -134,45 +135,46 @@ std::optional<double> days_left(CURL* curl) {
   return std::nullopt;
 }
 
-bool wait_for(CURL* curl, short events, std::chrono::seconds patience) {
+bool wait_for(CURL* curl, short events, std::chrono::seconds timeout) {
   curl_socket_t socket = CURL_SOCKET_BAD;
   curl_easy_getinfo(curl, CURLINFO_ACTIVESOCKET, &socket);
   pollfd waiting{socket, events, 0};
-  return ::poll(&waiting, 1, static_cast<int>(std::chrono::milliseconds(patience).count())) == 1;
+  return ::poll(&waiting, 1, static_cast<int>(std::chrono::milliseconds(timeout).count())) == 1;
 }
 
-bool send_all(CURL* curl, std::string_view text, std::chrono::seconds patience) {
+bool send_all(CURL* curl, std::string_view text, std::chrono::seconds timeout) {
   while (!text.empty()) {
     std::size_t sent = 0;
     const CURLcode code = curl_easy_send(curl, text.data(), text.size(), &sent);
-    if (code == CURLE_AGAIN && wait_for(curl, POLLOUT, patience)) continue;
+    if (code == CURLE_AGAIN && wait_for(curl, POLLOUT, timeout)) continue;
     if (code != CURLE_OK) return false;
     text.remove_prefix(sent);
   }
   return true;
 }
 
-// Up to the empty line; empty where that does not come.
-std::string receive_head(CURL* curl, std::chrono::seconds patience) {
+// Reads the head of the answer up to the empty line. Returns an empty text if the empty line does
+// not arrive.
+std::string receive_head(CURL* curl, std::chrono::seconds timeout) {
   constexpr std::size_t kLongest = 64 * 1024;
   std::string text;
   while (text.find("\r\n\r\n") == std::string::npos && text.size() < kLongest) {
     char bytes[4096];
     std::size_t taken = 0;
     const CURLcode code = curl_easy_recv(curl, bytes, sizeof bytes, &taken);
-    if (code == CURLE_AGAIN && wait_for(curl, POLLIN, patience)) continue;
+    if (code == CURLE_AGAIN && wait_for(curl, POLLIN, timeout)) continue;
     if (code != CURLE_OK || taken == 0) return {};
     text.append(bytes, taken);
   }
   return text;
 }
 
-void set_patience(CURL* curl, const RemoteRequest& request) {
-  const auto patience = static_cast<long>(request.patience.count());
+void set_timeouts(CURL* curl, const RemoteRequest& request) {
+  const auto timeout = static_cast<long>(request.timeout.count());
   curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT,
-                   static_cast<long>(request.to_connect.value_or(request.patience).count()));
+                   static_cast<long>(request.to_connect.value_or(request.timeout).count()));
   curl_easy_setopt(curl, CURLOPT_LOW_SPEED_LIMIT, 1L);
-  curl_easy_setopt(curl, CURLOPT_LOW_SPEED_TIME, patience);
+  curl_easy_setopt(curl, CURLOPT_LOW_SPEED_TIME, timeout);
   curl_easy_setopt(curl, CURLOPT_TIMEOUT, static_cast<long>(request.deadline.count()));
   curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
   if (!request.given_up) return;
@@ -188,15 +190,15 @@ struct RemoteServer::Handle {
   char fault[CURL_ERROR_SIZE] = "";
   ~Handle() { curl_easy_cleanup(curl); }
 
-  // The connection stays.
+  // Resets the options for a new request, and keeps the connection open.
   void prepare(const RemoteRequest& request) {
     *fault = '\0';
     curl_easy_reset(curl);
-    set_patience(curl, request);
+    set_timeouts(curl, request);
     curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
     curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, fault);
     curl_easy_setopt(curl, CURLOPT_CERTINFO, 1L);
-    if (request.direct) curl_easy_setopt(curl, CURLOPT_PROXY, "");
+    if (request.bypasses_proxy) curl_easy_setopt(curl, CURLOPT_PROXY, "");
     if (const char* const trusted = std::getenv("SSL_CERT_FILE"))
       curl_easy_setopt(curl, CURLOPT_CAINFO, trusted);
   }
@@ -220,9 +222,10 @@ Expected<RemoteAnswer> RemoteServer::ask(const RemoteRequest& request) {
   if (curl == nullptr) return fail(ErrorCode::kIo, "out of memory; try again");
   handle_->prepare(request);
   RemoteAnswer answer;
-  Transfer transfer{curl, request, answer};
+  HttpTransfer transfer{curl, request, answer};
   std::vector<std::string> lines = request.fields;
-  // What is sent is wanted. A field without a value would be signed and not sent.
+  // Removes libcurl's field "Expect" from unsigned requests only. A signed request would include
+  // the empty field in its signature but not send it.
   if (request.signer == nullptr) lines.emplace_back("Expect:");
   const List fields = list_of(lines);
   set_body(curl, transfer);
@@ -239,7 +242,7 @@ Expected<RemoteAnswer> RemoteServer::ask(const RemoteRequest& request) {
   const CURLcode code = curl_easy_perform(curl);
   curl_easy_getinfo(curl, CURLINFO_RESPONSE_CODE, &answer.status);
   answer.certificate_days = days_left(curl);
-  // An answer that comes before the body has gone is one all the same.
+  // An error response may arrive before the whole body was sent.
   if (code == CURLE_OK || (code == CURLE_SEND_ERROR && answer.status >= 400)) return answer;
   return handle_->failed(request, code);
 }
@@ -258,9 +261,9 @@ Expected<std::string> RemoteServer::upgrade(const RemoteRequest& request) {
       "{} {} HTTP/1.1\r\nHost: {}\r\n{}\r\n\r\n", request.method, request.url.substr(origin.size()),
       origin.substr(origin.find("//") + 2), fmt::join(request.fields, "\r\n"));
   std::string head;
-  if (send_all(curl, text, request.patience)) head = receive_head(curl, request.patience);
+  if (send_all(curl, text, request.timeout)) head = receive_head(curl, request.timeout);
   if (!head.empty()) return head;
-  return fail(ErrorCode::kIo, request.url + " does not answer; check the proxy");
+  return fail(ErrorCode::kIo, request.url + " does not respond; check the proxy");
 }
 
 std::string origin_of(std::string_view url) {
@@ -272,4 +275,4 @@ std::string origin_of(std::string_view url) {
   return origin.size() > host ? std::string(origin) : std::string();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests to another server over HTTP or HTTPS, one after the other on one connection.
+// Sends requests to another server over HTTP or HTTPS, one after the other on one connection.
 #pragma once
 
 #include <chrono>
@@ -15,10 +15,10 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// By whom a request is, as S3 wants it (AWS signature, version 4). One of the request's fields is
-// x-amz-content-sha256, and its query is encoded and sorted by name.
+// Credentials for signing a request to S3 (AWS signature, version 4; [SigV4]). A signed request
+// must have the field x-amz-content-sha256. Its query must be encoded and sorted by name.
 struct RemoteSigner {
   std::string region, access_key, secret_key;
 };
@@ -26,24 +26,26 @@ struct RemoteSigner {
 struct RemoteRequest {
   std::string method = "GET";
   std::string url;
-  std::vector<std::string> fields = {};             // "Name: value"
-  std::span<const std::uint8_t> body = {};          // must live until the answer
-  std::function<void(std::uint64_t)> on_sent = {};  // bytes of the body so far
-  std::chrono::seconds patience{30};                // for a connection, and for each byte to follow
-  std::optional<std::chrono::seconds> to_connect = {};  // the former, where it is another
-  std::chrono::seconds deadline{0};                     // for all of it; 0: none
-  std::function<bool()> given_up = {};                  // asked about once a second: true ends it
-  const RemoteSigner* signer = nullptr;                 // null: the request is not signed
-  bool direct = false;  // by no proxy, whatever the environment says
-  // Gets the body of an answer 2xx, which RemoteAnswer does not hold then; false ends it.
+  std::vector<std::string> fields = {};             // header fields, each "Name: value"
+  std::span<const std::uint8_t> body = {};          // must outlive the request
+  std::function<void(std::uint64_t)> on_sent = {};  // called with the number of body bytes sent
+  std::chrono::seconds timeout{30};                 // limit to connect, and between received bytes
+  std::optional<std::chrono::seconds> to_connect = {};  // replaces `timeout` for connecting
+  std::chrono::seconds deadline{0};                     // limit for the whole request; 0: none
+  std::function<bool()> given_up = {};   // called each second; returns true to cancel
+  const RemoteSigner* signer = nullptr;  // null: the request is not signed
+  bool bypasses_proxy = false;           // whether to ignore the environment's proxy
+  // Receives the body of a 2xx response in parts; RemoteAnswer::body is then empty. Returns false
+  // to cancel.
   std::function<bool(std::span<const std::uint8_t>)> take = {};
 };
 
 struct RemoteAnswer {
   long status = 0;
   std::map<std::string, std::string> fields;  // names in lower case
-  std::string body;                           // its first kMost bytes
-  std::optional<double> certificate_days;     // until the server's expires; nothing without TLS
+  std::string body;                           // at most the first kMost bytes
+  // Days until the server's certificate expires; nullopt without TLS.
+  std::optional<double> certificate_days;
 
   static constexpr std::size_t kMost = 4 << 20;
   std::string field(const std::string& name) const {
@@ -52,8 +54,8 @@ struct RemoteAnswer {
   }
 };
 
-// Where the variable SSL_CERT_FILE names certificates of authorities (PEM), it trusts those in
-// place of the system's.
+// A client of one server. If the environment variable SSL_CERT_FILE names a PEM file of certificate
+// authorities, the client trusts these authorities instead of the system's.
 class RemoteServer {
  public:
   RemoteServer();
@@ -61,11 +63,12 @@ class RemoteServer {
   RemoteServer(const RemoteServer&) = delete;
   RemoteServer& operator=(const RemoteServer&) = delete;
 
-  // Any answer is one; redirections are not followed. kIo where there is none.
+  // Sends a request and returns the answer. Any HTTP status counts as an answer; redirections are
+  // not followed. kIo if there is no answer.
   Expected<RemoteAnswer> ask(const RemoteRequest& request);
 
-  // The head of the answer to a request without a body whose connection is to become something
-  // else; a connection of its own.
+  // Sends an upgrade request without a body, on a new connection, and returns the head of the
+  // answer.
   Expected<std::string> upgrade(const RemoteRequest& request);
 
  private:
@@ -73,7 +76,8 @@ class RemoteServer {
   std::unique_ptr<Handle> handle_;
 };
 
-// "http://host:port" or "https://…" of a URL, without a path; empty where it is none.
+// Returns the origin of a URL, "http://host:port" or "https://host:port"; empty if the text is not
+// an HTTP URL.
 std::string origin_of(std::string_view url);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Exponential back-off with random pauses.
 #pragma once
 
 #include <algorithm>
@@ -7,18 +8,19 @@
 #include <random>
 #include <thread>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// How often something is tried and how long to wait in between: at random up to a bound that
-// doubles, so that the many who failed together do not come back together.
+// The number of attempts and the pauses between them. Each pause is random, up to a bound that
+// doubles with each failure, so that clients that failed at the same time do not retry at the same
+// time.
 struct Backoff {
   int attempts = 5;
-  std::chrono::milliseconds first{100}, longest{3000};  // bounds
+  std::chrono::milliseconds first{100}, longest{3000};  // bound of the first pause; largest bound
   std::function<void(std::chrono::milliseconds)> pause = [](std::chrono::milliseconds time) {
     std::this_thread::sleep_for(time);
   };
 
-  // After the `failures`th failure, counted from 1.
+  // Pauses after failure number `failures`, counted from 1.
   void wait(int failures) const {
     thread_local std::minstd_rand random{std::random_device()()};
     const auto bound = std::min(longest, first * (1 << std::min(failures - 1, 16)));
@@ -27,4 +29,4 @@ struct Backoff {
   }
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

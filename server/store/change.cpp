@@ -7,7 +7,7 @@
 #include "server/store/published_model.h"
 #include "server/store/stored_file.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -22,8 +22,8 @@ PublicPart part_of(const StoredFile& stored, std::uint32_t max_level) {
           .vertices = manifest.levels.back().vertices};
 }
 
-// What is about to lose its name stays for the grace of a collection: somebody may have read the
-// record and not opened the files yet.
+// Starts the grace period of a model's files. The caller does this before it removes the references
+// to them, because a reader may have read the record but not opened the files yet.
 Expected<void> let_go(ObjectStore& store, const ModelRecord& record) {
   if (auto begun = store.begin_grace(record.file); !begun || !record.public_part) return begun;
   return store.begin_grace(record.public_part->file);
@@ -35,25 +35,25 @@ Expected<Bytes> read_file(const ObjectStore& store, const ModelRecord& record) {
   return (*model)->read((*model)->whole());
 }
 
-// A file of a model that is to be stored.
-struct Part {
+// A .pmesh file that will be stored.
+struct FileToStore {
   Bytes bytes;
   StoredFile file;
 };
 
-// What is public of `pmesh`; nothing where all of it is.
-Expected<std::optional<Part>> public_part(const ModelRecord& record,
-                                          std::span<const std::uint8_t> pmesh) {
+// Returns the public part of `pmesh`, or nullopt if the whole model is public.
+Expected<std::optional<FileToStore>> public_part(const ModelRecord& record,
+                                                 std::span<const std::uint8_t> pmesh) {
   if (!record.public_part) return std::nullopt;
   auto cut = with_header(pmesh, {.last_level = record.public_part->max_level, .unit = {}});
   if (!cut) return tl::unexpected(cut.error());
   auto file = to_be_stored(*cut);
   if (!file) return tl::unexpected(file.error());
-  return Part{std::move(*cut), std::move(*file)};
+  return FileToStore{std::move(*cut), std::move(*file)};
 }
 
-// Has `pmesh` be the file of the model, and as much of it public as `record` says, which is written
-// over `before`; the chunks are those of what is public.
+// Stores `pmesh` and its public part, which `record` defines, as the model's files. Updates the
+// catalogue from `before` to `record`. The chunks in the catalogue are those of the public part.
 Expected<void> store_files(ObjectStore& store, Catalogue& catalogue, const ExclusiveLock& lock,
                            const ModelRecord& before, ModelRecord& record,
                            std::span<const std::uint8_t> pmesh, const PublishAs& as) {
@@ -81,7 +81,7 @@ void take_text(std::string& text, const std::string& given) {
   if (!given.empty()) text = given;
 }
 
-// Those that are given.
+// Returns the record with the texts that `metadata` contains; other texts stay.
 ModelRecord with_texts(ModelRecord record, const ModelMetadata& metadata) {
   take_text(record.title, metadata.title);
   take_text(record.creator, metadata.creator);
@@ -111,7 +111,7 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
   if (auto good = check_texts(metadata); !good) return tl::unexpected(good.error());
   const auto lock = store.lock();
   if (!lock) return tl::unexpected(lock.error());
-  std::optional<Error> refused;  // of the version that was tried last
+  std::optional<Error> refused;  // error of the last attempt
   for (std::uint64_t tried = 0;;) {
     const auto found = catalogue.find(as.id.value_or(ModelId()));
     if (!found) return tl::unexpected(found.error());
@@ -121,7 +121,8 @@ Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
     if (as.state == ModelState::kPublished) record.state = as.state;
     const auto done = store_files(store, catalogue, **lock, **found, record, pmesh, as);
     if (done) return Publication{.id = record.id};
-    // Who publishes or hides it meanwhile holds no lock: then it is replaced as it is now.
+    // Catalogue::set_state() does not need the lock. If it has changed the model meanwhile, the
+    // loop tries again with the new version.
     if (done.error().code != ErrorCode::kState) return tl::unexpected(done.error());
     refused = done.error();
     tried = (*found)->version;
@@ -170,4 +171,4 @@ Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const Mod
   return record;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may be changed of a model that is there.
+// Changes a stored model: its content, its texts and its public part.
 #pragma once
 
 #include "server/store/publish.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// The record as visitors without a token may see it.
+// Returns the record as visitors without a token may see it: with the public part as its file.
 ModelRecord public_view(ModelRecord record);
 
-// Puts other bytes in the model's place: its id stays, its texts where `metadata` has none, what
-// visitors may see of it, and that it is published. kState where there is no such model.
+// Replaces the file of the model `as.id` by `pmesh`, and those of its texts that `metadata`
+// contains. The model's other texts and its public level stay. Publishes a draft if `as.state` is
+// kPublished. kState if the model does not exist.
 Expected<Publication> replace(ObjectStore& store, Catalogue& catalogue,
                               std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
                               const PublishAs& as);
 
-// Writes `wanted` over the record that it was made of: texts, unit, accuracy and public_part's
-// max_level; all else in it does not matter. Where the unit or what is public changes, so do the
-// files. kState where somebody else has changed the model meanwhile, kLimit where they do not fit.
+// Changes a model and returns its new record. Takes the texts, the unit, the accuracy and the
+// max_level of public_part from `wanted`, and ignores its other members. Rewrites the model's files
+// if the unit or the public part changes. kState if another caller has changed the model meanwhile,
+// kLimit if the files exceed `quota`.
 Expected<ModelRecord> change(ObjectStore& store, Catalogue& catalogue, const ModelRecord& wanted,
                              Quota* quota = nullptr);
 
-// Takes a model away. kState where there is none, or its version is another than the one that is
-// stated.
+// Removes a model. kState if the model does not exist, or if `version` is given and is not the
+// model's version.
 Expected<void> remove(ObjectStore& store, Catalogue& catalogue, const ModelId& id,
                       std::optional<std::uint64_t> version);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Locks on open files and folders.
 #pragma once
 
 #include <fcntl.h>
@@ -12,10 +13,11 @@
 #include "codec/files/file_descriptor.h"
 #include "server/catalogue/exclusive_lock.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Waits until nobody else, in any process, holds the lock of the open file, and takes it; it goes
-// with the descriptor. False where the file system refuses; errno says why.
+// Waits for the lock on an open file and acquires it. The lock is released when the descriptor is
+// closed. It excludes other processes and other descriptors of this process. Returns false and sets
+// errno if the file system refuses.
 inline bool lock_file(int fd) {
   while (::flock(fd, LOCK_EX) != 0) {
     if (errno != EINTR) return false;
@@ -23,7 +25,7 @@ inline bool lock_file(int fd) {
   return true;
 }
 
-// Of a file system: it is held as long as it exists.
+// A lock on a folder, held until the object is destroyed.
 class FolderLock final : public ExclusiveLock {
  public:
   explicit FolderLock(FileDescriptor folder) : folder_(std::move(folder)) {}
@@ -33,12 +35,12 @@ class FolderLock final : public ExclusiveLock {
   const FileDescriptor folder_;
 };
 
-// The same of a folder, until the last copy of the result is gone. Null where the file system
-// refuses; errno says why.
+// Waits for the lock on a folder and acquires it. The lock is released when the last copy of the
+// result is destroyed. Returns null and sets errno if the file system refuses.
 inline std::shared_ptr<const ExclusiveLock> lock_folder(const std::filesystem::path& folder) {
   FileDescriptor held(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!held || !lock_file(held.get())) return nullptr;
   return std::make_shared<FolderLock>(std::move(held));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

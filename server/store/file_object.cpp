@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 class FileObject final : public Object {
@@ -52,4 +52,4 @@ std::unique_ptr<Object> object_in(FileDescriptor file, std::uint64_t size) {
   return std::make_unique<FileObject>(std::move(file), size);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

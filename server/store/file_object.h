@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// An object of the store whose bytes are in a file.
 #pragma once
 
 #include <memory>
@@ -6,9 +7,9 @@
 #include "codec/files/file_descriptor.h"
 #include "server/store/object_store.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// The object whose bytes are all of an open file.
+// Returns the object in `file`, which is open for reading and contains exactly `size` bytes.
 std::unique_ptr<Object> object_in(FileDescriptor file, std::uint64_t size);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

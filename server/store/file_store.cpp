@@ -15,7 +15,7 @@
 #include "server/store/file_lock.h"
 #include "server/store/file_object.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,14 +25,15 @@ Unexpected refused(const char* what, const fs::path& path, const char* why) {
               fmt::format("cannot {} {}: {}; check the data folder", what, path.string(), why));
 }
 
-// Without the path, which is not for those who send the bytes.
+// Returns the error for a full disk. The message omits the path, because clients that upload see
+// the message.
 Unexpected full() {
   return fail(ErrorCode::kLimit,
               fmt::format("cannot store a file: {}; free some space or choose another data folder",
                           std::strerror(ENOSPC)));
 }
 
-// Where a disk does not give them back they are not there.
+// Whether the object can be read and contains exactly these bytes.
 bool holds(const Object& object, std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kPiece = 1 << 18;
   if (object.size() != bytes.size()) return false;
@@ -45,7 +46,7 @@ bool holds(const Object& object, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-// Creates `folder` below `parent`; both names are durable afterwards.
+// Creates a folder unless it exists. The new folder survives a power failure.
 Expected<void> create_folder(const fs::path& folder) {
   if (::mkdir(folder.c_str(), 0777) == 0) return sync_folder(folder.parent_path());
   if (errno == EEXIST) return {};
@@ -57,7 +58,8 @@ bool is_temporary(const fs::path& path) {
   return path.filename().string().starts_with('.');
 }
 
-// The time of an object's last change is when its grace began.
+// Whether a sweep removes the file: it is temporary, or it is an object that is not in `keep` and
+// whose grace period has ended. The grace period starts at the file's last modification time.
 bool is_unnamed(const fs::path& path, const std::set<Sha256>& keep, std::chrono::seconds grace) {
   if (is_temporary(path)) return true;
   Sha256 name{};
@@ -162,4 +164,4 @@ Expected<std::unique_ptr<Object>> FileStore::open(const Sha256& name) const {
   return object_in(std::move(fd), static_cast<std::uint64_t>(status.st_size));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

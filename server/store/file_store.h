@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object store in a folder: ROOT/ab/cd/abcd….
+// The object store in a folder. The object with the name abcd… is the file ROOT/ab/cd/abcd….
 #pragma once
 
 #include <filesystem>
 
 #include "server/store/object_store.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 class FileStore final : public ObjectStore {
  public:
-  // Creates the folder where it is missing. Fails (kIo) where that is refused.
+  // Opens the store in the folder `root`. Creates the folder if it is missing. Fails with kIo.
   static Expected<FileStore> open(const std::filesystem::path& root);
 
   Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
@@ -29,4 +29,4 @@ class FileStore final : public ObjectStore {
   std::filesystem::path root_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

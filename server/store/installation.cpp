@@ -18,23 +18,23 @@
 #include "server/store/file_store.h"
 #include "server/store/s3_store.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* kNextStep = "give the folder of an installation, or start vitrined with ";
 
-// What may lie in a data folder before its catalogue does: what an interrupted start leaves, the
-// demo's scanner, and what is at the root of a disk.
+// Whether a folder that is not an installation yet may contain this entry. Such entries are remains
+// of an interrupted start, the demo's scanner, and "lost+found" at the root of a disk.
 bool may_come_first(std::string_view name) {
   constexpr std::array<std::string_view, 4> kNames{"objects", kDaemonLock, "demo", "lost+found"};
   return std::ranges::count(kNames, name) > 0;
 }
 
 struct OpenCatalogue {
-  std::shared_ptr<sql::Database> database, jobs;  // SQLite: connections of their own
-  TakeLock lock;                                  // of all who use it
+  std::shared_ptr<sql::Database> database, jobs;  // with SQLite, two connections
+  TakeLock lock;                                  // the lock that all users of the store share
 };
 
 Expected<OpenCatalogue> open_in_folder(const fs::path& folder) {
@@ -75,7 +75,7 @@ Expected<std::unique_ptr<ObjectStore>> open_store(const InstallationPlace& place
 }  // namespace
 
 Expected<void> check_installation(const fs::path& folder) {
-  std::error_code unknown;  // is as good as not there: then the folder above is looked at
+  std::error_code unknown;  // on an error, continues with the parent folder
   fs::path made = folder / kCatalogueFile;
   while (!fs::exists(folder_of(made), unknown) && made != folder_of(made))
     made = folder_of(made);
@@ -97,7 +97,7 @@ Expected<void> check_data_folder(const fs::path& folder) {
   fs::directory_iterator at(folder, error);
   for (; !error && at != fs::directory_iterator(); at.increment(error)) {
     if (may_come_first(at->path().filename().string())) continue;
-    return fail(ErrorCode::kIo, folder.string() + " holds other things and no catalogue; " +
+    return fail(ErrorCode::kIo, folder.string() + " contains other files and no catalogue; " +
                                     kNextStep + "an empty one once");
   }
   if (!error) return {};
@@ -117,8 +117,11 @@ Expected<Installation> open_installation(const InstallationPlace& place) {
   if (!catalogue) return tl::unexpected(catalogue.error());
   auto store = open_store(place, catalogue->lock);
   if (!store) return tl::unexpected(store.error());
-  return Installation{place, std::move(*store), make_catalogue(catalogue->database),
-                      make_jobs(catalogue->jobs), catalogue->database};
+  return Installation{.place = place,
+                      .store = std::move(*store),
+                      .catalogue = make_catalogue(catalogue->database),
+                      .jobs = make_jobs(catalogue->jobs),
+                      .database = catalogue->database};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an installation is made of: a data folder (objects/, catalogue.sqlite, and scans/ where
-// there are any), and in the place of its objects a bucket, of its catalogue a PostgreSQL database.
+// An installation of Vitrine is a data folder with objects/, catalogue.sqlite and, if there are
+// scans, scans/. An S3 bucket can replace objects/, and a PostgreSQL database can replace
+// catalogue.sqlite.
 #pragma once
 
 #include <filesystem>
@@ -12,41 +13,43 @@
 #include "server/catalogue/sql.h"
 #include "server/store/object_store.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-inline constexpr const char* kCatalogueFile = "catalogue.sqlite";  // below the data folder
-inline constexpr const char* kDaemonLock = "daemon.lock";          // likewise
+inline constexpr const char* kCatalogueFile = "catalogue.sqlite";  // in the data folder
+inline constexpr const char* kDaemonLock = "daemon.lock";          // locked by a running daemon
 
 struct InstallationPlace {
   std::filesystem::path folder;
-  std::string store = {}, catalogue = {};  // s3://… and postgresql://…; empty: in the folder
-  std::string access_key = {}, secret_key = {};  // of the store
+  std::string store = {}, catalogue = {};  // s3://…, postgresql://…; empty: inside `folder`
+  std::string access_key = {}, secret_key = {};  // credentials for an s3:// store
 };
 
 struct Installation {
   InstallationPlace place;
   std::unique_ptr<ObjectStore> store;
   std::unique_ptr<Catalogue> catalogue;
-  std::unique_ptr<JobCatalogue> jobs;       // in the same database
-  std::shared_ptr<sql::Database> database;  // in which all of that is
+  std::unique_ptr<JobCatalogue> jobs;       // the jobs and scans, in `database`
+  std::shared_ptr<sql::Database> database;  // the catalogue's database
 };
 
-// Whether the folder, or the one that it would be made in, can be written to. Creates nothing.
-// Fails (kIo) with the cause.
+// Checks that the folder is writable, or, if it does not exist, that it can be created. Creates
+// nothing. Fails with kIo.
 Expected<void> check_installation(const std::filesystem::path& folder);
 
-// The folder is there afterwards. Fails (kIo) with the cause.
+// Creates the folder if it is missing. Fails with kIo.
 Expected<void> make_data_folder(const std::filesystem::path& folder);
 
-// Whether the folder is an installation, or may become one: it exists and nothing else is in it. So
-// a mistyped name makes no installation that nobody serves. Fails (kIo) with the next step.
+// Checks that the folder is an installation, or contains only files that may be there before one is
+// created. Otherwise a mistyped name would create an installation that no daemon serves. Fails with
+// kIo.
 Expected<void> check_data_folder(const std::filesystem::path& folder);
 
-// Whether the place makes sense, before anything is asked of it. Fails with kBadInput.
+// Checks the form of the addresses without connecting. Fails with kBadInput.
 Expected<void> check_place(const InstallationPlace& place);
 
-// Creates what is missing, but for buckets and databases. Several processes may open the same
-// place. Fails with kBadInput where it makes no sense, and with kIo.
+// Opens the installation. Creates missing parts, except buckets and databases. Several processes
+// may open the same installation. kBadInput if an address is malformed, kIo if a part cannot be
+// opened.
 Expected<Installation> open_installation(const InstallationPlace& place);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -12,7 +12,7 @@
 #include "codec/files/atomic_file.h"
 #include "server/store/file_object.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 Error refused(int error) {
@@ -62,4 +62,4 @@ Expected<std::unique_ptr<Object>> LocalCopy::finish(const Sha256& name) && {
   return object_in(std::move(file_), size_);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

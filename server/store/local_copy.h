@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that arrive from elsewhere, in a file without a name: it is gone with its last reader.
+// A local copy of a remote object, in an unnamed file. The system deletes the file when its last
+// reader closes it.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +13,18 @@
 #include "codec/files/file_descriptor.h"
 #include "server/store/object_store.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 class LocalCopy {
  public:
-  // In that folder. Fails (kIo) where that is refused.
+  // Creates an empty copy in `folder`. Fails with kIo.
   static Expected<LocalCopy> create(const std::filesystem::path& folder);
 
-  void restart();                                    // with none
-  bool append(std::span<const std::uint8_t> bytes);  // false where the disk refuses
+  void restart();                                    // discards the bytes received so far
+  bool append(std::span<const std::uint8_t> bytes);  // returns false on a disk error
   std::optional<Error> fault() const { return fault_; }
 
-  // The object of what has come; null where that has another name.
+  // Returns an object with the received bytes. Null if their SHA-256 differs from `name`.
   Expected<std::unique_ptr<Object>> finish(const Sha256& name) &&;
 
  private:
@@ -34,4 +35,4 @@ class LocalCopy {
   std::optional<Error> fault_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 
-#include "codec/progressive/manifest.h"
+#include "codec/format/manifest.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// Levels take turns at rounding, counted from the finest: what is cut off is an even number of
-// them, one more where need be, unless nothing but the base is left.
+// Removes the levels finer than `last_level` and their chunks. Rounding alternates between levels,
+// counted from the finest, so an even number of levels must be removed. If necessary, removes one
+// more level, but never the base.
 void cut(Manifest& manifest, std::uint32_t last_level) {
   const std::size_t all = manifest.levels.size();
   std::size_t levels = std::min<std::size_t>(last_level + 1ull, all);
@@ -36,4 +37,4 @@ Expected<std::vector<std::uint8_t>> with_header(std::span<const std::uint8_t> pm
   return file;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A .pmesh whose header says something else of the same chunks.
+// Rewrites the header of a .pmesh file without changing its chunks.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,18 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct HeaderChange {
-  std::optional<std::uint32_t> last_level;  // finer ones are left out, and
-                                            // this one, too, where their number is odd
+  // Removes the levels finer than this one. If their number is odd, removes this level, too, unless
+  // it is the base. Nullopt keeps all levels.
+  std::optional<std::uint32_t> last_level;
   std::optional<std::string> unit;
 };
 
-// Fails with kBadInput where the header is damaged or a chunk is missing.
+// Returns the bytes of `pmesh` with the changed header, without the removed chunks. kBadInput if
+// the header is damaged or a chunk is missing.
 Expected<std::vector<std::uint8_t>> with_header(std::span<const std::uint8_t> pmesh,
                                                 const HeaderChange& change);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Immutable objects named by the SHA-256 of their bytes. Nothing is ever overwritten: what changes
-// is the catalogue's row that names an object.
+// The object store. It contains immutable objects, each named by the SHA-256 of its bytes. An
+// object is never overwritten. To change a model's file, the catalogue refers to a new object.
 #pragma once
 
 #include <chrono>
@@ -15,21 +15,21 @@
 #include "codec/core/sha256.h"
 #include "server/catalogue/exclusive_lock.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// An object that is open for reading. It stays readable until destroyed, whatever happens to the
-// store meanwhile. Safe to use from several threads at once.
+// An object that is open for reading. It stays readable until it is destroyed, even if the store
+// removes it. Safe to use from several threads at once.
 class Object {
  public:
   virtual ~Object() = default;
 
   virtual std::uint64_t size() const = 0;
 
-  // Fills `out` from `offset`. Fails (kIo) unless offset + out.size() <= size().
+  // Fills `out` with the bytes from `offset` on. kIo if they extend beyond the object's end.
   virtual Expected<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const = 0;
 
-  // A descriptor for sendfile(2), owned by the object; nothing where the object is in no file. Its
-  // file position is shared: give sendfile an explicit offset.
+  // Returns a descriptor for sendfile(2), owned by the object, or nullopt if the object is not in a
+  // file. The descriptor's file position is shared, so give sendfile an explicit offset.
   virtual std::optional<int> descriptor() const { return std::nullopt; }
 
   Expected<std::vector<std::uint8_t>> read(std::uint64_t offset, std::uint64_t length) const;
@@ -40,36 +40,38 @@ class ObjectStore {
  public:
   virtual ~ObjectStore() = default;
 
-  // Stores `bytes` durably and under `name`, or not at all. False where they were there already,
-  // and nothing changes; what is there and damaged is replaced. Fails with kBadInput where the
-  // bytes do not have that name, kLimit where the disk is full, kIo where it refuses.
+  // Stores `bytes` durably as the object `name`, completely or not at all. Returns true if the
+  // object was written, false if it existed undamaged. Replaces a damaged object. kBadInput if
+  // `name` is not the SHA-256 of the bytes, kLimit if the disk is full, kIo if the store fails
+  // otherwise.
   virtual Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) = 0;
 
-  // Whoever puts an object and has it named, or takes it away, holds this meanwhile, and checks it
-  // before either: nobody else, in this process or another, does so until it is destroyed or lost.
+  // Acquires the store's lock, which only one process holds at a time. A caller must hold the lock
+  // while it stores an object and adds a reference to the catalogue, or while it removes an object.
+  // The lock may be lost, so the caller checks it before each step.
   virtual Expected<std::shared_ptr<const ExclusiveLock>> lock() = 0;
 
-  // Takes the object away; that there is none is no fault. Fails (kIo) where the disk refuses.
+  // Removes the object, if it exists. Fails with kIo.
   virtual Expected<void> remove(const Sha256& name) = 0;
 
-  // Has the object's grace begin now: it is about to lose its name, and somebody may be on the way
-  // to it. That there is none is no fault. Call it with the lock held. Fails (kIo) where the disk
-  // refuses.
+  // Starts the object's grace period again, if the object exists. The caller does this before it
+  // removes a reference to the object, because a client may be about to read it. The caller holds
+  // the lock. Fails with kIo.
   virtual Expected<void> begin_grace(const Sha256& name) = 0;
 
-  // Takes away what `keep` does not name and whose grace is over, counted from when it was put or
-  // begin_grace() was called, and what interrupted puts have left; the number of objects. Call it
-  // with the lock held. Fails (kIo) where the disk refuses, or once the lock is lost; then some are
-  // gone and some are not.
+  // Removes remains of interrupted puts, and unreferenced objects whose grace period has ended.
+  // Objects in `keep` are referenced. The grace period counts from put() or begin_grace(). Returns
+  // the number of objects removed. The caller holds the lock. kIo if the store fails; some objects
+  // may have been removed before.
   virtual Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                       const ExclusiveLock& lock) = 0;
 
-  // Null where there is no such object. Of a remote store it is fetched: its bytes are those of its
-  // name.
+  // Opens an object; null if it does not exist. A remote store downloads the object and checks its
+  // SHA-256.
   virtual Expected<std::unique_ptr<Object>> open(const Sha256& name) const = 0;
 
-  // Without opening it; nothing where there is no such object.
+  // Returns the size of an object without opening it; nullopt if the object does not exist.
   virtual Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

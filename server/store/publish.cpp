@@ -6,7 +6,7 @@
 #include "server/store/stored_file.h"
 #include "server/store/text.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 std::int64_t now_in_milliseconds() {
@@ -37,20 +37,22 @@ Expected<void> check_text(const char* name, const std::string& text) {
                                         "another");
 }
 
-// A draft is nobody's copy: only what is published already is not published again.
+// Returns the model with this ID, or else a published model with the same file and texts, which
+// need not be published again. Drafts are always added as new models.
 Expected<std::optional<ModelRecord>> find_earlier(Catalogue& catalogue, const ModelRecord& record) {
   auto same = catalogue.find(record.id);
   if (!same || *same || record.state == ModelState::kDraft) return same;
   return catalogue.find_same(record);
 }
 
-// Names the stored file in the catalogue.
+// Adds the model of the stored file to the catalogue.
 Expected<Publication> add(Catalogue& catalogue, const ModelRecord& record, const StoredFile& stored,
                           const std::optional<JobClaim>& by) {
   const auto same = find_earlier(catalogue, record);
   if (!same) return tl::unexpected(same.error());
   if (*same) {
-    // Whoever holds the file that was lost or damaged opens it anew.
+    // If the file was lost or damaged, setting the state again changes the revision, so that
+    // readers reopen the repaired file.
     const bool is_mended = stored.is_new || stored.is_repaired;
     const auto told =
         is_mended ? catalogue.set_state((*same)->id, (*same)->state) : Expected<void>{};
@@ -90,10 +92,10 @@ Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
   if (auto stored = store_file(store, *file, pmesh); !stored) return tl::unexpected(stored.error());
   if (auto held = (*lock)->check(); !held) return tl::unexpected(held.error());
   auto published = add(catalogue, record, *file, as.by);
-  // Where the catalogue did not answer, it may name the file all the same.
+  // On kIo, the catalogue may have added the reference to the file before the error.
   const bool is_unnamed = !published && published.error().code != ErrorCode::kIo;
   if (is_unnamed && file->is_new && (*lock)->check()) static_cast<void>(store.remove(file->name));
   return published;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

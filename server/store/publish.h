@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From .pmesh bytes to a model that visitors can open.
+// Publishes the bytes of a .pmesh file as a model that visitors can open.
 #pragma once
 
 #include <cstdint>
@@ -11,38 +11,40 @@
 #include "server/store/object_store.h"
 #include "server/store/quota.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct ModelMetadata {
   std::string title, creator, rights, licence;
-  std::map<std::string, std::string> more = {};  // as in ModelRecord
+  std::map<std::string, std::string> more = {};  // ModelRecord::more
 };
 
-// kBadInput where one is not a short line of UTF-8.
+// Checks that each text is a short line of UTF-8. Fails with kBadInput.
 Expected<void> check_texts(const ModelMetadata& metadata);
 
 struct PublishAs {
   ModelState state = ModelState::kPublished;
-  // Where a model has this id already, it is the result: who is interrupted tries again with the
-  // same id. Nothing: a new one.
+  // ID of the new model; nullopt: generate one. If a model with this ID exists, publish() returns
+  // that model, so that an interrupted caller can retry with the same ID.
   std::optional<ModelId> id = std::nullopt;
-  Quota* quota = nullptr;  // that the files have to fit into; null: there is none
-  std::optional<UploadId> upload = std::nullopt;  // of which they are made, and which goes then
-  std::optional<JobClaim> by = std::nullopt;      // the job that publishes, while it is held
+  Quota* quota = nullptr;  // limits the files' size; null: no limit
+  // The upload from which the files were made. It does not count towards the quota, because it is
+  // removed afterwards.
+  std::optional<UploadId> upload = std::nullopt;
+  std::optional<JobClaim> by = std::nullopt;  // claim of the job that publishes
 };
 
 struct Publication {
   ModelId id;
-  bool is_new = true;  // false: this model was there already
+  bool is_new = true;  // false if the model existed already
 };
 
-// Stores the file, reads it back from the store to check the header and the SHA-256 of the base and
-// of every chunk, and then adds the model in one transaction: a crash at any point leaves at most
-// an object that nothing names, and a failure not even that. To publish the same bytes under the
-// same texts gives the model that is published already, and repairs its file where that is lost or
-// damaged. Fails with kBadInput where the file is damaged, kLimit where it does not fit.
+// Publishes a .pmesh file. Stores the file, reads it back, and checks the header and the SHA-256 of
+// the base and of every chunk. Then adds the model to the catalogue in one transaction. A failure
+// leaves nothing in the store; a crash leaves at most an unreferenced object. If the same bytes are
+// already published with the same texts, returns that model and repairs its file if it is lost or
+// damaged. kBadInput if the file is damaged, kLimit if the disk is full or the quota is exhausted.
 Expected<Publication> publish(ObjectStore& store, Catalogue& catalogue,
                               std::span<const std::uint8_t> pmesh, const ModelMetadata& metadata,
                               const PublishAs& as = {});
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -11,12 +11,14 @@
 
 #include "server/store/change.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-constexpr std::size_t kMaxOpenModels = 256;      // each holds a descriptor
-constexpr std::chrono::minutes kGoOnFor{15};     // without the catalogue
-constexpr std::chrono::milliseconds kSoon{250};  // within which it answers unless it is away
+constexpr std::size_t kMaxOpenModels = 256;  // most cached models; each keeps a file open
+// How long cached models are served while the catalogue is unreachable.
+constexpr std::chrono::minutes kUnreachableFor{15};
+// A catalogue that takes longer to respond counts as unreachable.
+constexpr std::chrono::milliseconds kResponseTime{250};
 
 Unexpected damaged(const ModelRecord& record, std::string_view why) {
   return fail(ErrorCode::kState, fmt::format("model {} cannot be served: {}; publish it again",
@@ -29,12 +31,12 @@ Expected<Manifest> read_manifest(const Object& file, const ModelRecord& record) 
   auto manifest = parse_header(*head);
   if (!manifest) return damaged(record, manifest.error().message);
   if (manifest->file_bytes != file.size() || manifest->head_bytes() != record.head_bytes) {
-    return damaged(record, "its file has another length than its header says");
+    return damaged(record, "the length of its file differs from the length in the header");
   }
   return manifest;
 }
 
-// The indices of the chunks in the order of their names.
+// Returns the indices of the chunks, sorted by SHA-256.
 std::vector<std::uint32_t> by_name(const std::vector<ChunkInfo>& chunks) {
   std::vector<std::uint32_t> order(chunks.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -42,7 +44,7 @@ std::vector<std::uint32_t> by_name(const std::vector<ChunkInfo>& chunks) {
   return order;
 }
 
-// What holding it costs: the manifest, and where each chunk is found.
+// Returns the memory, in bytes, for the manifest and the index of its chunks.
 std::uint64_t memory_of(const Manifest& manifest) {
   constexpr std::uint64_t kEntry =
       sizeof(Sha256) + sizeof(PublishedChunk) + 4 * sizeof(void*) + sizeof(std::uint32_t);
@@ -63,7 +65,7 @@ std::size_t first_word(const Value& value) {
   return word;
 }
 
-// As the view shows it; nothing where it does not.
+// Returns the whole record, or its public view. Nullopt if the public view of a draft is requested.
 std::optional<ModelRecord> shown(ModelRecord record, bool is_whole) {
   if (is_whole) return record;
   if (record.state != ModelState::kPublished) return std::nullopt;
@@ -99,18 +101,19 @@ std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const 
   return first_word(sha256);
 }
 
-std::size_t PublishedModels::HashOfView::operator()(const View& view) const noexcept {
-  std::array<std::uint8_t, 8> random;  // the last bytes; the first are the time
-  std::copy(view.id.bytes().begin() + 8, view.id.bytes().end(), random.begin());
-  return first_word(random) + (view.is_whole ? 1 : 0);
+std::size_t PublishedModels::HashOfScope::operator()(const Scope& scope) const noexcept {
+  std::array<std::uint8_t, 8> random;  // the ID's last bytes; the first ones are its time
+  std::copy(scope.id.bytes().begin() + 8, scope.id.bytes().end(), random.begin());
+  return first_word(random) + (scope.is_whole ? 1 : 0);
 }
 
 bool PublishedModels::is_fresh(Clock::time_point now, Clock::duration age) const {
   return checked_ != Clock::time_point{} && now - checked_ < age;
 }
 
-// Asked once in each half of the staleness, so that the many who come never have to wait for the
-// catalogue all at once.
+// Whether a caller may use the cache without a check of the catalogue. A check is due after half of
+// staleness_. Runs the check in the background, or, without refresh_by(), returns false to one
+// caller, which makes the check while the others continue.
 bool PublishedModels::may_show(Clock::time_point now) {
   if (!is_fresh(now, staleness_)) return false;
   auto due = due_.load(std::memory_order_relaxed);
@@ -126,17 +129,19 @@ void PublishedModels::count_hit(const PublishedModel& model, Clock::time_point n
   hits.fetch_add(1, std::memory_order_relaxed);
 }
 
-bool PublishedModels::may_go_on(Clock::time_point now) const {
-  return known_ != Clock::time_point{} && now - known_ < kGoOnFor;
+bool PublishedModels::may_use_cache(Clock::time_point now) const {
+  return known_ != Clock::time_point{} && now - known_ < kUnreachableFor;
 }
 
-// While one waits for a catalogue that is away, the others go on.
+// Drops changed models from the cache. While one caller waits for an unreachable catalogue, the
+// others use the cache.
 Expected<void> PublishedModels::forget_if_changed() {
   const auto now = Clock::now();
   {
     const Clock::time_point asking(Clock::duration(asking_.load()));
     const std::shared_lock lock(mutex_);
-    if (asking != Clock::time_point{} && now - asking > kSoon && may_go_on(now)) return {};
+    if (asking != Clock::time_point{} && now - asking > kResponseTime && may_use_cache(now))
+      return {};
   }
   Clock::rep nobody = 0;
   const bool is_first = asking_.compare_exchange_strong(nobody, now.time_since_epoch().count());
@@ -144,7 +149,7 @@ Expected<void> PublishedModels::forget_if_changed() {
   if (is_first) asking_ = 0;
   if (asked) return asked;
   const std::unique_lock lock(mutex_);
-  if (!may_go_on(now)) return asked;
+  if (!may_use_cache(now)) return asked;
   checked_ = Clock::now();
   due_ = (checked_ + staleness_ / 2).time_since_epoch().count();
   return {};
@@ -152,7 +157,7 @@ Expected<void> PublishedModels::forget_if_changed() {
 
 Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   std::uint64_t refreshed = 0, before = 0;
-  std::vector<Model> held;
+  std::vector<ModelPointer> held;
   {
     const std::shared_lock lock(mutex_);
     if (is_fresh(now, staleness_ / 2)) return {};
@@ -163,7 +168,7 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   if (!revision) return tl::unexpected(revision.error());
   if (*revision != before) {
     const std::shared_lock lock(mutex_);
-    for (const auto& [view, entry] : models_)
+    for (const auto& [scope, entry] : models_)
       held.push_back(entry.model);
   }
   const auto kept = unchanged(held);
@@ -175,17 +180,17 @@ Expected<void> PublishedModels::ask_for_changes(Clock::time_point now) {
   }
   if (*revision == revision_) return {};
   revision_ = *revision;
-  // What has come since then may be of the time before.
+  // Models opened meanwhile may be older than the new revision, so they are dropped, too.
   for (auto it = models_.begin(); it != models_.end();)
     it = std::ranges::count(*kept, it->second.model.get()) > 0 ? std::next(it) : drop(it);
   return {};
 }
 
-// Those that are as they were.
+// Returns the models whose versions in the catalogue have not changed.
 Expected<std::vector<const PublishedModel*>> PublishedModels::unchanged(
-    const std::vector<Model>& models) {
+    const std::vector<ModelPointer>& models) {
   std::vector<const PublishedModel*> kept;
-  for (const Model& model : models) {
+  for (const ModelPointer& model : models) {
     const auto record = catalogue_.find(model->record().id);
     if (!record) return tl::unexpected(record.error());
     if (*record && (*record)->version == model->record().version) kept.push_back(model.get());
@@ -193,13 +198,14 @@ Expected<std::vector<const PublishedModel*>> PublishedModels::unchanged(
   return kept;
 }
 
-// One opens it for all who ask meanwhile.
-Expected<PublishedModels::Model> PublishedModels::load(const View& view) {
+// Opens a model unless it is cached. If several callers request it at once, one opens it and the
+// others wait for the result.
+Expected<PublishedModels::ModelPointer> PublishedModels::load(const Scope& scope) {
   std::shared_ptr<Opening> own, other;
   {
     const std::unique_lock lock(mutex_);
-    if (const auto it = models_.find(view); it != models_.end()) return it->second.model;
-    auto& opening = openings_[view];
+    if (const auto it = models_.find(scope); it != models_.end()) return it->second.model;
+    auto& opening = openings_[scope];
     if (opening && opening->revision == revision_ && opening->refreshed == refreshed_) {
       other = opening;
     } else {
@@ -209,31 +215,32 @@ Expected<PublishedModels::Model> PublishedModels::load(const View& view) {
   if (other) return other->result.get();
   misses.fetch_add(1, std::memory_order_relaxed);
   try {
-    own->promise.set_value(open(view));
-  } catch (...) {  // out of memory: for all of them
+    own->promise.set_value(open(scope));
+  } catch (...) {  // out of memory: all waiting callers fail
     own->promise.set_exception(std::current_exception());
   }
   const std::unique_lock lock(mutex_);
-  const auto it = openings_.find(view);
+  const auto it = openings_.find(scope);
   if (it != openings_.end() && it->second == own) openings_.erase(it);
   return own->result.get();
 }
 
-Expected<PublishedModels::Model> PublishedModels::open(const View& view) {
+Expected<PublishedModels::ModelPointer> PublishedModels::open(const Scope& scope) {
   const auto before = catalogue_.revision();
   if (!before) return tl::unexpected(before.error());
-  auto model = open_newest(view);
-  if (model && *model) remember(view, *model, *before);
+  auto model = open_newest(scope);
+  if (model && *model) remember(scope, *model, *before);
   return model;
 }
 
-// Null where the view shows none. A file that was not there may have lost its name, and been
-// collected, since the record was read: a fault is one where the record is the same.
-Expected<PublishedModels::Model> PublishedModels::open_newest(const View& view) {
+// Opens the newest version of a model. Returns null if the scope does not include the model. If the
+// file is missing, the model may have been replaced and its old file removed. Therefore fails only
+// if the record is still the same.
+Expected<PublishedModels::ModelPointer> PublishedModels::open_newest(const Scope& scope) {
   for (std::optional<std::uint64_t> failed;;) {
-    auto record = catalogue_.find(view.id);
+    auto record = catalogue_.find(scope.id);
     if (!record) return tl::unexpected(record.error());
-    auto seen = *record ? shown(std::move(**record), view.is_whole) : std::nullopt;
+    auto seen = *record ? shown(std::move(**record), scope.is_whole) : std::nullopt;
     if (!seen) return nullptr;
     const std::uint64_t version = seen->version;
     auto model = PublishedModel::open(store_, std::move(*seen));
@@ -242,26 +249,27 @@ Expected<PublishedModels::Model> PublishedModels::open_newest(const View& view) 
   }
 }
 
-void PublishedModels::remember(const View& view, const Model& model, std::uint64_t revision) {
+void PublishedModels::remember(const Scope& scope, const ModelPointer& model,
+                               std::uint64_t revision) {
   const std::uint64_t bytes = memory_of(model->manifest());
   const std::unique_lock lock(mutex_);
-  if (revision != revision_) return;  // what was read may be old by now
-  if (bytes > max_bytes_ || models_.contains(view)) return;
+  if (revision != revision_) return;  // the model may have changed meanwhile
+  if (bytes > max_bytes_ || models_.contains(scope)) return;
   model->asked_ = Clock::now().time_since_epoch().count();
-  models_[view] = {model, bytes};
+  models_[scope] = {model, bytes};
   bytes_ += bytes;
-  if (!view.is_whole) tell_chunks(model);
+  if (!scope.is_whole) index_chunks(model);
   make_room();
 }
 
-void PublishedModels::tell_chunks(const Model& model) {
+void PublishedModels::index_chunks(const ModelPointer& model) {
   const Manifest& manifest = model->manifest();
   chunks_.insert({manifest.base_sha256, {model, model->base()}});
   for (std::size_t i = 0; i < manifest.chunks.size(); ++i)
     chunks_.insert({manifest.chunks[i].sha256, {model, model->chunk(i)}});
 }
 
-void PublishedModels::keep_manifest(const Model& model, Document document) {
+void PublishedModels::keep_manifest(const ModelPointer& model, Document document) {
   const std::uint64_t bytes = sizeof document + document.text.size() + document.etag.size();
   auto kept = std::make_shared<const Document>(std::move(document));
   const std::unique_lock lock(mutex_);
@@ -274,8 +282,8 @@ void PublishedModels::keep_manifest(const Model& model, Document document) {
   make_room();
 }
 
-PublishedModels::HeldModels::iterator PublishedModels::drop(HeldModels::iterator held) {
-  const Model model = held->second.model;
+PublishedModels::CachedModels::iterator PublishedModels::drop(CachedModels::iterator held) {
+  const ModelPointer model = held->second.model;
   const auto forget = [&](const Sha256& sha256) {
     const auto [first, last] = chunks_.equal_range(sha256);
     const auto own =
@@ -309,23 +317,23 @@ std::uint64_t PublishedModels::bytes() {
 }
 
 Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find(const ModelId& id) {
-  return find(View{id});
+  return find(Scope{.id = id});
 }
 
 Expected<std::shared_ptr<const PublishedModel>> PublishedModels::find_whole(const ModelId& id) {
-  return find(View{id, true});
+  return find(Scope{.id = id, .is_whole = true});
 }
 
-Expected<PublishedModels::Model> PublishedModels::find(const View& view) {
+Expected<PublishedModels::ModelPointer> PublishedModels::find(const Scope& scope) {
   if (auto fresh = forget_if_changed(); !fresh) return tl::unexpected(fresh.error());
   {
     const std::shared_lock lock(mutex_);
-    if (const auto it = models_.find(view); it != models_.end()) {
+    if (const auto it = models_.find(scope); it != models_.end()) {
       count_hit(*it->second.model, Clock::now());
       return it->second.model;
     }
   }
-  return load(view);
+  return load(scope);
 }
 
 void PublishedModels::refresh() {
@@ -334,25 +342,25 @@ void PublishedModels::refresh() {
   checked_ = known_ = {};
 }
 
-std::shared_ptr<const PublishedModel> PublishedModels::held(const ModelId& id) {
-  return held(View{id});
+std::shared_ptr<const PublishedModel> PublishedModels::cached(const ModelId& id) {
+  return cached(Scope{.id = id});
 }
 
-std::shared_ptr<const PublishedModel> PublishedModels::held_whole(const ModelId& id) {
-  return held(View{id, true});
+std::shared_ptr<const PublishedModel> PublishedModels::cached_whole(const ModelId& id) {
+  return cached(Scope{.id = id, .is_whole = true});
 }
 
-PublishedModels::Model PublishedModels::held(const View& view) {
+PublishedModels::ModelPointer PublishedModels::cached(const Scope& scope) {
   const auto now = Clock::now();
   const std::shared_lock lock(mutex_);
   if (!may_show(now)) return nullptr;
-  const auto it = models_.find(view);
+  const auto it = models_.find(scope);
   if (it == models_.end()) return nullptr;
   count_hit(*it->second.model, now);
   return it->second.model;
 }
 
-std::optional<PublishedChunk> PublishedModels::held_chunk(const Sha256& sha256) {
+std::optional<PublishedChunk> PublishedModels::cached_chunk(const Sha256& sha256) {
   const auto now = Clock::now();
   const std::shared_lock lock(mutex_);
   if (!may_show(now)) return std::nullopt;
@@ -373,9 +381,9 @@ Expected<PublishedChunk> PublishedModels::find_chunk(const Sha256& sha256) {
   if (!*location) return PublishedChunk{};
   const auto model = load({(*location)->model});
   if (!model) return tl::unexpected(model.error());
-  // The model may have got another file since: only its own manifest says what lies where.
+  // The model may have a new file by now, so the position comes from the manifest of that file.
   const auto range = *model ? (*model)->find(sha256) : std::nullopt;
   return range ? PublishedChunk{*model, *range} : PublishedChunk{};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

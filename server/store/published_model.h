@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Models as visitors see them. A model is stored once, as its .pmesh file: the head is the file's
-// first bytes and a chunk is a range of it, so that nothing is on the disk twice and each request
-// is one sendfile(2) from a descriptor that is already open.
+// Published models and their cache. A model is stored as one .pmesh file. Its head is the start of
+// the file, and each chunk is a range of the file. Each request therefore needs one sendfile(2)
+// from a descriptor that is already open.
 #pragma once
 
 #include <atomic>
@@ -13,25 +13,26 @@
 #include <unordered_map>
 #include <vector>
 
-#include "codec/progressive/manifest.h"
+#include "codec/format/manifest.h"
 #include "server/catalogue/catalogue.h"
 #include "server/store/object_store.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct ByteRange {
   std::uint64_t offset = 0, length = 0;
 };
 
-// What has been told of a model, kept to be told again.
+// The JSON text of a model's manifest, with its entity tag.
 struct Document {
   std::string text, etag;
 };
 
-// Immutable. Holds its file open; keep the shared pointer for as long as bytes are being sent.
+// A model that is open for reading. Immutable. Keeps its file open as long as it exists, so hold
+// the shared pointer while bytes are being sent.
 class PublishedModel {
  public:
-  // Fails with kState where the object is missing or is not the file that the record describes.
+  // Opens the file of `record`. kState if the object is missing or does not match the record.
   static Expected<std::shared_ptr<const PublishedModel>> open(const ObjectStore& store,
                                                               ModelRecord record);
 
@@ -44,13 +45,15 @@ class PublishedModel {
   ByteRange chunk(std::size_t index) const {
     return {manifest_.chunks[index].offset, manifest_.chunks[index].length};
   }
-  // Where the chunk or the base of that name lies; nothing where it has none.
+  // Returns the position of the chunk or base with that SHA-256; nullopt if the model does not have
+  // it.
   std::optional<ByteRange> find(const Sha256& sha256) const;
   Expected<std::vector<std::uint8_t>> read(ByteRange range) const {
     return file_->read(range.offset, range.length);
   }
 
-  // Its manifest in the form that the API tells it in. Null before keep_manifest(). Thread-safe.
+  // Returns the manifest as JSON for the API; null before PublishedModels::keep_manifest().
+  // Thread-safe.
   std::shared_ptr<const Document> kept_manifest() const { return std::atomic_load(&told_); }
 
  private:
@@ -59,22 +62,22 @@ class PublishedModel {
 
   ModelRecord record_;
   Manifest manifest_;
-  std::vector<std::uint32_t> by_name_;  // the chunks' indices
+  std::vector<std::uint32_t> by_name_;  // indices of the chunks, sorted by SHA-256
   std::unique_ptr<Object> file_;
   mutable std::shared_ptr<const Document> told_;
-  mutable std::atomic<std::chrono::steady_clock::rep> asked_{0};  // when somebody last asked for it
+  mutable std::atomic<std::chrono::steady_clock::rep> asked_{0};  // time of the last request
 };
 
 struct PublishedChunk {
-  std::shared_ptr<const PublishedModel> model;  // null where there is no such chunk
+  std::shared_ptr<const PublishedModel> model;  // null if no model has the chunk
   ByteRange range;
 };
 
-// The models of an installation, opened on first use, by one for all who ask, and kept:
-// their manifests, and what has been told of those, in `max_bytes` of memory, the least recently
-// asked for dropped first. Thread-safe. What another process publishes is found at once; what it
-// changes or hides is noticed within `staleness`, and all else is kept. While the catalogue is
-// away, what is held is shown on for a quarter of an hour: nobody changes it there.
+// A cache of the models of an installation. The first request for a model opens it; concurrent
+// requests wait. Keeps manifests and their JSON in at most `max_bytes` of memory, and drops the
+// least recently used first. Thread-safe. Finds a model as soon as another process has published
+// it. Notices changes by other processes to cached models within `staleness`. While the catalogue
+// is unreachable, serves cached models for up to 15 minutes.
 class PublishedModels {
  public:
   PublishedModels(const ObjectStore& store, Catalogue& catalogue,
@@ -83,99 +86,104 @@ class PublishedModels {
       : store_(store), catalogue_(catalogue), staleness_(staleness), max_bytes_(max_bytes) {}
 
   void set_capacity(std::uint64_t max_bytes);
-  std::uint64_t bytes();  // held
+  std::uint64_t bytes();  // memory that the cache uses, in bytes
 
-  // Has `post` run what asks the catalogue for news, elsewhere and soon. Before that, held() and
-  // held_chunk() send a visitor now and then. Call it before anybody asks for a model.
+  // Sets the function that runs checks of the catalogue for changes in the background. Without it,
+  // cached() or cached_chunk() returns null from time to time, so that the caller uses find(),
+  // which checks. Call this before the first request.
   using Post = std::function<void(std::function<void()> task)>;
   void refresh_by(Post post) { post_ = std::move(post); }
 
-  // What is public of it. Null where there is no such model or it is a draft.
+  // Returns the public part of a model. Null if the model does not exist or is a draft.
   Expected<std::shared_ptr<const PublishedModel>> find(const ModelId& id);
 
-  // All of a model, drafts too, for those who may see it. Null where there is none.
+  // Returns the whole model, even if it is a draft, for callers with a token. Null if the model
+  // does not exist.
   Expected<std::shared_ptr<const PublishedModel>> find_whole(const ModelId& id);
 
-  // What this process has published or hidden is so from the next call on.
+  // Makes the next call check the catalogue. Call this after this process has changed the
+  // catalogue.
   void refresh();
 
-  // Keeps what is told of the model's manifest as long as the model is held.
+  // Keeps the JSON of the model's manifest as long as the model is cached, if the memory suffices.
   void keep_manifest(const std::shared_ptr<const PublishedModel>& model, Document document);
 
-  // The model or the chunk where it is in memory and known to be current. Waits for neither
-  // catalogue nor disk.
-  std::shared_ptr<const PublishedModel> held(const ModelId& id);
-  std::shared_ptr<const PublishedModel> held_whole(const ModelId& id);
-  std::optional<PublishedChunk> held_chunk(const Sha256& sha256);
+  // Return the model or the chunk if it is cached and known to be current, else null. They wait
+  // neither for the catalogue nor for the disk.
+  std::shared_ptr<const PublishedModel> cached(const ModelId& id);
+  std::shared_ptr<const PublishedModel> cached_whole(const ModelId& id);
+  std::optional<PublishedChunk> cached_chunk(const Sha256& sha256);
 
-  // A chunk or a base mesh of any published model.
+  // Returns a chunk or a base mesh of any published model.
   Expected<PublishedChunk> find_chunk(const Sha256& sha256);
 
-  // Answers from memory, and models that had to be opened.
+  // The number of requests answered from the cache, and the number of models opened.
   std::atomic<std::uint64_t> hits{0}, misses{0};
 
  private:
   struct HashOfHash {
     std::size_t operator()(const Sha256& sha256) const noexcept;
   };
-  // What is seen of a model: what is public, or all of it.
-  struct View {
+  // The part of a model that a caller may see: the public part, or all of it.
+  struct Scope {
     ModelId id;
     bool is_whole = false;
-    bool operator==(const View&) const = default;
+    bool operator==(const Scope&) const = default;
   };
-  struct HashOfView {
-    std::size_t operator()(const View& view) const noexcept;
+  struct HashOfScope {
+    std::size_t operator()(const Scope& scope) const noexcept;
   };
   using Clock = std::chrono::steady_clock;
-  using Model = std::shared_ptr<const PublishedModel>;
-  struct Held {
-    Model model;
+  using ModelPointer = std::shared_ptr<const PublishedModel>;
+  struct CachedModel {
+    ModelPointer model;
     std::uint64_t bytes = 0;
   };
-  using HeldModels = std::unordered_map<View, Held, HashOfView>;
-  // A model that is being opened; of no use to who knows of a later change.
+  using CachedModels = std::unordered_map<Scope, CachedModel, HashOfScope>;
+  // A model that is being opened. A caller that knows of a later revision or refresh() must not use
+  // the result.
   struct Opening {
     std::uint64_t revision, refreshed;
-    std::promise<Expected<Model>> promise = {};
-    std::shared_future<Expected<Model>> result = promise.get_future().share();
+    std::promise<Expected<ModelPointer>> promise = {};
+    std::shared_future<Expected<ModelPointer>> result = promise.get_future().share();
   };
 
-  bool is_fresh(Clock::time_point now, Clock::duration age) const;  // with the lock held
-  bool may_show(Clock::time_point now);                             // likewise
+  bool is_fresh(Clock::time_point now, Clock::duration age) const;  // the caller holds the lock
+  bool may_show(Clock::time_point now);                             // the caller holds the lock
   void count_hit(const PublishedModel& model, Clock::time_point now);
-  bool may_go_on(Clock::time_point now) const;  // likewise
+  bool may_use_cache(Clock::time_point now) const;  // the caller holds the lock
   Expected<void> forget_if_changed();
   Expected<void> ask_for_changes(Clock::time_point now);
-  Expected<std::vector<const PublishedModel*>> unchanged(const std::vector<Model>& models);
-  Model held(const View& view);
-  Expected<Model> find(const View& view);
-  Expected<Model> load(const View& view);
-  Expected<Model> open(const View& view);
-  Expected<Model> open_newest(const View& view);
-  void remember(const View& view, const Model& model, std::uint64_t revision);
-  void tell_chunks(const Model& model);                   // with the lock held
-  HeldModels::iterator drop(HeldModels::iterator model);  // likewise
-  void make_room();                                       // likewise
+  Expected<std::vector<const PublishedModel*>> unchanged(const std::vector<ModelPointer>& models);
+  ModelPointer cached(const Scope& scope);
+  Expected<ModelPointer> find(const Scope& scope);
+  Expected<ModelPointer> load(const Scope& scope);
+  Expected<ModelPointer> open(const Scope& scope);
+  Expected<ModelPointer> open_newest(const Scope& scope);
+  void remember(const Scope& scope, const ModelPointer& model, std::uint64_t revision);
+  void index_chunks(const ModelPointer& model);               // the caller holds the lock
+  CachedModels::iterator drop(CachedModels::iterator model);  // the caller holds the lock
+  void make_room();                                           // the caller holds the lock
 
   const ObjectStore& store_;
   Catalogue& catalogue_;
   const std::chrono::milliseconds staleness_;
   Post post_;
 
-  std::shared_mutex mutex_;  // guards what follows
+  std::shared_mutex mutex_;  // guards the members below
   std::uint64_t revision_ = 0;
   Clock::time_point checked_{};
-  Clock::time_point known_{};          // when the catalogue last told; {}: not since a refresh()
-  std::atomic<Clock::rep> due_{0};     // when somebody is to ask the catalogue again
-  std::atomic<Clock::rep> asking_{0};  // since when somebody asks it; 0: nobody does
-  std::uint64_t refreshed_ = 0;        // how often: what was read before is no news
+  Clock::time_point known_{};          // time of the last response; {}: none since refresh()
+  std::atomic<Clock::rep> due_{0};     // time of the next check for changes
+  std::atomic<Clock::rep> asking_{0};  // start of the running check; 0: none
+  // Number of refresh() calls. Data that was read before the latest call is outdated.
+  std::uint64_t refreshed_ = 0;
   std::uint64_t max_bytes_;
   std::uint64_t bytes_ = 0;
-  HeldModels models_;
-  std::unordered_multimap<Sha256, PublishedChunk, HashOfHash>
-      chunks_;  // of the public views, each its own
-  std::unordered_map<View, std::shared_ptr<Opening>, HashOfView> openings_;
+  CachedModels models_;
+  // Chunks of the cached public parts. A chunk that several models have occurs once for each.
+  std::unordered_multimap<Sha256, PublishedChunk, HashOfHash> chunks_;
+  std::unordered_map<Scope, std::shared_ptr<Opening>, HashOfScope> openings_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

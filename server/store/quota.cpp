@@ -8,10 +8,10 @@
 
 #include "codec/files/atomic_file.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-using Sizes = std::map<Sha256, std::uint64_t>;  // each file once, however many models name it
+using Sizes = std::map<Sha256, std::uint64_t>;  // bytes of each file by its SHA-256
 
 Expected<Sizes> named_files(Catalogue& catalogue) {
   const auto files = catalogue.files();
@@ -48,8 +48,8 @@ Expected<std::uint64_t> read_quota(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(path, error) && !error) return 0;
   std::uint64_t bytes = 0;
   if (std::ifstream(path) >> bytes) return bytes;
-  return fail(ErrorCode::kIo, fmt::format("cannot read {}; check it, or start vitrined, which "
-                                          "writes it",
+  return fail(ErrorCode::kIo, fmt::format("cannot read {}; check the file, or start vitrined, "
+                                          "which writes it",
                                           path.string()));
 }
 
@@ -107,4 +107,4 @@ void Quota::release(std::uint64_t bytes) {
   reserved_ -= bytes;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What models and uploads together may take of the disk.
+// Limits the disk space that models and uploads may use together.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,18 @@
 #include "server/catalogue/catalogue.h"
 #include "server/store/uploads.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// The bytes are also in the data folder, for those who publish there beside the daemon. 0: as much
-// as there is. Fails with kIo.
+// Write and read the limit in the data folder, in bytes, so that programs that publish without the
+// daemon know it, too. 0 means no limit. Fail with kIo.
 Expected<void> write_quota(const std::filesystem::path& folder, std::uint64_t bytes);
 Expected<std::uint64_t> read_quota(const std::filesystem::path& folder);
 
-// Thread-safe. Errors: kLimit where something does not fit, kIo where the catalogue or the disk
-// refuses.
+// The limit on the disk space of an installation. Thread-safe. Errors: kLimit if something does not
+// fit, kIo if the catalogue or the disk fails.
 class Quota {
  public:
-  // Room that nobody else is given as long as this lives.
+  // Space that is reserved until this object is destroyed.
   class Reservation {
    public:
     Reservation() = default;
@@ -40,35 +40,38 @@ class Quota {
     std::uint64_t bytes_ = 0;
   };
 
-  // `bytes`: 0: as much as there is.
+  // `bytes`: 0 for no limit.
   Quota(Catalogue& catalogue, const Uploads& uploads, std::uint64_t bytes)
       : catalogue_(catalogue), uploads_(uploads), bytes_(bytes) {}
 
-  // Calls `take`, which announces an upload of so many bytes, where they fit beside what models
-  // name and uploads have announced. Nobody else is let in meanwhile.
+  // Calls `take` to create an upload if `bytes` more fit beside the models' files and the other
+  // uploads. Admits one caller at a time.
   Expected<void> admit(std::uint64_t bytes, const std::function<void()>& take);
 
-  // Room for the files that a model is going to name, as far as none names them yet. `spent`, of
-  // which they are made, goes when they are there: it does not count beside them.
+  // Reserves space for the files of a new model. Files that another model already has need no
+  // space. The upload `spent`, from which the files were made, does not count, because it is
+  // removed afterwards.
   Expected<Reservation> reserve(std::span<const NamedFile> files,
                                 const std::optional<UploadId>& spent);
 
-  // The same where there may be none: null.
+  // Reserves space in `quota` as above. Returns an empty reservation if `quota` is null.
   static Expected<Reservation> reserve(Quota* quota, std::span<const NamedFile> files,
                                        const std::optional<UploadId>& spent) {
     return quota == nullptr ? Reservation() : quota->reserve(files, spent);
   }
 
  private:
-  Expected<std::uint64_t> announced(const std::optional<UploadId>& spent) const;  // but for that
+  // Returns the total length of all uploads except `spent`.
+  Expected<std::uint64_t> announced(const std::optional<UploadId>& spent) const;
   Expected<void> check(std::uint64_t more, std::uint64_t taken) const;
   void release(std::uint64_t bytes);
 
   Catalogue& catalogue_;
   const Uploads& uploads_;
   const std::uint64_t bytes_;
-  std::mutex mutex_;  // guards what follows, and that nobody is let in between asking and taking
+  // Guards the members below. Held from a check until the space is reserved.
+  std::mutex mutex_;
   std::uint64_t reserved_ = 0;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -8,7 +8,7 @@
 
 #include "server/remote/remote_server.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::string_view kScheme = "s3://";
@@ -24,7 +24,7 @@ Unexpected wrong(std::string_view text, std::string_view why) {
                           text, why));
 }
 
-// Takes what stands before `mark`, and the mark.
+// Removes the part before `mark`, and the mark itself, from `text`. Returns that part.
 std::string_view take_until(std::string_view& text, char mark) {
   const std::string_view taken = text.substr(0, text.find(mark));
   text.remove_prefix(std::min(text.size(), taken.size() + 1));
@@ -56,13 +56,15 @@ Expected<S3Address> S3Address::parse(std::string_view text) {
   const auto fits = [](char c) { return is_unreserved(c) || c == '/'; };
   if (address.bucket.empty() || !std::ranges::all_of(address.bucket, is_unreserved))
     return wrong(text, "names no bucket");
-  if (!std::ranges::all_of(address.prefix, fits)) return wrong(text, "has an odd prefix");
+  if (!std::ranges::all_of(address.prefix, fits))
+    return wrong(text, "has a prefix with characters other than letters, digits and -._~/");
   if (!address.prefix.empty() && !address.prefix.ends_with('/')) address.prefix += '/';
   address.is_virtual = query.find("endpoint=") == std::string_view::npos;
   while (!query.empty()) {
     std::string_view value = take_until(query, '&');
     const std::string_view name = take_until(value, '=');
-    if (!set(address, name, value)) return wrong(text, fmt::format("has an odd '{}'", name));
+    if (!set(address, name, value))
+      return wrong(text, fmt::format("has an invalid value of '{}'", name));
   }
   if (address.origin.empty())
     address.origin = fmt::format("https://s3.{}.amazonaws.com", address.region);
@@ -91,4 +93,4 @@ std::string percent_encoded(std::string_view text) {
   return encoded;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

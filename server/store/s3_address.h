@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a bucket is: s3://BUCKET[/PREFIX][?endpoint=URL&region=R&style=path|virtual].
+// Parses the address of a bucket: s3://BUCKET[/PREFIX][?endpoint=URL&region=R&style=path|virtual].
 #pragma once
 
 #include <string>
@@ -7,25 +7,26 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct S3Address {
   std::string bucket;
-  std::string prefix;       // of every key: empty, or ends in a slash
-  std::string origin;       // "https://s3.example.org:9000"
-  std::string region;       // that requests are signed for
-  bool is_virtual = false;  // the bucket is in the host's name, not in the path
+  std::string prefix;       // start of every key; empty or with a final slash
+  std::string origin;       // the server, such as "https://s3.example.org:9000"
+  std::string region;       // region that requests are signed for
+  bool is_virtual = false;  // whether the bucket is in the host name, not in the path
 
-  // Without an endpoint it is Amazon's; the style is `path` with one and `virtual` without. Fails
-  // (kBadInput) with what is wrong in it.
+  // Parses an address. Without an endpoint, the server is Amazon's. The default of `style` is
+  // `path` with an endpoint and `virtual` without. kBadInput with the fault if the address is
+  // malformed.
   static Expected<S3Address> parse(std::string_view text);
 
-  // Of the object of that key, which needs no encoding, or of the bucket where it is empty.
-  // `query`: encoded, and sorted by name.
+  // Returns the URL of the object with that key, or of the bucket if `key` is empty. The key must
+  // not need encoding. `query` must be encoded and sorted by name.
   std::string url_of(std::string_view key, std::string_view query = {}) const;
 };
 
-// All but letters, digits and "-._~" as %XX.
+// Returns the text with all bytes except letters, digits and "-._~" replaced by %XX.
 std::string percent_encoded(std::string_view text);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

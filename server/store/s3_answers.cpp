@@ -5,19 +5,21 @@
 #include <ctime>
 #include <pugixml.hpp>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// The document's first element where it has that name; nothing in the place of a broken document.
+// Returns the document's root element, or an empty node if it has another name or the XML is
+// malformed.
 pugi::xml_node root_of(pugi::xml_document& document, std::string_view xml, const char* name) {
   if (!document.load_buffer(xml.data(), xml.size())) return {};
   return document.child(name);
 }
 
-// What has no time was written just now: nothing is removed for being old.
+// The time of an entry without a valid time. It lies in the future, so that the entry is never old
+// enough to be removed.
 constexpr std::int64_t kNever = INT64_MAX / 2;
 
-// "2026-11-24T17:44:47.896Z".
+// Converts a time such as "2026-11-24T17:44:47.896Z" to seconds since 1970.
 std::int64_t parse_time(const char* text) {
   std::tm time{};
   if (std::sscanf(text, "%4d-%2d-%2dT%2d:%2d:%2d", &time.tm_year, &time.tm_mon, &time.tm_mday,
@@ -62,4 +64,4 @@ std::optional<S3Page> s3_uploads(std::string_view xml) {
   return page;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The XML that S3 answers in.
+// Parses the XML responses of an S3 server.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,30 @@
 #include <string_view>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// The code of an error: "NoSuchKey"; empty where the text is none.
+// Returns the code of an error response, such as "NoSuchKey"; empty if the text is not an error.
 std::string s3_error(std::string_view xml);
 
-// Of the answer that begins an upload in parts; empty where it is none.
+// Returns the upload ID in the response to CreateMultipartUpload; empty if there is none.
 std::string s3_upload_id(std::string_view xml);
 
 struct S3Entry {
   std::string key;
-  std::string upload;     // of an unfinished one
-  std::int64_t when = 0;  // written or begun, in seconds since 1970
+  std::string upload;     // ID of an unfinished upload; empty for an object
+  std::int64_t when = 0;  // time of writing or beginning, in seconds since 1970
 };
 
 struct S3Page {
   std::vector<S3Entry> entries;
-  std::string next;  // what to go on with; empty on the last page
+  std::string next;  // token for the next page; empty on the last page
 };
 
-// A page of objects (ListObjectsV2); nothing where the text is none.
+// Parses a page of objects (ListObjectsV2); nullopt if the text is not such a page.
 std::optional<S3Page> s3_objects(std::string_view xml);
 
-// The first unfinished uploads (ListMultipartUploads).
+// Parses the first page of unfinished uploads (ListMultipartUploads); nullopt if the text is not
+// such a page.
 std::optional<S3Page> s3_uploads(std::string_view xml);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

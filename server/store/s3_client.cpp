@@ -9,13 +9,15 @@
 
 #include "server/store/s3_answers.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-constexpr std::chrono::seconds kPatience{5};
+constexpr std::chrono::seconds kTimeout{5};
+// How long requests are sent only once after one that got no answer.
+constexpr std::chrono::seconds kUnreachable{2};
 
-// What another attempt may mend: the store is busy (SlowDown), restarts, or is behind a proxy that
-// does not reach it.
+// Whether another attempt may succeed, because the store is busy (SlowDown), is restarting, or is
+// unreachable for its proxy.
 bool is_passing(long status) {
   constexpr std::array<long, 6> kPassing{408, 429, 500, 502, 503, 504};
   return std::ranges::count(kPassing, status) > 0;
@@ -23,12 +25,12 @@ bool is_passing(long status) {
 
 const char* advice(long status, std::string_view code) {
   if (code == "RequestTimeTooSkewed") return "set the clock of this machine";
-  if (code == "NoSuchBucket") return "make the bucket, or correct the setting store";
+  if (code == "NoSuchBucket") return "create the bucket, or correct the setting store";
   if (code == "PermanentRedirect" || code == "AuthorizationHeaderMalformed")
     return "correct endpoint and region in the setting store";
   if (status == 401 || status == 403)
-    return "check store-access-key, store-secret-key and what they may do";
-  return is_passing(status) ? "try again later" : "look into the log of the object store";
+    return "check store-access-key and store-secret-key, and the permissions of that key";
+  return is_passing(status) ? "try again later" : "see the log of the object store";
 }
 
 }  // namespace
@@ -47,11 +49,12 @@ Expected<RemoteAnswer> S3Client::ask_once(const S3Request& request) {
                        .url = address_.url_of(request.key, request.query),
                        .fields = {"x-amz-content-sha256: " + to_hex(request.body_sha256)},
                        .body = request.body,
-                       .patience = kPatience,
+                       .timeout = kTimeout,
                        .signer = &signer_,
                        .take = request.take};
   const bool has_body = request.method == "PUT" || request.method == "POST";
-  if (has_body && remote.body.empty()) remote.body = {&kNothing, 0};  // says that its length is 0
+  // An empty body whose pointer is not null makes libcurl send Content-Length: 0.
+  if (has_body && remote.body.empty()) remote.body = {&kNothing, 0};
   auto connection = take_connection();
   auto answer = connection->ask(remote);
   const std::scoped_lock lock(mutex_);
@@ -60,10 +63,15 @@ Expected<RemoteAnswer> S3Client::ask_once(const S3Request& request) {
 }
 
 Expected<RemoteAnswer> S3Client::ask(const S3Request& request) {
+  const int attempts = Clock::now() < unreachable_until_.load() ? 1 : backoff_.attempts;
   for (int attempt = 1;; ++attempt) {
     if (request.restart) request.restart();
     auto answer = ask_once(request);
-    if ((answer && !is_passing(answer->status)) || attempt >= backoff_.attempts) return answer;
+    if (answer && !is_passing(answer->status)) return answer;
+    if (attempt >= attempts) {
+      if (!answer) unreachable_until_ = Clock::now() + kUnreachable;
+      return answer;
+    }
     backoff_.wait(attempt);
   }
 }
@@ -76,4 +84,4 @@ Unexpected S3Client::refused(std::string_view what, const RemoteAnswer& answer) 
                           advice(answer.status, code)));
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signed requests to one bucket, tried again where the store is busy or away for a moment.
+// Sends signed requests to one bucket, and retries while the store is busy or unreachable.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -16,7 +18,7 @@
 #include "server/store/backoff.h"
 #include "server/store/s3_address.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct S3Keys {
   std::string access, secret;
@@ -24,11 +26,12 @@ struct S3Keys {
 
 struct S3Request {
   std::string method = "GET";
-  std::string key = {};    // empty: the bucket
-  std::string query = {};  // encoded, and sorted by name
+  std::string key = {};    // key of the object; empty: the bucket itself
+  std::string query = {};  // encoded parameters, sorted by name
   std::span<const std::uint8_t> body = {};
-  Sha256 body_sha256 = sha256({});  // the store refuses another body
-  // Gets the body of an answer 2xx; `restart` is called before each attempt.
+  Sha256 body_sha256 = sha256({});  // SHA-256 of the body; the store checks it
+  // `take` receives the body of a 2xx response in parts. `restart` is called before each attempt,
+  // so that the caller can drop the parts of a failed one.
   std::function<bool(std::span<const std::uint8_t>)> take = {};
   std::function<void()> restart = {};
 };
@@ -43,21 +46,26 @@ class S3Client {
 
   const S3Address& address() const { return address_; }
 
-  // The last answer, once the attempts are used up; kIo where there is none.
+  // Sends a request, with retries. Returns the last response; kIo if no attempt got a response.
+  // For a moment after that, requests are sent once, so that visitors do not wait for a store that
+  // is known to be unreachable.
   Expected<RemoteAnswer> ask(const S3Request& request);
 
-  // kIo: what is refused, why, and what to do.
+  // Returns a kIo error that states the refused action, the cause and the next step.
   Unexpected refused(std::string_view what, const RemoteAnswer& answer) const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   Expected<RemoteAnswer> ask_once(const S3Request& request);
   std::unique_ptr<RemoteServer> take_connection();
 
   const S3Address address_;
   const RemoteSigner signer_;
   const Backoff backoff_;
-  std::mutex mutex_;                                 // guards what follows
-  std::vector<std::unique_ptr<RemoteServer>> idle_;  // no more than were in use at once
+  std::atomic<Clock::time_point> unreachable_until_{Clock::time_point::min()};
+  std::mutex mutex_;                                 // guards the members below
+  std::vector<std::unique_ptr<RemoteServer>> idle_;  // open connections that are not in use
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -7,12 +7,12 @@
 #include <ctime>
 
 #include "codec/core/parse_number.h"
-#include "server/catalogue/model_id.h"
+#include "server/catalogue/id.h"
 #include "server/store/local_copy.h"
 #include "server/store/s3_answers.h"
 #include "server/store/s3_upload.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 const std::string kObjects = "objects/", kGrace = "grace/", kProbe = "probe/";
@@ -25,7 +25,7 @@ std::string grace_key(const Sha256& name) {
   return kGrace + to_hex(name);
 }
 
-// Of the answer; this machine's where it tells none.
+// Returns the time in the response's Date field, or this machine's time if the field is missing.
 std::int64_t time_of(const RemoteAnswer& answer) {
   std::tm time{};
   const std::string date = answer.field("date");
@@ -35,7 +35,7 @@ std::int64_t time_of(const RemoteAnswer& answer) {
 
 bool is_absent(const RemoteAnswer& answer) {
   if (answer.status != 404) return false;
-  const std::string error = s3_error(answer.body);  // none in the answer to HEAD
+  const std::string error = s3_error(answer.body);  // empty in a response to HEAD
   return error.empty() || error == "NoSuchKey";
 }
 
@@ -48,7 +48,7 @@ Expected<std::unique_ptr<S3Store>> S3Store::open(S3Options options) {
 }
 
 Expected<void> S3Store::probe() {
-  const std::string name = ModelId::generate().to_string(), key = kProbe + name;
+  const std::string name = to_string(generate_ulid()), key = kProbe + name;
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(name.data()), name.size());
   if (auto written = write(key, bytes); !written) return written;
   const auto read = client_.ask({.key = key});
@@ -77,7 +77,7 @@ Expected<bool> S3Store::put(const Sha256& name, std::span<const std::uint8_t> by
   const auto before = size_of(name);
   if (!before) return tl::unexpected(before.error());
   if (*before == bytes.size()) {
-    const auto held = open(name);  // not where it is damaged
+    const auto held = open(name);  // null or an error if the object is damaged
     if (held && *held != nullptr) {
       auto begun = begin_grace(name);
       return begun ? Expected<bool>(false) : tl::unexpected(begun.error());
@@ -133,7 +133,7 @@ Expected<void> S3Store::give_up_uploads(std::int64_t begun_before) {
   return {};
 }
 
-// The marks are listed last: none that comes meanwhile is missed.
+// Lists the marks after the objects, so that marks set during the first listing are not missed.
 Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
                                      const ExclusiveLock& lock) {
   const auto objects = list(kObjects);
@@ -159,7 +159,7 @@ Expected<std::size_t> S3Store::sweep(const std::set<Sha256>& keep, std::chrono::
   return swept;
 }
 
-// What arrives damaged is asked for once more.
+// Downloads the object. If it arrives damaged, downloads it once more.
 Expected<std::unique_ptr<Object>> S3Store::open(const Sha256& name) const {
   for (int attempt = 0; attempt < 2; ++attempt) {
     auto copy = LocalCopy::create(options_.copies);
@@ -188,4 +188,4 @@ Expected<std::optional<std::uint64_t>> S3Store::size_of(const Sha256& name) cons
   return client_.refused("look at an object", *answer);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

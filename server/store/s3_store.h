@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object store in a bucket of an S3-compatible server: PREFIX/objects/abcd…, and an empty
-// PREFIX/grace/abcd… whose age is that of the grace where that has begun anew. An object that is
-// open is a local copy, whose SHA-256 was checked: the bucket is asked for it once.
+// The object store in a bucket of an S3-compatible server. The object with the name abcd… has the
+// key PREFIX/objects/abcd…. An empty object PREFIX/grace/abcd… marks that the grace period started
+// again when the mark was written. An open object is a local copy with a verified SHA-256, so that
+// the bucket is read only once.
 #pragma once
 
 #include <filesystem>
@@ -11,23 +12,24 @@
 #include "server/store/object_store.h"
 #include "server/store/s3_client.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// Takes a lock that is held until the result is gone.
+// Acquires the store's lock, which is held until the result is destroyed.
 using TakeLock = std::function<Expected<std::shared_ptr<const ExclusiveLock>>()>;
 
 struct S3Options {
   S3Address address;
   S3Keys keys;
   std::filesystem::path copies;  // the folder for local copies
-  TakeLock lock;                 // S3 has none that is free of clocks
+  TakeLock lock;                 // acquires the store's lock; S3 has none
   std::uint64_t part_bytes = 64 << 20;
   Backoff backoff = {};
 };
 
 class S3Store final : public ObjectStore {
  public:
-  // Writes, reads, lists and removes a small object first. Fails (kIo) with what is refused.
+  // Opens the store. Tests access to the bucket: writes, reads, lists and removes a small object.
+  // kIo with the refused step if the test fails.
   static Expected<std::unique_ptr<S3Store>> open(S3Options options);
 
   Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override;
@@ -41,8 +43,8 @@ class S3Store final : public ObjectStore {
 
  private:
   struct Listing {
-    std::map<Sha256, std::int64_t> entries;  // when each was written, seconds since 1970
-    std::int64_t now = 0;                    // by the store's clock
+    std::map<Sha256, std::int64_t> entries;  // when each object was written, in seconds since 1970
+    std::int64_t now = 0;                    // time by the store's clock
   };
   explicit S3Store(S3Options options)
       : options_(std::move(options)), client_(options_.address, options_.keys, options_.backoff) {}
@@ -56,4 +58,4 @@ class S3Store final : public ObjectStore {
   mutable S3Client client_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

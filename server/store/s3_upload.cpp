@@ -7,7 +7,7 @@
 
 #include "server/store/s3_answers.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
@@ -26,7 +26,7 @@ Expected<std::string> begin(S3Client& client, const std::string& key) {
   return upload;
 }
 
-// The part's entity tag.
+// Uploads a part and returns its entity tag.
 Expected<std::string> put_part(S3Client& client, const std::string& key, const std::string& upload,
                                std::size_t number, std::span<const std::uint8_t> bytes) {
   const auto answer =
@@ -40,8 +40,9 @@ Expected<std::string> put_part(S3Client& client, const std::string& key, const s
   return answer->field("etag");
 }
 
-// An error may come with status 200 here, as the store keeps the connection alive at work. An
-// attempt whose answer was lost has succeeded where the next one finds no upload.
+// Completes a multipart upload. The response may have status 200 and contain an error, because the
+// store keeps the connection alive while it works. If the response to a successful attempt is lost,
+// the next attempt finds no upload.
 Expected<void> complete(S3Client& client, const std::string& key, const std::string& upload,
                         const std::string& parts) {
   const std::string text =
@@ -82,7 +83,8 @@ Expected<void> s3_upload(S3Client& client, const std::string& key,
     const auto upload = begin(client, key);
     if (!upload) return tl::unexpected(upload.error());
     auto done = put_parts(client, key, *upload, bytes, part_bytes);
-    // The first fault is the one to tell; a sweep takes what is left.
+    // Ignores an error of the abort, because the first error is the one to report. A sweep removes
+    // the remains.
     if (!done) static_cast<void>(s3_give_up(client, key, *upload));
     return done;
   }
@@ -100,4 +102,4 @@ Expected<void> s3_give_up(S3Client& client, const std::string& key, const std::s
   return client.refused("give up an upload", *answer);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store/stored_file.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 Expected<void> check_size(const Manifest& manifest, std::uint64_t size) {
@@ -15,7 +15,7 @@ Expected<void> check_stored(const ObjectStore& store, const StoredFile& file) {
   const auto object = store.open(file.name);
   if (!object) return tl::unexpected(object.error());
   if (*object == nullptr)
-    return fail(ErrorCode::kIo, "what was stored is gone; check the data folder");
+    return fail(ErrorCode::kIo, "the stored file has disappeared; check the data folder");
   for (const ChunkPlace& place : file.chunks()) {
     const auto bytes = (*object)->read(place.offset, place.length);
     if (!bytes) return tl::unexpected(bytes.error());
@@ -54,7 +54,8 @@ Expected<void> store_file(ObjectStore& store, StoredFile& file,
   file.is_new = *before == nullptr;
   file.is_repaired = *written && !file.is_new;
   auto checked = check_stored(store, file);
-  // The first fault is the one to tell: a full disk takes a removal.
+  // Ignores an error of the removal, because the check's error is the one to report. The removal
+  // works even on a full disk.
   if (!checked && file.is_new) static_cast<void>(store.remove(file.name));
   return checked;
 }
@@ -69,4 +70,4 @@ void describe(ModelRecord& record, const StoredFile& file) {
   record.unit = manifest.unit;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

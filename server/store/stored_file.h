@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// A .pmesh as an object of the store.
+// Stores a .pmesh file as an object.
 #pragma once
 
-#include "codec/progressive/manifest.h"
+#include "codec/format/manifest.h"
 #include "server/catalogue/catalogue.h"
 #include "server/store/object_store.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct StoredFile {
   Sha256 name{};
   Manifest manifest;
-  bool is_new = false;       // it was not there before
-  bool is_repaired = false;  // it was there, and damaged
+  bool is_new = false;       // whether the store did not have the file before
+  bool is_repaired = false;  // whether the stored object was damaged before
 
-  std::vector<ChunkPlace> chunks() const;  // the base mesh is one
+  std::vector<ChunkPlace> chunks() const;  // positions of the base mesh and chunks
 };
 
-// What the file will be in the store. kBadInput where its header or its length is not right.
+// Returns the description of a file that will be stored. kBadInput if its header or its length is
+// wrong.
 Expected<StoredFile> to_be_stored(std::span<const std::uint8_t> pmesh);
 
-// Stores `file`, which is that of `pmesh`, reads it back, and checks the SHA-256 of the base and of
-// every chunk: what a visitor is served is what the header promises. kBadInput where it is damaged;
-// then nothing is left of it. Call it with the store's lock held.
+// Stores the bytes `pmesh`, which `file` describes, and sets `is_new` and `is_repaired`. Reads the
+// object back and checks the SHA-256 of the base and of every chunk, so that visitors receive what
+// the header describes. If a check fails, removes a new object and fails with kBadInput. The caller
+// holds the store's lock.
 Expected<void> store_file(ObjectStore& store, StoredFile& file,
                           std::span<const std::uint8_t> pmesh);
 
-// Makes it the record's file.
+// Copies the description of the file to the model's record.
 void describe(ModelRecord& record, const StoredFile& file);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// The number of bytes of the character at the start of `text`, or 0 where there is none.
+// Returns the number of bytes of the character at the start of `text`; 0 if the character is
+// malformed or not allowed.
 std::size_t character_length(std::string_view text) noexcept {
   const auto lead = static_cast<std::uint8_t>(text[0]);
   if (lead < 0x80) return lead >= 0x20 && lead != 0x7F ? 1 : 0;
@@ -19,7 +20,8 @@ std::size_t character_length(std::string_view text) noexcept {
     if ((byte & 0xC0) != 0x80) return 0;
     code = code << 6 | (byte & 0x3F);
   }
-  constexpr std::uint32_t kSmallest[] = {0, 0, 0xA0, 0x800, 0x10000};  // below 0xA0 are controls
+  constexpr std::uint32_t kSmallest[] = {0, 0, 0xA0, 0x800,
+                                         0x10000};  // U+0080 to U+009F are control characters
   const bool is_surrogate = code >= 0xD800 && code < 0xE000;
   return code < kSmallest[length] || code > 0x10FFFF || is_surrogate ? 0 : length;
 }
@@ -35,4 +37,4 @@ bool is_plain_text(std::string_view text) noexcept {
   return true;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

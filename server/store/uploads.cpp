@@ -13,7 +13,7 @@
 #include "codec/files/atomic_file.h"
 #include "server/store/file_lock.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* kAbout = ".json";
 constexpr const char* kBytes = ".part";
 
-tl::unexpected<UploadFault> fault(UploadFault::Kind kind, std::string message) {
+tl::unexpected<UploadFault> fault(UploadFault::Cause kind, std::string message) {
   return tl::unexpected(UploadFault{kind, std::move(message)});
 }
 
@@ -55,7 +55,7 @@ std::optional<std::uint64_t> size_of(int fd) {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-// Where a disk fills up, what fits stays.
+// Writes the bytes at `offset` and advances it. If the disk becomes full, keeps the bytes that fit.
 Uploading<void> write_all(int fd, std::span<const std::uint8_t> bytes, std::uint64_t& offset) {
   while (!bytes.empty()) {
     const ssize_t n = ::pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -67,12 +67,13 @@ Uploading<void> write_all(int fd, std::span<const std::uint8_t> bytes, std::uint
   return {};
 }
 
-// Nothing but a name that is not there says that there is no such upload.
+// Returns the fault for the errno of a failed attempt to open or read an upload. Only a missing
+// file means that the upload does not exist.
 tl::unexpected<UploadFault> not_read(int error) {
   return error == ENOENT ? gone() : refused("read", error);
 }
 
-// The few words that describe one.
+// Returns the text of the file that describes an upload.
 Uploading<std::string> read_text(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file) return not_read(errno);
@@ -121,7 +122,7 @@ Uploading<FileDescriptor> Uploads::lock() const {
   return folder;
 }
 
-Uploading<Upload> Uploads::create(const ModelId& token, std::uint64_t length,
+Uploading<Upload> Uploads::create(const TokenId& token, std::uint64_t length,
                                   const std::string& metadata) {
   if (length > limits_.bytes) {
     return fault(UploadFault::kTooLarge,
@@ -166,7 +167,7 @@ Uploading<Upload> Uploads::read(const UploadId& id) const {
   }
   Upload upload;
   upload.id = id;
-  upload.token = UploadId::parse(json.value("token", "")).value_or(ModelId());
+  upload.token = TokenId::parse(json.value("token", "")).value_or(TokenId());
   upload.length = json.value("length", std::uint64_t{0});
   upload.offset = static_cast<std::uint64_t>(status.st_size);
   upload.metadata = json.value("metadata", "");
@@ -175,7 +176,8 @@ Uploading<Upload> Uploads::read(const UploadId& id) const {
   return upload;
 }
 
-// What a dead daemon has written may not be on the disk yet, and who is told of it sends no more.
+// Syncs the bytes first, because a daemon that crashed may have left bytes that are not on the
+// disk. The client that receives this offset will not send them again.
 Uploading<Upload> Uploads::find(const UploadId& id) const {
   auto upload = read(id);
   if (!upload) return upload;
@@ -189,7 +191,7 @@ Uploading<UploadWriter> Uploads::writer(const UploadId& id, std::uint64_t offset
   if (!upload) return tl::unexpected(upload.error());
   if (upload->offset != offset) {
     return fault(UploadFault::kMoved,
-                 fmt::format("the upload's offset is {}; go on from there", upload->offset));
+                 fmt::format("the upload's offset is {}; continue there", upload->offset));
   }
   FileDescriptor bytes(::open(path_of(id, kBytes).c_str(), O_WRONLY | O_CLOEXEC));
   if (!bytes) return not_read(errno);
@@ -205,7 +207,7 @@ Uploading<FileDescriptor> Uploads::open(const UploadId& id) const {
   return bytes;
 }
 
-// What says that there is an upload goes first.
+// Removes the description first. An upload without a description does not exist.
 Uploading<void> Uploads::remove(const UploadId& id) {
   if (::unlink(path_of(id, kAbout).c_str()) != 0) {
     if (errno == ENOENT) return gone();
@@ -246,7 +248,8 @@ Uploading<std::size_t> Uploads::sweep(const std::set<UploadId>& in_use, std::int
     const auto id = id_of(file);
     const auto upload = id ? read(*id) : gone();
     if (upload && (upload->expires > now || in_use.contains(*id))) continue;
-    if (!upload && upload.error().kind != UploadFault::kGone) continue;  // it may live
+    // An upload that cannot be read may still be in use.
+    if (!upload && upload.error().cause != UploadFault::kGone) continue;
     if (file.extension() == kAbout) ++swept;
     ::unlink(file.c_str());
   }
@@ -254,4 +257,4 @@ Uploading<std::size_t> Uploads::sweep(const std::set<UploadId>& in_use, std::int
   return swept;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

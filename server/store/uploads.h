@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that arrive piece by piece and survive whatever happens in between: DATA/uploads/ID.json
-// says what is expected, ID.part holds what has come. The length of ID.part is the offset, so there
-// is nothing else to keep in step with it: file systems grow a file after its bytes are written.
+// Resumable uploads, which survive crashes. DATA/uploads/ID.json describes an upload, and ID.part
+// contains the bytes received. The upload's offset is the length of ID.part, because file systems
+// extend a file only after its bytes are written.
 #pragma once
 
 #include <chrono>
@@ -14,50 +14,48 @@
 
 #include "codec/core/expected.h"
 #include "codec/files/file_descriptor.h"
-#include "server/catalogue/model_id.h"
+#include "server/catalogue/id.h"
 
-namespace vitrine {
-
-using UploadId = ModelId;
+namespace vitrine::server {
 
 struct Upload {
   UploadId id;
-  ModelId token;             // whose it is
-  std::uint64_t length = 0;  // bytes in all
-  std::uint64_t offset = 0;  // of them, those that are there
-  std::string metadata;      // the client's own words, printable ASCII
-  std::int64_t expires = 0;  // milliseconds since 1970, UTC; each piece puts it off
+  TokenId token;             // ID of the owner's token
+  std::uint64_t length = 0;  // bytes in total
+  std::uint64_t offset = 0;  // bytes received
+  std::string metadata;      // printable ASCII, as the client sent it
+  std::int64_t expires = 0;  // milliseconds since 1970, UTC; extended by each part received
 
   bool is_whole() const { return offset == length; }
 };
 
 struct UploadLimits {
-  std::uint64_t bytes = 0;                // of one
-  std::uint32_t per_token = 0;            // open at a time
-  std::chrono::seconds lifetime{86'400};  // since its last piece
+  std::uint64_t bytes = 0;                // largest size of an upload, in bytes
+  std::uint32_t per_token = 0;            // largest number of open uploads of a token
+  std::chrono::seconds lifetime{86'400};  // time until an upload expires after its last part
 };
 
 struct UploadFault {
-  enum Kind {
-    kTooLarge,  // than one may be, or than was announced
-    kTooMany,   // of this token
-    kMoved,     // its offset is another
-    kGone,      // there is none
-    kNoRoom,    // on the disk
+  enum Cause {
+    kTooLarge,  // the upload is larger than allowed or announced
+    kTooMany,   // too many open uploads for this token
+    kMoved,     // the client's offset differs from the upload's
+    kGone,      // the upload does not exist
+    kNoRoom,    // the disk is full
     kIo,
-  } kind;
+  } cause;
   std::string message;
 };
 template <class T>
 using Uploading = tl::expected<T, UploadFault>;
 
-// Appends to one upload. Where another writer does so, too, even in another process, one of them is
-// told: no byte ever lands at another offset than its own.
+// Appends bytes to one upload. If another writer, even in another process, appends at the same
+// time, one of the two fails. No byte is written at a wrong offset.
 class UploadWriter {
  public:
   Uploading<void> append(std::span<const std::uint8_t> bytes);
 
-  // All that was appended is on the disk on return. The new offset.
+  // Waits until all appended bytes are on the disk, then returns the new offset.
   Uploading<std::uint64_t> sync();
 
  private:
@@ -72,32 +70,34 @@ class UploadWriter {
 // Safe to use from several threads and processes at once.
 class Uploads {
  public:
-  // The folder is made with the first upload.
+  // `folder` is created with the first upload.
   Uploads(std::filesystem::path folder, const UploadLimits& limits)
       : folder_(std::move(folder)), limits_(limits) {}
 
   const UploadLimits& limits() const { return limits_; }
 
-  // kTooLarge, kTooMany.
-  Uploading<Upload> create(const ModelId& token, std::uint64_t length, const std::string& metadata);
+  // Creates an empty upload. Fails with kTooLarge or kTooMany.
+  Uploading<Upload> create(const TokenId& token, std::uint64_t length, const std::string& metadata);
 
-  // kGone. The bytes below its offset are on the disk.
+  // Returns an upload; kGone if it does not exist. The bytes before its offset are on the disk.
   Uploading<Upload> find(const UploadId& id) const;
-  Uploading<UploadWriter> writer(const UploadId& id, std::uint64_t offset) const;  // kGone, kMoved
+  // Returns a writer that appends at `offset`. kGone if the upload does not exist, kMoved if its
+  // offset is a different one.
+  Uploading<UploadWriter> writer(const UploadId& id, std::uint64_t offset) const;
 
-  // Its bytes; kGone where they are not there as a whole, kIo where that cannot be told.
+  // Opens the file of a complete upload. kGone if the upload does not exist or is incomplete; kIo.
   Uploading<FileDescriptor> open(const UploadId& id) const;
 
-  Uploading<void> remove(const UploadId& id);  // kGone
+  Uploading<void> remove(const UploadId& id);  // fails with kGone if the upload does not exist
 
   Uploading<std::vector<Upload>> list() const;
 
-  // Whoever puts an upload to use, or takes away one that nobody uses, holds this from looking to
-  // doing: in this process they are one after the other.
+  // Acquires the lock on the use of uploads. A caller holds it from the check of an upload until
+  // the upload is used or removed.
   std::unique_lock<std::mutex> hold() { return std::unique_lock(use_); }
 
-  // Takes away what has expired at `now` and what interrupted calls have left, but for `in_use`
-  // and what cannot be read just now. The number of those.
+  // Removes uploads that expired before `now`, and remains of interrupted calls. Keeps uploads in
+  // `in_use` and uploads that cannot be read. Returns the number of uploads removed.
   Uploading<std::size_t> sweep(const std::set<UploadId>& in_use, std::int64_t now);
 
  private:
@@ -110,4 +110,4 @@ class Uploads {
   std::mutex use_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Json = nlohmann::json;
@@ -31,7 +31,7 @@ bool read_number(const Json& json, const char* name, double& out) {
   return true;
 }
 
-// 0 where it is not given.
+// Returns the number of the model in a message: 0 if it is not given, nullopt if it is invalid.
 std::optional<std::uint16_t> model_of(const Json& json) {
   const auto member = json.find("model");
   if (member == json.end()) return std::uint16_t{0};
@@ -40,7 +40,7 @@ std::optional<std::uint16_t> model_of(const Json& json) {
   return static_cast<std::uint16_t>(*number);
 }
 
-Expected<Wish> read_view(const Json& json) {
+Expected<DetailTarget> read_view(const Json& json) {
   const auto fault = malformed("want: view has camera (16 numbers), fov, width, height, pixels");
   View view;
   if (!json.is_object()) return fault;
@@ -58,58 +58,58 @@ Expected<Wish> read_view(const Json& json) {
   if (!complete || (json.contains("bytes") && !read_number(json, "bytes", view.bytes))) {
     return fault;
   }
-  return is_sane(view) ? Expected<Wish>(Want(view)) : fault;
+  return is_sane(view) ? Expected<DetailTarget>(Want(view)) : fault;
 }
 
-Expected<Wish> read_error(const Json& value) {
+Expected<DetailTarget> read_error(const Json& value) {
   if (!value.is_number() || !(value.get<double>() >= 0)) {
     return malformed("want: error is a number, 0 or more");
   }
-  return Wish(Want(WantError{value.get<double>()}));
+  return DetailTarget(Want(WantError{value.get<double>()}));
 }
 
-Expected<Wish> read_seconds(const Json& value) {
+Expected<DetailTarget> read_seconds(const Json& value) {
   const double seconds = value.is_number() ? value.get<double>() : 0;
   if (!(seconds > 0 && seconds <= kMaxSeconds)) {
     return malformed("want: seconds is a number above 0, at most 3600");
   }
-  return Wish(WantSeconds{seconds});
+  return DetailTarget(WantSeconds{seconds});
 }
 
 template <class Wanted, class Count = std::uint64_t>
-Expected<Wish> read_count(const Json& value) {
+Expected<DetailTarget> read_count(const Json& value) {
   const auto count = whole(value);
   if (!count) return malformed("want: triangles, bytes and level are whole numbers, 0 or more");
-  return Wish(Want(Wanted{
+  return DetailTarget(Want(Wanted{
       static_cast<Count>(std::min<std::uint64_t>(*count, std::numeric_limits<Count>::max()))}));
 }
 
-struct WishReader {
+struct TargetReader {
   const char* name;
-  Expected<Wish> (*read)(const Json& value);
+  Expected<DetailTarget> (*read)(const Json& value);
 };
-constexpr WishReader kWishes[] = {{"triangles", read_count<WantTriangles>},
-                                  {"bytes", read_count<WantBytes>},
-                                  {"level", read_count<WantLevel, std::uint32_t>},
-                                  {"error", read_error},
-                                  {"seconds", read_seconds},
-                                  {"view", read_view}};
+constexpr TargetReader kTargets[] = {{"triangles", read_count<WantTriangles>},
+                                     {"bytes", read_count<WantBytes>},
+                                     {"level", read_count<WantLevel, std::uint32_t>},
+                                     {"error", read_error},
+                                     {"seconds", read_seconds},
+                                     {"view", read_view}};
 
 Expected<ClientMessage> parse_want(const Json& json, std::uint16_t model) {
-  const WishReader* found = nullptr;
-  for (const WishReader& reader : kWishes) {
+  const TargetReader* found = nullptr;
+  for (const TargetReader& reader : kTargets) {
     if (!json.contains(reader.name)) continue;
     if (found != nullptr) return malformed(kOneOf);
     found = &reader;
   }
   if (found == nullptr) return malformed(kOneOf);
-  auto wish = found->read(json[found->name]);
-  if (!wish) return tl::unexpected(wish.error());
+  auto target = found->read(json[found->name]);
+  if (!target) return tl::unexpected(target.error());
   const auto turn = json.contains("turn") ? whole(json["turn"]) : 0;
   if (!turn || *turn > std::numeric_limits<std::uint32_t>::max()) {
     return malformed("want: turn is a whole number below 2^32");
   }
-  return WantMessage{model, static_cast<std::uint32_t>(*turn), *wish};
+  return WantMessage{model, static_cast<std::uint32_t>(*turn), *target};
 }
 
 Expected<ClientMessage> parse_have(const Json& json, std::uint16_t model) {
@@ -151,22 +151,22 @@ Expected<ClientMessage> parse_open(const Json& json, std::uint16_t model) {
   return OpenMessage{model, id->get<std::string>(), head != json.end() && head->get<bool>()};
 }
 
-OrderedJson wish_json(const WantTriangles& want) {
+OrderedJson target_json(const WantTriangles& want) {
   return {{"triangles", want.triangles}};
 }
-OrderedJson wish_json(const WantBytes& want) {
+OrderedJson target_json(const WantBytes& want) {
   return {{"bytes", want.bytes}};
 }
-OrderedJson wish_json(const WantError& want) {
+OrderedJson target_json(const WantError& want) {
   return {{"error", want.error}};
 }
-OrderedJson wish_json(const WantLevel& want) {
+OrderedJson target_json(const WantLevel& want) {
   return {{"level", want.level}};
 }
-OrderedJson wish_json(const WantSeconds& want) {
+OrderedJson target_json(const WantSeconds& want) {
   return {{"seconds", want.seconds}};
 }
-OrderedJson wish_json(const View& view) {
+OrderedJson target_json(const View& view) {
   OrderedJson json{{"camera", view.camera},
                    {"fov", view.field_of_view},
                    {"width", view.width},
@@ -175,8 +175,8 @@ OrderedJson wish_json(const View& view) {
   if (std::isfinite(view.bytes)) json["bytes"] = view.bytes;
   return {{"view", std::move(json)}};
 }
-OrderedJson wish_json(const Want& want) {
-  return std::visit([](const auto& one) { return wish_json(one); }, want);
+OrderedJson target_json(const Want& want) {
+  return std::visit([](const auto& one) { return target_json(one); }, want);
 }
 
 OrderedJson about(const char* type, std::uint16_t model) {
@@ -195,7 +195,7 @@ OrderedJson json_of(const CloseMessage& message) {
 OrderedJson json_of(const WantMessage& message) {
   OrderedJson json = about("want", message.model);
   json["turn"] = message.turn;
-  json.update(std::visit([](const auto& wish) { return wish_json(wish); }, message.wish));
+  json.update(std::visit([](const auto& target) { return target_json(target); }, message.target));
   return json;
 }
 OrderedJson json_of(const HaveMessage& message) {
@@ -215,7 +215,7 @@ OrderedJson json_of(const AckMessage& message) {
 }  // namespace
 
 Expected<ClientMessage> parse_message(std::string_view text) {
-  // Deeper values are dropped while parsing, so that nesting cannot exhaust the stack.
+  // Deeper values are dropped while the text is parsed, so that nesting cannot exhaust the stack.
   const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < kMaxDepth; };
   const Json json = Json::parse(text, shallow, /*allow_exceptions=*/false);
   if (!json.is_object()) return malformed("a message is a JSON object");
@@ -233,7 +233,8 @@ Expected<ClientMessage> parse_message(std::string_view text) {
 }
 
 std::vector<HaveMessage> have_messages(std::uint16_t model, std::span<const ChunkRange> chunks) {
-  constexpr std::size_t kMost = kMaxMessage / 32;  // two numbers below 2^32 and what is around them
+  // A range takes at most 32 bytes of JSON: two numbers below 2^32 and punctuation.
+  constexpr std::size_t kMost = kMaxMessage / 32;
   static_assert(kMost <= kMaxHaveRanges);
   std::vector<HaveMessage> messages;
   while (!chunks.empty()) {
@@ -248,4 +249,4 @@ std::string to_json(const ClientMessage& message) {
   return std::visit([](const auto& one) { return json_of(one); }, message).dump();
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-constexpr double kMostLate = 0.05;  // of the seconds asked for
-constexpr double kNews = 0.2;       // a rate that differs by this share makes a promise obsolete
-constexpr double kCareful = 0.9;    // of the time that is left: the link may slow down a little
+// How late a chunk may arrive, as a share of the requested seconds.
+constexpr double kMostLate = 0.05;
+constexpr double kNews = 0.2;  // share by which the rate must change before a new promise is sent
+// Share of the remaining time that a promise plans to use, as the link may slow down.
+constexpr double kCareful = 0.9;
 constexpr Pacer::Duration kBetweenPromises{0.2};
 
 Want all_of(const Manifest& manifest) {
@@ -28,10 +30,10 @@ void ModelStream::want(const WantMessage& message, Pacer::Time now) {
   is_open_ = true;
   turn_ = message.turn;
   timed_.reset();
-  if (const auto* want = std::get_if<Want>(&message.wish)) {
+  if (const auto* want = std::get_if<Want>(&message.target)) {
     planner().want(*want);
   } else {
-    const double seconds = std::get<WantSeconds>(message.wish).seconds;
+    const double seconds = std::get<WantSeconds>(message.target).seconds;
     timed_ = Timed{seconds, now + Pacer::Duration(seconds), {}, {}};
     planner().want(all_of(*manifest_));
   }
@@ -42,7 +44,7 @@ void ModelStream::pause(bool pause) {
   is_paused_ = pause;
 }
 
-// What has been sent of the chunk need not be sent again.
+// Remembers how much of the current chunk has been sent, so that only the rest is sent later.
 void ModelStream::interrupt() {
   if (is_within_chunk()) interrupted_.push_back(*under_way_);
   under_way_.reset();
@@ -50,7 +52,7 @@ void ModelStream::interrupt() {
 
 Expected<void> ModelStream::have(const std::vector<ChunkRange>& chunks) {
   if (!chunks.empty() && chunks.back().last >= manifest_->chunks.size()) {
-    return fail(ErrorCode::kBadInput, "have: the model has no such chunk; fetch its head anew");
+    return fail(ErrorCode::kBadInput, "have: the model has no such chunk; fetch its head again");
   }
   for (const ChunkRange& range : chunks) {
     for (std::uint64_t i = range.first; i <= range.last; ++i)
@@ -67,14 +69,16 @@ std::uint64_t ModelStream::left_of(std::size_t chunk) const {
   return part == interrupted_.end() ? length : length - part->offset;
 }
 
-// With the chunk or without it, whichever ends nearer to the deadline.
+// Whether to send one more chunk. True if everything then arrives by the deadline. Also true if it
+// arrives a little late, but closer to the deadline than without the chunk.
 bool ModelStream::is_in_time(Ends ends, Pacer::Time now) const {
   const double left = (timed_->deadline - now).count();
   const double late = ends.with - left, early = left - ends.without;
   return late <= 0 || (late < early && late <= kMostLate * timed_->seconds);
 }
 
-// Sets under_way_. False where nothing is left to send.
+// Chooses the next chunk and sets under_way_. Returns false if no chunk is left or the next chunk
+// would arrive too late.
 bool ModelStream::choose(const Share& share, Pacer::Time now) {
   const auto chunk = planner().next();
   if (!chunk) return false;
@@ -96,7 +100,7 @@ StreamOutput ModelStream::next(std::uint32_t most, const Share& share, Pacer::Ti
   if (head_) return head_slice(most);
   if (!is_open_) return {};
   if (!under_way_ && !choose(share, now)) {
-    // A link that is full or silent now may bring more yet.
+    // A link that is full or stalled now may still deliver more in time, so the request stays open.
     if (most == 0 && timed_ && now < timed_->deadline && planner().next()) return {};
     is_open_ = false;
     return DoneMessage{number_, turn_, planner().bytes_held(), planner().faces_held()};
@@ -123,7 +127,8 @@ StreamOutput ModelStream::chunk_slice(std::uint32_t most) {
   const auto length =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.length - offset));
   if (length == 0) {
-    if (timed_ && !is_within_chunk()) under_way_.reset();  // it may be too late when it can go
+    if (timed_ && !is_within_chunk())
+      under_way_.reset();  // choose again later, as this chunk may then arrive too late
     return {};
   }
   under_way_->offset += length;
@@ -139,7 +144,8 @@ StreamOutput ModelStream::chunk_slice(std::uint32_t most) {
   return Slice{header, chunk.offset + offset, length};
 }
 
-// A promise where there is none yet, or the last one no longer fits what is measured.
+// Returns a promise if none has been sent yet, or if the last one no longer agrees with the
+// measurements. Otherwise returns nullopt.
 std::optional<PromiseMessage> ModelStream::news(const Share& share, Pacer::Time now) {
   const auto& last = timed_->promise;
   if (last) {
@@ -156,7 +162,8 @@ std::optional<PromiseMessage> ModelStream::news(const Share& share, Pacer::Time 
   return promise;
 }
 
-// Goes on as next() would at the present rate; promises nothing that might come late.
+// Returns the promise for the current rate, by a simulation of next(). Promises no chunk that might
+// arrive late.
 PromiseMessage ModelStream::forecast(const Share& share, Pacer::Time now) const {
   const double rate = share.pacer.rate(now), left = (timed_->deadline - now).count();
   std::uint64_t bytes = head_ ? manifest_->head_bytes() - head_sent_ : 0;
@@ -182,4 +189,4 @@ PromiseMessage ModelStream::forecast(const Share& share, Pacer::Time now) const 
           .measured = share.pacer.is_measured()};
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

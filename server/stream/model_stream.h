@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a server knows of one model of one client: the wish, what is held, what is under way; and
-// from these, what to send next. Pure: no I/O, no clock.
+// The state of one model on one client's stream: the detail request, the chunks that the client
+// holds, and the chunk being sent. Chooses what to send next. Does no I/O and reads no clock.
 #pragma once
 
 #include <optional>
@@ -8,22 +8,23 @@
 #include <vector>
 
 #include "codec/core/expected.h"
-#include "codec/progressive/planner.h"
+#include "codec/plan/planner.h"
 #include "server/stream/message.h"
 #include "server/stream/pacer.h"
 #include "server/stream/server_message.h"
 #include "server/stream/slice.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 using StreamOutput = std::variant<std::monostate, Slice, PromiseMessage, DoneMessage>;
 
-// A connection as one of the models on it has it: they get the same number of bytes.
+// The connection as one model sees it. All models that have something to send get equal shares.
 struct Share {
   const Pacer& pacer;
   std::size_t sharers = 1;  // models that have something to send, this one included
 
-  // How long it takes until all that is on its way has arrived, and then `bytes` of this model's.
+  // Returns the seconds until all bytes in flight, and then `bytes` of this model, have arrived.
+  // `rate` is the connection's rate in bytes per second.
   double seconds(std::uint64_t bytes, double rate) const {
     return (static_cast<double>(pacer.in_flight()) +
             static_cast<double>(bytes) * static_cast<double>(sharers)) /
@@ -33,38 +34,39 @@ struct Share {
 
 class ModelStream {
  public:
-  // The manifest outlives this. Nothing is wanted yet but, where `head` is set, the head.
+  // The manifest must outlive this object. Before the first detail request, sends only the model's
+  // head (header and base mesh), and only if `head` is true.
   ModelStream(std::uint16_t number, const Manifest& manifest, bool head)
       : number_(number), manifest_(&manifest), head_(head) {}
 
   std::uint16_t number() const { return number_; }
 
   void want(const WantMessage& message, Pacer::Time now);
-  // Fails with kBadInput where the model has no such chunk.
+  // Marks chunks as held by the client. Fails with kBadInput if the model has no such chunk.
   Expected<void> have(const std::vector<ChunkRange>& chunks);
   void pause(bool pause);
 
-  // A slice of at most `most` bytes (none where that is 0), or what there is to say; nothing
-  // until something changes.
+  // Returns the next slice of at most `most` bytes, or a message. If `most` is 0, returns no slice.
+  // Returns std::monostate if there is nothing to send now.
   StreamOutput next(std::uint32_t most, const Share& share, Pacer::Time now);
 
-  // next() may have slices.
+  // Whether next() may return slices.
   bool is_sending() const { return (head_ || is_open_) && !is_paused_; }
-  // A wish for `seconds` is open: next() may have something new to say as time passes.
+  // Whether a `seconds` request is open, so that next() may return a new promise as time passes.
   bool is_timed() const { return is_open_ && timed_.has_value() && !is_paused_; }
 
  private:
   struct Part {
     std::size_t chunk;
-    std::uint64_t offset;  // sent up to here
+    std::uint64_t offset;  // number of bytes already sent
   };
   struct Timed {
     double seconds;
     Pacer::Time deadline;
-    std::optional<PromiseMessage> promise;  // the newest
+    std::optional<PromiseMessage> promise;  // the last promise sent
     Pacer::Time promised{};
   };
-  // How long sending takes from now on, with a chunk and without it.
+  // Seconds until everything has arrived: without and with one more chunk.
   struct Ends {
     double without, with;
   };
@@ -82,15 +84,16 @@ class ModelStream {
 
   std::uint16_t number_;
   const Manifest* manifest_;
-  bool head_;  // is to be sent, or the rest of it
+  bool head_;  // true while the head, or the rest of it, is still to be sent
   std::uint64_t head_sent_ = 0;
-  std::optional<Planner> planner_;  // from the first message on: those who only look on have none
-  std::uint32_t turn_ = 0;          // of the wish
-  bool is_open_ = false;            // the wish has not been answered by `done`
+  std::optional<Planner> planner_;  // created with the first detail request
+  std::uint32_t turn_ = 0;          // `turn` of the detail request
+  bool is_open_ = false;            // true until the request has been answered with `done`
   bool is_paused_ = false;
-  std::optional<Timed> timed_;     // the wish is for seconds
+  std::optional<Timed> timed_;     // set if the request is for `seconds`
   std::optional<Part> under_way_;  // the chunk being sent
-  std::vector<Part> interrupted_;  // by new wishes: if they are sent, it is the rest
+  // Chunks interrupted by new requests. Only the rest of each is sent later.
+  std::vector<Part> interrupted_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -5,7 +5,7 @@
 
 #include "server/stream/slice.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 Pacer::Duration Pacer::busy(Time now) const {
   return in_flight() > 0 ? busy_ + (now - then_) : busy_;
@@ -25,7 +25,8 @@ void Pacer::sent(std::uint64_t bytes, Time now) {
   if (marks_.size() < kMostMarks) marks_.push_back({sent_, now});
 }
 
-// Of the newest slice that is now known to have arrived.
+// Returns the delay of the newest slice that is known to have arrived. Returns a negative value if
+// there is no new measurement.
 Pacer::Duration Pacer::measure_delay(Time now) {
   const auto open = std::ranges::find_if(marks_, [&](const Mark& m) { return m.end > arrived_; });
   if (open == marks_.begin()) return Duration{-1};
@@ -68,7 +69,8 @@ void Pacer::arrived(std::uint64_t bytes, Time now) {
   window_ = std::clamp(std::max(fitting, more), kLeastWindow, kMostWindow);
 }
 
-// A link that falls silent again and again is one that has become slow.
+// Updates steady_ after bytes have arrived. Repeated stalls lower it, since they show that the link
+// has become slow.
 void Pacer::note_silence(Time now) {
   const bool was_silent = now - heard_ >= kNudge;
   if (was_silent) recovered_ = busy_;
@@ -78,8 +80,9 @@ void Pacer::note_silence(Time now) {
   if (busy_ - recovered_ >= kWindow) steady_ = rate(now);
 }
 
-// Of connections that wait in one queue a faster one may have more bytes there, but fewer for its
-// rate: so it becomes slower, and the others faster, until all are equally fast.
+// Returns the number of bytes that may queue at this rate. A faster connection may queue more
+// bytes, but fewer in relation to its rate. If connections share a queue, the faster ones therefore
+// slow down and the others speed up until all have the same rate.
 double Pacer::queue_bytes(double rate) {
   const double extra = std::min(rate * (kQueue - kFastQueue).count(), kFastExtra);
   return std::max(rate * kFastQueue.count() + extra, kLeastWindow);
@@ -91,11 +94,11 @@ std::uint32_t Pacer::slice_bytes(double rate) const {
       std::clamp(rate * slice_time_.count(), kLeast, static_cast<double>(kMaxSlice)));
 }
 
-// A delay may be the link's own or a crowd's queue that was there before: no connection can tell by
-// itself. But for what is known to be its own, what is on its way because of it therefore has a
-// bound, which all share.
-std::uint32_t Pacer::room(Time now, std::size_t crowd) {
-  const double speed = rate(now), sharers = std::max(1.0, static_cast<double>(crowd));
+// A measured delay contains the link's own delay and the queues of other senders, which a
+// connection cannot tell apart. The bytes in flight beyond the connection's own needs are therefore
+// limited, and all connections share that limit.
+std::uint32_t Pacer::room(Time now, std::size_t busy_streams) {
+  const double speed = rate(now), sharers = std::max(1.0, static_cast<double>(busy_streams));
   slice_time_ = std::max(kSliceTime, sharers * kSliceCost);
   const std::uint32_t slice = slice_bytes(speed);
   if (in_flight() == 0) drains_ = false;
@@ -118,7 +121,7 @@ double Pacer::rate(Time now) const {
   const auto arrived = static_cast<double>(last->arrived - first->arrived);
   const auto next = static_cast<double>(std::min<std::uint64_t>(in_flight(), kMaxSlice));
   const double seen = arrived / std::max(last->busy - first->busy, kLeastTime).count();
-  // As if a slice arrived just now.
+  // The rate that results if the next slice arrives now.
   const double possible = (arrived + next) / std::max(until - first->busy, kLeastTime).count();
   if (first == last) return std::max(1.0, possible);
   return std::max(1.0, next > 0 ? std::min(seen, possible) : seen);
@@ -148,4 +151,4 @@ double Pacer::hope(Time now) const {
   return busy(now) < kSomething ? std::max(4 * kFirstGuess, seen) : std::max(kFirstGuess, seen);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

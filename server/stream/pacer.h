@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast a connection is, and so how much may be on its way: as much as the link holds and a
-// short queue keeps it busy, so that a new wish waits for little. Measured from end to end, by what
-// the client acknowledges; no proxy's buffers deceive it. Connections that wait for the same link
-// or processor come to equal shares of it. Pure: the caller tells the time.
+// Congestion control for one connection: measures its rate and limits the bytes in flight. The
+// bytes in flight fill the link and a short queue, which keeps the link busy but delays a new
+// request only briefly. The rate is measured end to end, from the client's acknowledgements, so
+// that buffers of proxies do not distort it. Connections that compete for the same link or
+// processor converge to equal shares. No I/O, no clock: the caller passes the time.
 #pragma once
 
 #include <chrono>
@@ -10,66 +11,76 @@
 #include <optional>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::server {
 
 class Pacer {
  public:
   using Duration = std::chrono::duration<double>;  // seconds
   using Time = std::chrono::time_point<std::chrono::steady_clock, Duration>;
 
-  // What a connection is taken for before it is measured: bytes per second of a slow mobile link.
+  // The rate assumed before the first measurement: bytes per second of a slow mobile link.
   static constexpr double kFirstGuess = 32'000;
 
   void sent(std::uint64_t bytes, Time now);
-  void arrived(std::uint64_t bytes, Time now);  // of those sent
+  void arrived(std::uint64_t bytes, Time now);  // records that the client has acknowledged `bytes`
 
   std::uint64_t in_flight() const { return sent_ - arrived_; }
 
-  // The connection's own delay, where that is known from beside: no crowd's queue is in it.
+  // Sets the connection's own round-trip time. Call it only if that time was measured without the
+  // queues of other streams.
   void know_delay(Duration own) { own_ = own; }
 
-  // Bytes of the slice that may follow; 0 where none may. `crowd` is how many connections have
-  // something on their way, this one included. Where nothing has arrived for kNudge a slice may
-  // follow in any case: the client may be one that acknowledges several at a time.
-  std::uint32_t room(Time now, std::size_t crowd);
+  // Returns the size in bytes of the slice that may be sent now, or 0 if none may be sent.
+  // `busy_streams` is the number of connections with bytes in flight, including this one. If
+  // nothing has been sent or has arrived for kNudge, always allows a slice, since the client may
+  // acknowledge only several slices together.
+  std::uint32_t room(Time now, std::size_t busy_streams);
 
   bool is_measured() const { return is_measured_; }
-  // Bytes per second over the last kWindow in which something was on its way. Falls while nothing
-  // arrives.
+  // Returns the rate in bytes per second over the last kWindow of time with bytes in flight. The
+  // rate falls while nothing arrives.
   double rate(Time now) const;
-  // A slice is late, or the newer part of that window brought much less than the whole: what rate()
-  // will fall to is not known yet.
+  // Whether the rate is dropping: a slice is late, or the newest part of the window is much slower
+  // than the whole window. It is then not yet known how low rate() will fall.
   bool is_falling(Time now) const;
 
-  // What it may turn out to be: before it is measured, by what little has been seen, so that a
-  // client is not left without anything because its connection is not known yet; while it is
-  // silent, and until a silence has left the window: as before, as it may come back.
+  // Returns an optimistic rate. Before the first measurement, it is an estimate from the few bytes
+  // seen so far, so that a client receives something at once. During a stall, and until the stall
+  // has left the window, it is the rate before the stall, as the connection may recover. Otherwise
+  // it is rate().
   double hope(Time now) const;
 
   static constexpr Duration kNudge{0.25};
 
  private:
   static constexpr Duration kWindow{0.4};
-  static constexpr Duration kLeastTime{0.2};  // shorter bursts tell of buffers, not of the link
-  static constexpr Duration kSample{0.02};    // samples lie apart by this or more
+  // Least time of a measurement; a shorter burst would measure buffers, not the link.
+  static constexpr Duration kLeastTime{0.2};
+  static constexpr Duration kSample{0.02};  // minimum interval between samples
   static constexpr Duration kSliceTime{0.04};
-  static constexpr Duration kSliceCost{50e-6};    // of a processor's time, whatever its length
-  static constexpr Duration kQueue{0.1};          // what may queue beyond the link's own delay;
-  static constexpr Duration kFastQueue{0.04};     // where the link is fast, this
-  static constexpr double kFastExtra = 6 * 1024;  // and so many bytes
-  static constexpr Duration kShortQueue{0.03};    // less than this: the link may take more
-  static constexpr Duration kBaseAge{10};         // the link's delay is measured anew
-  static constexpr std::uint64_t kEnough = 64 * 1024;  // arrived: measured, however fast
+  // Processor time per slice, which does not depend on its length.
+  static constexpr Duration kSliceCost{50e-6};
+  // Time that bytes may queue on slow links, beyond the link's own delay.
+  static constexpr Duration kQueue{0.1};
+  // Time that bytes may queue on fast links, beyond the link's own delay.
+  static constexpr Duration kFastQueue{0.04};
+  static constexpr double kFastExtra = 6 * 1024;  // additional bytes that may queue on fast links
+  // The window grows while the queueing delay is shorter than this.
+  static constexpr Duration kShortQueue{0.03};
+  static constexpr Duration kBaseAge{10};  // interval at which the link's delay is measured again
+  // Number of bytes that suffices for a measurement.
+  static constexpr std::uint64_t kEnough = 64 * 1024;
   static constexpr std::size_t kMostMarks = 64;
   static constexpr double kFirstWindow = 16 * 1024;
   static constexpr double kLeastWindow = 4 * 1024;
   static constexpr double kMostWindow = 16 << 20;
-  // Of all connections: what delays may take that are not known to be their own; and where nothing
-  // is known of that, so that visitors who are far away are not held back behind a proxy.
+  // Limit on the bytes in flight of all connections together, beyond the bytes that each
+  // connection's own delay and queue account for. kUnknownShared applies to a connection whose own
+  // delay is unknown. It is larger, so that distant clients behind a proxy are not slowed down.
   static constexpr double kShared = 256 * 1024, kUnknownShared = 8 << 20;
 
   struct Mark {
-    std::uint64_t end;  // sent up to here
+    std::uint64_t end;  // bytes sent up to and including this slice
     Time at;
   };
   struct Sample {
@@ -86,21 +97,26 @@ class Pacer {
   Duration measure_delay(Time now);
 
   std::uint64_t sent_ = 0, arrived_ = 0;
-  Time then_{};              // of the last event
-  Duration busy_{0};         // with something on its way, up to then_
-  Time progress_{};          // when something arrived or was sent
-  std::vector<Mark> marks_;  // of what is on its way, in order
+  Time then_{};              // time up to which busy_ is counted
+  Duration busy_{0};         // total time with bytes in flight, up to then_
+  Time progress_{};          // time of the last send or arrival
+  std::vector<Mark> marks_;  // the slices in flight, in order
   std::vector<Sample> samples_;
   bool is_measured_ = false;
-  double steady_ = 0;                // the rate, a silence not counted
-  Time heard_{};                     // when something arrived, or was sent after nothing
-  Duration recovered_{0};            // the end of the last silence, as busy_
-  Duration base_ = Duration::max();  // the shortest way to the client and back
+  double steady_ = 0;      // the rate without stalls
+  Time heard_{};           // time of the last arrival, or of a send with nothing in flight
+  Duration recovered_{0};  // busy_ at the end of the last stall
+  Duration base_ = Duration::max();  // the shortest round trip to the client
   Time base_since_{};
-  bool drains_ = false;  // until nothing is on its way, so that base_ is seen without a queue
-  std::optional<Duration> own_;  // of the delay: surely no queue
+  // Whether room() first lets the bytes in flight arrive, so that base_ is measured without a
+  // queue.
+  bool drains_ = false;
+  // The connection's own round-trip time, without queues; nullopt if unknown.
+  std::optional<Duration> own_;
   double window_ = kFirstWindow;
-  Duration slice_time_ = kSliceTime;  // in a crowd it is longer, as slices cost time
+  // Time that sending one slice should take. It is longer if many streams are busy, as each slice
+  // costs processor time.
+  Duration slice_time_ = kSliceTime;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

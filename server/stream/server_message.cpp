@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using Json = nlohmann::json;
@@ -44,7 +44,7 @@ OrderedJson json_of(const ClosedMessage& message) {
   return {{"type", "closed"}, {"model", message.model}, {"reason", message.reason}};
 }
 
-// Reads members, and remembers whether all were there and of their type.
+// Reads members of a JSON object and records whether all of them exist with the expected type.
 class Members {
  public:
   explicit Members(const Json& json) : json_(json) {}
@@ -137,7 +137,7 @@ Expected<ServerMessage> parse_server_message(std::string_view text) {
     if (*type == "done") return parse_done(Members(json));
     if (*type == "closed") return parse_closed(Members(json));
   }
-  return fail(ErrorCode::kBadInput, "the server's message is none of pmesh.v1");
+  return fail(ErrorCode::kBadInput, "the server's message is not one of pmesh.v1");
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What servers of pmesh.v1 say: its text frames (PROTOCOL.md). Pure.
+// The messages that the server sends in the protocol pmesh.v1, as text frames (PROTOCOL.md). No
+// I/O.
 #pragma once
 
 #include <cstdint>
@@ -9,42 +10,44 @@
 
 #include "codec/core/expected.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
-// A model is open: what its number stands for.
+// States that a model is open under this number, and describes the model.
 struct ModelMessage {
   std::uint16_t model = 0;
-  std::string sha256;  // of its file, 64 hexadecimal digits
+  std::string sha256;  // SHA-256 of the model's file, 64 hexadecimal digits
   std::uint64_t chunks = 0;
   std::uint64_t head_bytes = 0;
-  std::uint64_t slice_bytes = 0;  // a slice's payload has no more
-  std::uint64_t credit = 0;       // that the connection has left
+  std::uint64_t slice_bytes = 0;  // largest payload of a slice
+  std::uint64_t credit = 0;       // remaining credit of the connection
   bool operator==(const ModelMessage&) const = default;
 };
 
-// What will be there in time, of a wish for `seconds`. Each replaces the one before.
+// The answer to a request for `seconds`: the detail that the client will hold in time. Replaces the
+// last promise.
 struct PromiseMessage {
   std::uint16_t model = 0;
-  std::uint32_t turn = 0;       // of the wish
-  std::uint32_t level = 0;      // that is complete then
-  std::uint64_t bytes = 0;      // held then, head included
-  std::uint64_t triangles = 0;  // held then
-  double error = 0;             // of that level, model units
-  double seconds = 0;           // from now
-  double bytes_per_second = 0;  // of the connection
-  bool measured = false;        // else that is a first guess
+  std::uint32_t turn = 0;       // `turn` of the request
+  std::uint32_t level = 0;      // the finest level that the client will hold completely
+  std::uint64_t bytes = 0;      // bytes that the client will hold, including the head
+  std::uint64_t triangles = 0;  // triangles that the client will hold
+  double error = 0;             // maximum error of `level`, in model units
+  double seconds = 0;           // seconds until all of this has arrived
+  double bytes_per_second = 0;  // rate at which the model's bytes arrive
+  bool measured = false;        // false if bytes_per_second is a guess before the first measurement
   bool operator==(const PromiseMessage&) const = default;
 };
 
-// The wish is met: what the client holds once it has what was sent before this.
+// States that the request is met. The members describe the detail that the client holds once all
+// earlier frames have arrived.
 struct DoneMessage {
   std::uint16_t model = 0;
-  std::uint32_t turn = 0;  // of the wish
+  std::uint32_t turn = 0;  // `turn` of the request
   std::uint64_t bytes = 0, triangles = 0;
   bool operator==(const DoneMessage&) const = default;
 };
 
-// The number stands for no model (any more).
+// States that no model is open under this number, since it was closed or could not be opened.
 struct ClosedMessage {
   std::uint16_t model = 0;
   std::string reason;
@@ -55,8 +58,8 @@ using ServerMessage = std::variant<ModelMessage, PromiseMessage, DoneMessage, Cl
 
 std::string to_json(const ServerMessage& message);
 
-// For clients: parses one message. Safe on hostile bytes: work and memory are linear in the length,
-// which the caller bounds.
+// Parses one message of the server, for clients. Safe on hostile input: time and memory are linear
+// in the length, which the caller must limit.
 Expected<ServerMessage> parse_server_message(std::string_view text);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/stream/slice.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 template <class Value>
@@ -43,4 +43,4 @@ std::optional<SliceHeader> parse_slice(std::span<const std::uint8_t> frame) {
   return end <= header.total ? std::optional(header) : std::nullopt;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

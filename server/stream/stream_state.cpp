@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-constexpr Pacer::Duration kPoll{0.02};         // of the kernel's queue
-constexpr Pacer::Duration kNewsInterval{0.1};  // promises are looked at
+constexpr Pacer::Duration kPoll{0.02};         // interval at which the kernel's queue is read
+constexpr Pacer::Duration kNewsInterval{0.1};  // interval at which promises are checked
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Expected<void> StreamState::with_model(std::uint16_t number, const Do& act) {
 }
 
 Expected<void> StreamState::receive_one(const OpenMessage&, Time) {
-  return fail(ErrorCode::kState, "open is the caller's to answer");
+  return fail(ErrorCode::kState, "an open message is for StreamState::open()");
 }
 
 Expected<void> StreamState::receive_one(const CloseMessage& message, Time) {
@@ -73,15 +73,15 @@ void StreamState::still_queued(std::uint64_t bytes, Time now) {
   if (bytes < pacer_.in_flight()) pacer_.arrived(pacer_.in_flight() - bytes, now);
 }
 
-// How long the next slice may be; 0 where none may go.
-std::uint32_t StreamState::room(Time now, std::size_t crowd) {
-  const std::uint32_t paced = pacer_.room(now, crowd);
+// Returns the largest size of the next slice, or 0 if no slice may be sent.
+std::uint32_t StreamState::room(Time now, std::size_t busy_streams) {
+  const std::uint32_t paced = pacer_.room(now, busy_streams);
   is_held_ = credit_ > 0 && paced == 0;
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(paced, credit_));
 }
 
-StreamOutput StreamState::next(Time now, std::size_t crowd) {
-  const std::uint32_t most = room(now, crowd);
+StreamOutput StreamState::next(Time now, std::size_t busy_streams) {
+  const std::uint32_t most = room(now, busy_streams);
   const auto is_sending = [](const Sharer& model) { return model.stream.is_sending(); };
   const auto sharers = static_cast<std::size_t>(std::ranges::count_if(models_, is_sending));
   for (Sharer& model : models_) {
@@ -93,7 +93,8 @@ StreamOutput StreamState::next(Time now, std::size_t crowd) {
   return {};
 }
 
-// Those who want nothing now save up nothing for later.
+// Counts `bytes` as sent for `model`. Raises the counts of models with nothing to send to that of
+// `model`, so that idle time gives them no claim to later bandwidth.
 void StreamState::serve(Sharer& model, std::uint32_t bytes, Time now) {
   credit_ -= bytes;
   sent_ += bytes;
@@ -116,4 +117,4 @@ std::optional<StreamState::Time> StreamState::wakes(Time now) const {
   return std::nullopt;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a server knows of one client of pmesh.v1: its models, its credit and its pace; and from
-// these, what to send next. Pure: no I/O; the caller tells the time.
+// The state of one client of pmesh.v1: its models, its credit (the bytes that it allows the server
+// to send) and its pace. Chooses what to send next. No I/O; the caller passes the time.
 #pragma once
 
 #include <cstdint>
@@ -9,37 +9,43 @@
 
 #include "server/stream/model_stream.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 inline constexpr std::uint64_t kFirstCredit = 64 * 1024;
-inline constexpr std::uint64_t kMaxCredit = 64u << 20;  // more grants are lost
+inline constexpr std::uint64_t kMaxCredit = 64u << 20;  // bytes; credit beyond this is ignored
 
 class StreamState {
  public:
   using Time = Pacer::Time;
 
-  // The manifest outlives its model. Fails (kBadInput) where the number is taken.
+  // Opens a model. The manifest must outlive the open model. Fails (kBadInput) if the number is
+  // taken.
   Expected<void> open(std::uint16_t model, const Manifest& manifest, bool head);
 
-  // Anything but an OpenMessage, which is the caller's to answer with open(). Fails with kBadInput
-  // where the message does not fit what is open.
+  // Handles any message except an OpenMessage, for which the caller calls open(). Fails with
+  // kBadInput if the message refers to a model that is not open or a chunk that does not exist.
   Expected<void> receive(const ClientMessage& message, Time now);
 
-  // What to send now; nothing before a further message or wakes(). A slice is chosen only now and
-  // takes its credit, so a new wish or a `have` counts at once. Models that have something to send
-  // get equal shares, slice by slice. `crowd` is how many streams are busy, this one included.
-  StreamOutput next(Time now, std::size_t crowd = 1);
-  bool is_busy() const { return pacer_.in_flight() > 0; }  // something is on its way
+  // Returns the next output, or std::monostate if there is none until the next message or wakes().
+  // A slice is chosen and charged to the credit only here, so that a new request or a `have` takes
+  // effect at once. Models that have something to send get equal shares, slice by slice.
+  // `busy_streams` is the number of the daemon's busy streams, including this one.
+  StreamOutput next(Time now, std::size_t busy_streams = 1);
+  // Whether bytes are in flight.
+  bool is_busy() const { return pacer_.in_flight() > 0; }
 
-  // When next() may have something although no message has come; nothing: never.
+  // Returns the time at which next() may have an output without a further message. Returns nullopt
+  // if there is no such time.
   std::optional<Time> wakes(Time now) const;
 
-  // The client has granted more than it was sent, so its messages do not tell what has arrived:
-  // the caller tells what the kernel still holds.
+  // Whether the client has granted credit for more bytes than were sent. Acknowledgements then do
+  // not show which bytes have arrived, so the caller must report the bytes still queued in the
+  // kernel.
   bool is_granted_ahead() const { return granted_ > sent_; }
+  // Reports the number of bytes still queued in the kernel. Counts the other sent bytes as arrived.
   void still_queued(std::uint64_t bytes, Time now);
 
-  // The connection's own delay; to be called where no proxy stands between.
+  // Sets the round-trip time of the connection itself. Call this only if no proxy is in between.
   void know_delay(Pacer::Duration own) { pacer_.know_delay(own); }
 
   std::uint64_t credit() const { return credit_; }
@@ -47,7 +53,8 @@ class StreamState {
  private:
   struct Sharer {
     ModelStream stream;
-    std::uint64_t served;  // bytes, or as much as those who were sent something while it was idle
+    // Bytes sent; after an idle time, raised to the count of the models that were sending.
+    std::uint64_t served;
   };
 
   Sharer* find(std::uint16_t model);
@@ -59,14 +66,14 @@ class StreamState {
   Expected<void> receive_one(const OpenMessage& message, Time now);
   template <class Do>
   Expected<void> with_model(std::uint16_t number, const Do& act);
-  std::uint32_t room(Time now, std::size_t crowd);
+  std::uint32_t room(Time now, std::size_t busy_streams);
   void serve(Sharer& model, std::uint32_t bytes, Time now);
 
-  std::vector<Sharer> models_;  // who has been served least comes first
+  std::vector<Sharer> models_;  // sorted by `served`, the least first
   std::uint64_t credit_ = kFirstCredit;
-  std::uint64_t granted_ = 0, sent_ = 0;  // by acks; in slices
-  bool is_held_ = false;  // by the pace: something is to be sent, and there is credit for it
+  std::uint64_t granted_ = 0, sent_ = 0;  // bytes granted by acks; bytes sent in slices
+  bool is_held_ = false;  // whether the pacer holds back data for which there is credit
   Pacer pacer_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

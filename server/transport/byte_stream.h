@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of one connection: a TCP or a Unix socket, with TLS on it or without. It is used as a
-// socket of Boost.Asio is, so that Beast reads from it and speaks WebSocket over it.
+// The byte stream of one connection: a TCP or Unix socket, with or without TLS. It has the
+// interface of a Boost.Asio socket, so that Beast can read from it and use WebSocket over it.
 #pragma once
 
 #include <boost/asio/async_result.hpp>
@@ -16,27 +16,39 @@
 #include <utility>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::server {
 
 class TlsContext;
 
 class ByteStream {
  public:
   using Socket = boost::asio::generic::stream_protocol::socket;
+  using Endpoint = boost::asio::generic::stream_protocol::endpoint;
   using executor_type = Socket::executor_type;
   using Error = boost::system::error_code;
 
-  explicit ByteStream(Socket socket);  // does not block from now on
+  explicit ByteStream(Socket socket);  // makes the socket non-blocking
   ~ByteStream();
 
-  // The server's half of a TLS handshake; from then on all bytes are encrypted.
+  // Performs the server's part of a TLS handshake; afterwards all bytes are encrypted.
   boost::asio::awaitable<Error> encrypt(std::shared_ptr<const TlsContext> context);
-  // Tells the peer that no more bytes come, and waits for its goodbye where they are encrypted.
+  struct ClientHandshake {
+    Error error;
+    // Why the server's certificate is not trusted; empty if that is not the error.
+    std::string distrust;
+  };
+  // Performs the client's part of a TLS handshake with `host`. Trusts the certificate authorities
+  // of the system, or those in the file that SSL_CERT_FILE names.
+  boost::asio::awaitable<ClientHandshake> encrypt_to(std::string host);
+  // Connects as a client to the first endpoint that answers.
+  boost::asio::awaitable<Error> connect(std::vector<Endpoint> endpoints);
+  // Ends the outgoing direction. With TLS, also waits for the peer's close_notify.
   boost::asio::awaitable<void> finish();
-  // False: native_handle() may be written to.
+  // Whether the stream uses TLS. If not, callers may write to native_handle() directly.
   bool is_encrypted() const { return tls_ != nullptr; }
 
-  std::string peer_address() const;  // in digits, "unix", or "-" where the peer has gone
+  // Returns the IP address, "unix", or "-" if the peer has disconnected.
+  std::string peer_address() const;
 
   executor_type get_executor() { return socket_.get_executor(); }
   bool is_open() const { return socket_.is_open(); }
@@ -59,7 +71,7 @@ class ByteStream {
   void read_encrypted(Bytes bytes, Done done);
   void write_encrypted(std::vector<std::uint8_t> bytes, Done done);
 
-  // std::function copies, and handlers move alone.
+  // Wraps a handler, which can only be moved, for std::function, which needs a copyable target.
   template <class Handler>
   static Done erase(Handler&& handler) {
     auto shared = std::make_shared<std::decay_t<Handler>>(std::forward<Handler>(handler));
@@ -86,7 +98,7 @@ class ByteStream {
     void operator()(Handler&& handler, const Buffers& buffers) const {
       if (!stream->is_encrypted())
         return stream->socket_.async_write_some(buffers, std::forward<Handler>(handler));
-      constexpr std::size_t kRecord = 16 * 1024;  // the most that TLS sends at once
+      constexpr std::size_t kRecord = 16 * 1024;  // size of the largest TLS record
       std::vector<std::uint8_t> bytes(std::min(kRecord, boost::asio::buffer_size(buffers)));
       boost::asio::buffer_copy(boost::asio::buffer(bytes), buffers);
       stream->write_encrypted(std::move(bytes), erase(std::forward<Handler>(handler)));
@@ -108,7 +120,7 @@ class ByteStream {
     return boost::asio::async_initiate<Token, Signature>(Write{this}, token, buffers);
   }
 
-  // What Beast's WebSocket ends with.
+  // Beast's WebSocket calls these functions to close the stream.
   friend void beast_close_socket(ByteStream& stream) {
     Error ignored;
     stream.close(ignored);
@@ -128,4 +140,4 @@ class ByteStream {
   std::unique_ptr<Tls> tls_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

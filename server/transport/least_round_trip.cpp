@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/transport/least_round_trip.h"
 
-#include <linux/tcp.h>  // glibc's own lacks the member, and the two do not go together
+#include <linux/tcp.h>  // glibc's version lacks the member and cannot be included together with this one
 #include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <cstddef>
 #include <cstdint>
 
-namespace vitrine {
+namespace vitrine::server {
 
 std::optional<std::chrono::microseconds> least_round_trip(int socket) {
   tcp_info info{};
@@ -16,9 +16,9 @@ std::optional<std::chrono::microseconds> least_round_trip(int socket) {
   constexpr std::size_t kEnough = offsetof(tcp_info, tcpi_min_rtt) + sizeof info.tcpi_min_rtt;
   if (::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &info, &size) != 0 || size < kEnough)
     return std::nullopt;
-  // So it says where nothing has been measured.
+  // The kernel reports UINT32_MAX if it has not measured a round trip yet.
   if (info.tcpi_min_rtt == UINT32_MAX) return std::nullopt;
   return std::chrono::microseconds(info.tcpi_min_rtt);
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads the smallest round-trip time of a TCP connection.
 #pragma once
 
 #include <chrono>
 #include <optional>
 
-namespace vitrine {
+namespace vitrine::server {
 
-// The shortest time in which the other end's kernel has answered, of a TCP connection: no process
-// at either end lengthens it. Nothing of other sockets.
+// Returns the smallest round-trip time that the kernel has measured on the connection. It does not
+// include delays by the processes at either end. Returns nullopt if `socket` is not a TCP socket or
+// nothing was measured yet.
 std::optional<std::chrono::microseconds> least_round_trip(int socket);
 
-}  // namespace vitrine
+}  // namespace vitrine::server

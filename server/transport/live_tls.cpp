@@ -3,18 +3,18 @@
 
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::server {
 
 Expected<std::shared_ptr<LiveTls>> LiveTls::open(const TlsFiles& files) {
   std::shared_ptr<LiveTls> live(new LiveTls(files));
   auto context = TlsContext::load(files);
-  if (!context) return Unexpected(context.error());
+  if (!context) return tl::unexpected(context.error());
   live->context_ = std::move(*context);
   return live;
 }
 
 LiveTls::Times LiveTls::times() const {
-  std::error_code ignored;  // of a file that is being replaced
+  std::error_code ignored;  // a file may be missing while it is being replaced
   return {std::filesystem::last_write_time(files_.certificate, ignored),
           std::filesystem::last_write_time(files_.key, ignored)};
 }
@@ -31,10 +31,10 @@ Expected<bool> LiveTls::refresh() {
     if (std::exchange(read_, now) == now) return false;
   }
   auto fresh = TlsContext::load(files_);
-  if (!fresh) return Unexpected(fresh.error());
+  if (!fresh) return tl::unexpected(fresh.error());
   const std::scoped_lock lock(mutex_);
   context_.swap(*fresh);
   return true;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

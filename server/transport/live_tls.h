@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The certificate in force: replaced while the connections that have the old one go on.
+// The certificate in force. It can be replaced; existing connections keep the old one.
 #pragma once
 
 #include <memory>
@@ -7,18 +7,19 @@
 
 #include "server/transport/tls_context.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 // Thread-safe.
 class LiveTls {
  public:
-  // Fails as TlsContext::load() does.
+  // Loads the files. Fails with the errors of TlsContext::load().
   static Expected<std::shared_ptr<LiveTls>> open(const TlsFiles& files);
 
   std::shared_ptr<const TlsContext> current() const;
 
-  // Reads the files again where one has changed since; true where what they hold is in force now.
-  // A fault leaves all as it was and is told once.
+  // Reads the files again if one has changed. Returns true if their new content is now in force,
+  // false if no file has changed. If reading fails, the old certificate stays in force, and the
+  // error is returned once per change.
   Expected<bool> refresh();
 
  private:
@@ -27,9 +28,9 @@ class LiveTls {
   Times times() const;
 
   const TlsFiles files_;
-  mutable std::mutex mutex_;  // guards what follows
-  Times read_;                // when the files were written that have been read
+  mutable std::mutex mutex_;  // guards the members below
+  Times read_;                // modification times of the files that were read
   std::shared_ptr<const TlsContext> context_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr const char* kCiphers =
@@ -25,7 +25,7 @@ Unexpected bad(const std::filesystem::path& file, std::string_view fault, std::s
   return fail(ErrorCode::kBadInput, fmt::format("{}: {}; {}", file.string(), fault, step));
 }
 
-// OpenSSL does not say well why a file cannot be read.
+// Checks that a file can be read, since OpenSSL's message does not explain why it cannot.
 Expected<void> check_readable(const std::filesystem::path& file) {
   std::error_code ignored;
   int error = std::filesystem::is_directory(file, ignored) ? EISDIR : 0;
@@ -35,12 +35,12 @@ Expected<void> check_readable(const std::filesystem::path& file) {
     return {};
   }
   if (error == 0) error = errno;
-  return fail(ErrorCode::kIo, fmt::format("cannot read {}: {}; check the path and who may read it",
+  return fail(ErrorCode::kIo, fmt::format("cannot read {}: {}; check the path and its permissions",
                                           file.string(), std::strerror(error)));
 }
 
 int no_passphrase(char*, int, int, void*) {
-  return 0;  // else OpenSSL would ask the terminal
+  return 0;  // there is no passphrase; without this callback, OpenSSL would prompt on the terminal
 }
 
 std::string text_of(const ASN1_TIME* time) {
@@ -66,7 +66,7 @@ Expected<void> check_dates(SSL_CTX* context, const std::filesystem::path& file) 
   return {};
 }
 
-// We speak HTTP/1.1 alone.
+// Chooses HTTP/1.1, the only protocol supported, if the client offers it (ALPN).
 int choose_protocol(SSL*, const unsigned char** out, unsigned char* size, const unsigned char* in,
                     unsigned in_size, void*) {
   static constexpr unsigned char kOurs[] = "\x08http/1.1";
@@ -83,7 +83,7 @@ void configure(SSL_CTX* context) {
   SSL_CTX_set_min_proto_version(context, TLS1_2_VERSION);
   SSL_CTX_set_cipher_list(context, kCiphers);
   SSL_CTX_set_options(context, SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
-  SSL_CTX_set_mode(context, SSL_MODE_RELEASE_BUFFERS);  // an idle connection keeps none
+  SSL_CTX_set_mode(context, SSL_MODE_RELEASE_BUFFERS);  // an idle connection keeps no buffers
   SSL_CTX_set_default_passwd_cb(context, no_passphrase);
   SSL_CTX_set_alpn_select_cb(context, choose_protocol, nullptr);
 }
@@ -98,23 +98,23 @@ TlsContext::~TlsContext() = default;
 
 Expected<std::shared_ptr<const TlsContext>> TlsContext::load(const TlsFiles& files) {
   for (const auto& file : {files.certificate, files.key}) {
-    if (auto readable = check_readable(file); !readable) return Unexpected(readable.error());
+    if (auto readable = check_readable(file); !readable) return tl::unexpected(readable.error());
   }
   std::shared_ptr<TlsContext> tls(new TlsContext);
   SSL_CTX* context = tls->context_->native_handle();
   configure(context);
   if (SSL_CTX_use_certificate_chain_file(context, files.certificate.c_str()) != 1) {
-    return bad(files.certificate, "it is no certificate in PEM form",
+    return bad(files.certificate, "it is not a certificate in PEM form",
                "name a file that begins with BEGIN CERTIFICATE");
   }
   if (auto current = check_dates(context, files.certificate); !current) {
-    return Unexpected(current.error());
+    return tl::unexpected(current.error());
   }
   if (SSL_CTX_use_PrivateKey_file(context, files.key.c_str(), SSL_FILETYPE_PEM) != 1) {
     const bool mismatch = ERR_GET_REASON(ERR_peek_error()) == X509_R_KEY_VALUES_MISMATCH;
     if (!mismatch) {
-      return bad(files.key, "it is no private key in PEM form without a passphrase",
-                 "name one, or take its passphrase away");
+      return bad(files.key, "it is not a private key in PEM form without a passphrase",
+                 "name one, or remove its passphrase");
     }
   }
   if (SSL_CTX_check_private_key(context) != 1) {
@@ -124,4 +124,4 @@ Expected<std::shared_ptr<const TlsContext>> TlsContext::load(const TlsFiles& fil
   return tls;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::server

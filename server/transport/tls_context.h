@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The certificate and the key that the server shows those who connect with TLS 1.2 or 1.3.
+// The certificate and key that the server uses for connections with TLS 1.2 or 1.3.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,12 @@ namespace boost::asio::ssl {
 class context;
 }
 
-namespace vitrine {
+namespace vitrine::server {
 
 struct TlsFiles {
-  std::filesystem::path certificate;  // PEM: the server's own, then those that lead to the root
-  std::filesystem::path key;          // PEM, without a passphrase
+  // PEM file: the server's certificate, followed by the intermediate certificates up to the root.
+  std::filesystem::path certificate;
+  std::filesystem::path key;  // PEM, without a passphrase
 
   bool operator==(const TlsFiles&) const = default;
 };
@@ -23,13 +24,14 @@ struct TlsFiles {
 // Immutable.
 class TlsContext {
  public:
-  // Fails where a file cannot be read (kIo), is not what it should be, is out of its time, or the
-  // key is not the certificate's (kBadInput).
+  // Loads the files. Fails with kIo if a file cannot be read. Fails with kBadInput if a file is not
+  // a certificate or a key, if the certificate is expired or not valid yet, or if the key does not
+  // belong to it.
   static Expected<std::shared_ptr<const TlsContext>> load(const TlsFiles& files);
 
   ~TlsContext();
 
-  // Connections are made from it; nothing of it is changed.
+  // Returns the context for creating connections. Callers must not change it.
   boost::asio::ssl::context& native() const { return *context_; }
 
  private:
@@ -38,4 +40,4 @@ class TlsContext {
   const std::unique_ptr<boost::asio::ssl::context> context_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PostgreSQL server and the Ceph gateway of tests/support, each with what a cluster needs in it.
+// Runs a cluster's PostgreSQL server and Ceph gateway, by scripts of tests/support/process, and creates the cluster's
+// database and bucket in them.
 import { execFile, spawn } from "node:child_process";
 import { once } from "node:events";
 import { mkdtemp, rm } from "node:fs/promises";
@@ -11,11 +12,14 @@ import { promisify } from "node:util";
 
 const run = promisify(execFile);
 
-/** A server that a script of tests/support runs: its first line is the port, then each command is answered by a line. */
+/**
+ * A server that a script of tests/support/process runs. The script prints the port first, then one line for each
+ * command.
+ */
 class Backend {
   async start(script) {
     this.folder = await mkdtemp(join(tmpdir(), "vitrine-backend-"));
-    const path = fileURLToPath(new URL(`../support/${script}`, import.meta.url));
+    const path = fileURLToPath(new URL(`../support/process/${script}`, import.meta.url));
     this.process = spawn(path, [this.folder], { stdio: ["pipe", "pipe", "inherit"] });
     this.lines = createInterface({ input: this.process.stdout })[Symbol.asyncIterator]();
     this.port = await this.#line();
@@ -46,7 +50,7 @@ export class Postgres extends Backend {
     this.url = `postgresql://museum:a-secret@127.0.0.1:${this.port}/museum`;
   }
 
-  /** The rows of an answer, each a list of texts. */
+  /** Returns the rows of a query's result, each a list of strings. */
   async query(sql) {
     const { stdout } = await run("/usr/lib/postgresql/15/bin/psql", [this.url, "-XAtq", "-F", "\t", "-c", sql]);
     return stdout.split("\n").filter((line) => line !== "").map((line) => line.split("\t"));
@@ -69,7 +73,7 @@ export class Gateway extends Backend {
     return (await run("curl", [...words, "-H", "x-amz-content-sha256: UNSIGNED-PAYLOAD", url])).stdout;
   }
 
-  /** The SHA-256 of each object that is stored; a thousand at most. */
+  /** Returns the SHA-256 of each stored object, at most 1,000. */
   async objects() {
     const listed = await this.#bucket("GET", "?list-type=2&prefix=objects%2F");
     return [...listed.matchAll(/<Key>objects\/([0-9a-f/]+)<\/Key>/g)].map(([, key]) => key.replaceAll("/", ""));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole installation on this machine: replicas by role on one PostgreSQL database and one bucket of a
-// Ceph gateway, behind nginx with the configuration that ships, and a scanner that two of them may drive.
+// Runs a whole installation on this machine: replicas with different roles behind nginx with the shipped configuration.
+// They share one PostgreSQL database, one bucket of a Ceph gateway, and a scanner that two replicas may drive.
 import { execFile } from "node:child_process";
 import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -16,7 +16,7 @@ import { note } from "./timeline.mjs";
 import { Visitor } from "./visitor.mjs";
 
 const kRoles = ["serve", "serve", "serve", "build", "build", "serve,scan", "serve,scan"];
-// What the catalogue was told, for as long as the test runs.
+// SQL statements that create tables and triggers, which record changes of the catalogue during the test.
 const kHistory = `
   CREATE TABLE published(model BYTEA, file BYTEA);
   CREATE FUNCTION published() RETURNS trigger LANGUAGE plpgsql AS 'BEGIN INSERT INTO published VALUES (NEW.id, NEW.file); RETURN NULL; END';
@@ -77,12 +77,12 @@ trusted-proxies = 127.0.0.1
     return Object.assign(new Replica(`${roles} ${number}`, this.bin, folder, port, words, rig?.env), { rig });
   }
 
-  /** Those that have `role` for their last. */
+  /** Returns the replicas whose list of roles ends with `role`. */
   having(role) {
     return this.replicas.filter(({ name }) => name.split(" ")[0].split(",").at(-1) === role);
   }
 
-  /** The replica whose identity is one of those that `sql` gives, once there is one. */
+  /** Waits until the result of `sql` contains the identity of a replica with `role`, and returns that replica. */
   async #heldBy(role, sql) {
     for (;; await pause(20)) {
       const holders = (await this.postgres.query(sql)).flat();
@@ -90,18 +90,18 @@ trusted-proxies = 127.0.0.1
     }
   }
 
-  /** Who works on a job just now. */
+  /** Waits for a replica that is running a job, and returns that replica. */
   builder() {
     return this.#heldBy("build", "SELECT holder FROM job WHERE state = 1 AND kind = 3");
   }
 
-  /** As systemd would have it. */
+  /** Kills nginx and starts it again, as systemd would. */
   async nginxCrashes() {
     note("SIGKILL to nginx");
     await this.nginx.crash(kRestart);
   }
 
-  /** Who drives the scanner. */
+  /** Waits for a replica that drives the scanner, and returns that replica. */
   driver() {
     return this.#heldBy("scan", "SELECT holder FROM scanner");
   }
@@ -111,7 +111,7 @@ trusted-proxies = 127.0.0.1
     return JSON.parse(stdout);
   }
 
-  /** What the replicas have complained of. */
+  /** Returns the last 15 warnings and errors in the log of each replica. */
   logs() {
     const lines = ({ name, log }) => log.split("\n").filter((line) => /event=(warning|error|critical)/.test(line)).slice(-15).map((line) => `${name}: ${line}`);
     return this.replicas.flatMap(lines).join("\n");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cluster on one machine, under load, whose parts die, sleep and go away one after the other; and what
-// has to hold of it afterwards. By run.sh. Environment: VITRINE_ROUNDS of such faults (1); VITRINE_SEED, which is
-// printed, chooses who dies and when.
+// Tests a cluster on one machine under load. Kills or suspends its parts in turn, then checks the invariants. run.sh
+// starts this test.
+// Environment: VITRINE_ROUNDS, the number of rounds of faults (default 1); VITRINE_SEED, the seed that chooses victims
+// and times, which the test prints.
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { readFile, writeFile } from "node:fs/promises";
@@ -18,11 +19,11 @@ import { Technician } from "./technician.mjs";
 import { note, timeline } from "./timeline.mjs";
 import { Viewer } from "./viewer.mjs";
 
-const kSides = [220, 200, 180], kBriefSides = [70, 60]; // of the meshes
+const kSides = [220, 200, 180], kBriefSides = [70, 60]; // vertices per side of the meshes
 const kViewers = 3;
-const kAway = 20_000; // ms that PostgreSQL, then the store, are stopped
-const kLongestGap = 5_000; // ms that a viewer may see nothing when a replica that serves dies, or an engine is away
-const kPatience = 200_000; // ms for anything at all
+const kAway = 20_000; // ms for which first PostgreSQL and then the object store is stopped
+const kLongestGap = 5_000; // ms: maximum time in which a viewer receives no data after a serving replica is killed or a back end is stopped
+const kDeadline = 200_000; // ms: time limit of each step
 const rounds = Number(process.env.VITRINE_ROUNDS ?? 1);
 const seed = Number(process.env.VITRINE_SEED ?? Date.now() % 1_000_000);
 const random = chance(seed);
@@ -32,12 +33,12 @@ const oneOf = (list) => list[Math.floor(random() * list.length)];
 const cluster = new Cluster(process.env.VITRINE_BIN);
 let curator, viewers, passerby, technician, expected, work, failure;
 
-/** A test that tells all that happened where it fails. */
+/** Defines a test that prints the timeline and all logs if it fails. */
 function step(name, body) {
   test(name, async () => {
     note(`== ${name}`);
     const late = new AbortController();
-    const deadline = pause(kPatience, undefined, late).then(() => Promise.reject(new Error("it takes too long")));
+    const deadline = pause(kDeadline, undefined, late).then(() => Promise.reject(new Error("it takes too long")));
     try {
       await Promise.race([body(), failure, deadline]);
     } catch (fault) {
@@ -62,13 +63,13 @@ before(async () => {
   const { body: manifest } = await cluster.visitor.json("GET", `/models/${id}/manifest`);
   viewers = Array.from({ length: kViewers }, () => new Viewer(cluster.visitor, id, manifest));
   work = Promise.all([...working, ...viewers.map((viewer) => viewer.watch())]);
-  failure = work.then(() => new Promise(() => undefined)); // never, unless somebody fails
-  failure.catch(() => undefined); // each step looks at it
+  failure = work.then(() => new Promise(() => undefined)); // never resolves, but rejects if a client fails
+  failure.catch(() => undefined); // avoids an unhandled rejection between two steps, which await `failure`
 });
 
 after(() => cluster.end());
 
-/** What a build of a mesh is by itself: the SHA-256 of the file. */
+/** Returns the SHA-256 of the file that `vitrine build` makes from a mesh. */
 async function build({ obj }, number) {
   const [source, target] = ["obj", "pmesh"].map((kind) => join(cluster.folder, `${number}.${kind}`));
   await writeFile(source, obj);
@@ -83,12 +84,12 @@ async function firstModel() {
   }
 }
 
-/** Until what was ordered before has ended. */
+/** Waits until all jobs requested so far have ended. */
 async function jobsEnd() {
   for (const waiting = [...curator.orders]; waiting.some(({ model }) => !model);) await pause(200);
 }
 
-/** That something came to every viewer every now and then. */
+/** Asserts that since `from`, no viewer was without data for longer than kLongestGap. */
 function assertSeen(from) {
   for (const { progress } of viewers) assert.deepEqual(invariants.lostSessions(progress, from, performance.now(), kLongestGap), []);
 }
@@ -104,11 +105,14 @@ async function serversDie() {
   }
 }
 
-/** Stops a replica that is at work on a job until another has the job. */
+/**
+ * Suspends a replica that runs a job, and resumes the replica when it no longer holds the job, because another one has
+ * claimed the job. Returns false if the job ended before the replica was suspended.
+ */
 async function sleepsAtWork() {
   const sleeper = await cluster.builder(), held = `SELECT 1 FROM job WHERE state = 1 AND holder = '${await sleeper.holder()}'`;
   sleeper.signal("SIGSTOP");
-  const isAtWork = (await cluster.postgres.query(held)).length > 0; // and not just done
+  const isAtWork = (await cluster.postgres.query(held)).length > 0; // the job may have ended meanwhile
   while ((await cluster.postgres.query(held)).length > 0) await pause(500);
   sleeper.signal("SIGCONT");
   return isAtWork;
@@ -120,7 +124,10 @@ async function buildersDieAndSleep() {
   await jobsEnd();
 }
 
-/** In the middle of a scan: who dies goes on with it at its step, and who sleeps leaves it to another, who begins it anew. */
+/**
+ * Faults during a scan: a daemon that is killed continues the scan at the same step after its restart; a daemon that is
+ * suspended loses the scanner to another daemon, which restarts the scan.
+ */
 async function driversDieAndSleep() {
   await technician.turned(1);
   const scan = await technician.scan();
@@ -129,18 +136,18 @@ async function driversDieAndSleep() {
   await sleeper.crash();
   await technician.measured(scan, 10);
   sleeper.signal("SIGSTOP");
-  const anew = ({ log }) => log.includes(`scan ${scan.id} begins anew`);
-  while (!cluster.having("scan").some(anew)) await pause(500);
+  const hasRestarted = ({ log }) => log.includes(`scan ${scan.id} restarts`);
+  while (!cluster.having("scan").some(hasRestarted)) await pause(500);
   sleeper.signal("SIGCONT");
   await technician.scanned(scan);
   const other = await cluster.driver();
-  assert.ok(other !== sleeper && anew(other) && !anew(sleeper), "who has begun the scan anew");
+  assert.ok(other !== sleeper && hasRestarted(other) && !hasRestarted(sleeper), "which replica restarted the scan");
   await technician.turned(5);
 }
 
-/** The cluster without one of its engines, which has died, for a while in which somebody else dies, too. */
+/** Stops a back end for a while, and kills a replica meanwhile. */
 async function without(engine) {
-  note("an engine is away");
+  note("a back end is stopped");
   const from = performance.now();
   await engine.ask("kill");
   const dies = random() * kAway, victim = oneOf(cluster.replicas);
@@ -149,21 +156,22 @@ async function without(engine) {
   if (engine !== cluster.postgres) await cluster.postgres.ask("kill-backend");
   await pause(kAway - dies);
   await engine.ask("start");
-  note("the engine is back");
-  if (!cluster.having("serve").includes(victim)) assertSeen(from); // else its copies may have been the only ones
+  note("the back end is running again");
+  // If a serving replica was killed, viewers may wait for the back end, because no other replica may have local copies.
+  if (!cluster.having("serve").includes(victim)) assertSeen(from);
   await dying;
   for (const replica of cluster.replicas) await replica.ready();
   await jobsEnd();
 }
 
 for (let round = 0; round < rounds; ++round) {
-  step("nginx and those that serve, build and scan die or sleep beyond their leases: others go on", () =>
+  step("nginx and replicas of every role are killed, or suspended beyond their leases: other replicas continue", () =>
     Promise.all([serversDie(), buildersDieAndSleep(), driversDieAndSleep()]));
-  step("PostgreSQL is dead for a while", () => without(cluster.postgres));
-  step("the store is dead for a while, in which PostgreSQL loses a process", () => without(cluster.gateway));
+  step("PostgreSQL is stopped for a while", () => without(cluster.postgres));
+  step("the store is stopped for a while, and PostgreSQL loses a process meanwhile", () => without(cluster.gateway));
 }
 
-step("what everybody does ends", async () => {
+step("all requests have ended", async () => {
   for (const somebody of [curator, passerby, technician, ...viewers]) somebody.stop();
   await work;
   assert.ok(curator.orders.length > 10 && curator.deleted.size > 1, `${curator.orders.length} orders`);
@@ -171,12 +179,12 @@ step("what everybody does ends", async () => {
   assert.ok(viewers.some(({ resumed }) => resumed > 0), "no viewer has met a replica that died");
 });
 
-step("viewers had what is true, and nobody a half model", () => {
+step("viewers received correct data, and no visitor a partial model", () => {
   for (const viewer of viewers) assert.ok(!viewer.fault && viewer.rounds > 0, `${viewer.rounds} rounds: ${viewer.fault}`);
   assert.deepEqual(invariants.halfVisible(passerby.looks, curator.deleted), []);
 });
 
-step("every job has ended in one model, once", async () => {
+step("every job has made one model, once", async () => {
   assert.deepEqual(invariants.unfinished([...curator.orders, ...technician.scans]), []);
   assert.deepEqual(invariants.doneTwice((await cluster.postgres.query("SELECT job FROM done")).flat()), []);
   assert.deepEqual(invariants.differentResults(await cluster.postgres.query("SELECT model, file FROM published")), []);
@@ -184,11 +192,11 @@ step("every job has ended in one model, once", async () => {
   assert.deepEqual(invariants.unordered(models.map(({ id }) => id), [...curator.orders, ...technician.scans], curator.deleted), []);
 });
 
-step("every model is what a build by itself makes, bit for bit; nothing that lives was collected", async () => {
+step("every model equals the file of vitrine build, bit for bit; no object in use was collected", async () => {
   const named = (await cluster.postgres.query("SELECT DISTINCT encode(file, 'hex') FROM model")).flat();
   assert.deepEqual(invariants.collectedAlive(named, await cluster.gateway.objects()), []);
   const [cold] = cluster.having("serve");
-  await cold.crash(); // what it has fetched is gone with it
+  await cold.crash(); // its local copies are lost
   const models = [];
   const served = async (model, expected) => {
     const answer = await fetch(`${cold.url}/api/v1/models/${model}/file.pmesh`);

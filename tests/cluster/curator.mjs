@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// An operator who uploads scans, has models made of them, and takes some away again, whatever happens
-// to the cluster meanwhile.
+// Simulates an operator who uploads scans, publishes models of them and deletes some, while parts of the cluster fail.
 import { setTimeout as pause } from "node:timers/promises";
 import { note } from "./timeline.mjs";
 
 const kTus = { "Tus-Resumable": "1.0.0" };
-const kOpenJobs = 4; // that are waited for at a time
+const kOpenJobs = 4; // maximum number of jobs at a time
 
 export class Curator {
-  /** `meshes`: {obj, isBrief} of which each is taken in turn; the models of brief ones are taken away as
-   *  soon as they are there, so that the next one's file is one that is being collected. */
+  /**
+   * Uses `meshes` ({obj, isBrief}) in turn. A model with `isBrief` is deleted as soon as it exists, so that its file
+   * may be garbage-collected just when the next model of the same mesh needs it.
+   */
   constructor(visitor, meshes) {
     Object.assign(this, { visitor, meshes, orders: [], deleted: new Set(), stopped: false });
   }
 
-  /** Until stop(); an error is a broken promise of the server's. */
+  /** Runs until stop() is called. Throws if the server breaks its contract. */
   async work() {
     const open = new Set();
     for (let i = 0; !this.stopped; ++i) {
@@ -33,9 +34,9 @@ export class Curator {
   async #order(number) {
     const mesh = number % this.meshes.length;
     const upload = await this.#upload(this.meshes[mesh].obj);
-    const wish = { upload, publish: true, metadata: { title: `Model ${number}` } };
-    const { status, body } = await this.visitor.json("POST", "/models", wish, { "Idempotency-Key": `order-${number}` });
-    if (status !== 202) throw new Error(`an order is answered by ${status}: ${JSON.stringify(body)}`);
+    const request = { upload, publish: true, metadata: { title: `Model ${number}` } };
+    const { status, body } = await this.visitor.json("POST", "/models", request, { "Idempotency-Key": `order-${number}` });
+    if (status !== 202) throw new Error(`an order gets status ${status}: ${JSON.stringify(body)}`);
     const order = { number, mesh, job: body.job };
     note(`order ${number} is job ${body.job}`);
     this.orders.push(order);
@@ -44,7 +45,7 @@ export class Curator {
 
   async #upload(bytes) {
     const made = await this.visitor.ask("POST", "/api/v1/uploads", { headers: { ...kTus, "Upload-Length": bytes.length } });
-    if (made.status !== 201) throw new Error(`an upload is answered by ${made.status}: ${made.body}`);
+    if (made.status !== 201) throw new Error(`an upload gets status ${made.status}: ${made.body}`);
     const path = made.headers.location.replace(/^https?:\/\/[^/]+/, "");
     for (let sent = 0; sent < bytes.length;) {
       const headers = { ...kTus, "Upload-Offset": sent, "Content-Type": "application/offset+octet-stream" };

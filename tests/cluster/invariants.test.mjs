@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each check of the cluster's test finds the fault that it is for, and none where there is none.
+// Tests that each check in invariants.mjs reports violations in faulty observations, and none in correct ones.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import * as invariants from "./invariants.mjs";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { chance } from "../../deploy/capacity/visitors.mjs";
 
-/** A relief of its own for each number, as an OBJ file; of 2 (side - 1)² triangles. */
+/** Returns an OBJ file of 2 (side - 1)² triangles: a relief that differs for each `number`. */
 export function relief(number, side) {
   const random = chance(number + 1), lines = [];
   for (let i = 0; i < side * side; ++i) lines.push(`v ${i % side} ${Math.floor(i / side)} ${(3 * random()).toFixed(3)}`);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who looks at what is in the gallery just now: the newest model's manifest and one of its chunks.
+// Simulates a visitor who opens the newest models of the gallery, and requests the manifest and one chunk of each.
 import { setTimeout as pause } from "node:timers/promises";
 
 export class Passerby {
-  /** `random`: numbers from 0 to 1. */
+  /** `random` is a function that returns random numbers from 0 to 1. It chooses the chunks. */
   constructor(visitor, random) {
     Object.assign(this, { visitor, random, looks: [], stopped: false });
   }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// One vitrined of a cluster, which is started anew whenever it dies, as systemd would.
+// One vitrined of a cluster. It is restarted whenever it dies, as systemd would do.
 import { readFile, rm } from "node:fs/promises";
 import { join } from "node:path";
 import { setTimeout as pause } from "node:timers/promises";
 import { Daemon } from "../e2e/daemon.mjs";
 import { note } from "./timeline.mjs";
 
-export const kRestart = 100; // ms until what has died is started anew
+export const kRestart = 100; // ms until a dead daemon is restarted
 
 export class Replica extends Daemon {
-  /** In `folder`; `options` are words of its command line, `variables` more of its environment. */
+  /** Starts the daemon in `folder`. `options` are added to its command line, `variables` to its environment. */
   constructor(name, bin, folder, port, options, variables) {
     super(bin, folder, join(folder, "data"), options);
     Object.assign(this, { name, port, url: `http://127.0.0.1:${port}`, ending: false });
@@ -40,7 +40,7 @@ export class Replica extends Daemon {
     return answer?.status === 200;
   }
 
-  /** Dies at once; returns when it has started again and is ready. */
+  /** Kills the daemon. Returns when the daemon has been restarted and is ready. */
   async crash() {
     await rm(join(this.folder, "admin-port"), { force: true });
     this.signal("SIGKILL");
@@ -52,7 +52,7 @@ export class Replica extends Daemon {
     this.child.kill(name);
   }
 
-  /** Whose leases in the catalogue are its own. */
+  /** Returns the identity under which the daemon holds leases in the catalogue. */
   async holder() {
     return (await readFile(join(this.data, "daemon.lock"), "utf8")).split(" ")[0];
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two simulated scanners by one name, with one object: what either is told shows which of two daemons drives
-// "the" scanner. Their calibrations are in one folder. The first is that of run.sh. To be imported before what starts programs, which are not to meet it.
+// Two simulated scanners with the same name and object, for two daemons. The commands that a scanner receives show when
+// its daemon drives the scanner of that name. The scanners share a folder of calibrations. run.sh starts the first one.
+// Import this module before any program is started, so that no program inherits the first scanner's environment.
 import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { readFile } from "node:fs/promises";
@@ -16,7 +17,7 @@ class Rig {
     [this.config, this.record] = [`${name}.json`, `${name}.commands`].map((file) => join(VITRINE_RIG, file));
   }
 
-  /** {at, text} of all that its board was told; `at` in ms since 1970. */
+  /** Returns all commands to the scanner's board as {at, text}; `at` is in ms since 1970. */
   async commands() {
     const text = await readFile(this.record, "utf8");
     return [...text.matchAll(/^(\d+) (.*)$/gm)].map(([, at, command]) => ({ at: Number(at), text: command }));
@@ -28,7 +29,10 @@ class Rig {
   }
 }
 
-/** Each with the `env` in which a program meets it. */
+/**
+ * Starts the second scanner and returns both. A program finds a scanner if it has the environment `env` of the
+ * scanner.
+ */
 export async function startRigs(bin) {
   const first = Object.assign(new Rig("first"), { env: { UMOCKDEV_DIR, LD_PRELOAD } }), second = new Rig("second");
   second.process = spawn(join(bin, "vitrine-rig"), ["--mesh", VITRINE_OBJECT, "--address", "127.0.0.2", "--write-config", second.config,

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BINARIES: the cluster's test, on a loopback of its own and beside a simulated scanner.
+# run.sh BINARIES: runs the cluster's test with its own loopback interface, and with a simulated scanner.
 set -euo pipefail
 VITRINE_BIN=$(realpath "$1")
 cd "$(dirname "$0")"

@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who scans at a scanner, and turns its table by hand, by way of the replicas that serve.
+// Simulates an operator who scans and turns the table manually, through the replicas with the role "serve".
 import { setTimeout as pause } from "node:timers/promises";
 import { note } from "./timeline.mjs";
 
-const kPatience = 3_000; // ms for an answer
-const kSteps = 48; // of a scan
-const kPoses = 12; // of a calibration
+const kResponseTimeout = 3_000; // ms until a request fails
+const kSteps = 48; // number of turntable steps per scan
+const kPoses = 12; // number of target poses per calibration
 
 export class Technician {
-  /** `replicas` are asked in turn; what is ordered is by `visitor`. */
+  /** Sends manual commands to the `replicas` in turn, and other requests through `visitor`. */
   constructor(replicas, visitor) {
     Object.assign(this, { replicas, visitor, token: visitor.token, turns: 0, scans: [], stopped: false });
   }
 
-  /** From when a daemon has taken the scanner. */
+  /** Waits until a daemon drives the scanner, then calibrates it. */
   async calibrate() {
     while ((await this.visitor.json("GET", "/scanners/rig")).status !== 200) await pause(100);
     const { status, body } = await this.visitor.json("POST", "/scanners/rig/calibrations", { poses: kPoses }, { "Idempotency-Key": "calibration" });
-    if (status !== 202) throw new Error(`a calibration is answered by ${status}: ${JSON.stringify(body)}`);
+    if (status !== 202) throw new Error(`a calibration gets status ${status}: ${JSON.stringify(body)}`);
     await this.#until(`/jobs/${body.job}`, ({ state }) => state === "done");
   }
 
-  /** Begins a scan; what it is called, {id, job}. */
+  /** Starts a scan; returns its {id, job}. */
   async scan() {
     const number = this.scans.length;
-    const wish = { scanner: "rig", steps: kSteps, publish: true, metadata: { title: `Scan ${number}` } };
-    const { status, body } = await this.visitor.json("POST", "/scans", wish, { "Idempotency-Key": `scan-${number}` });
-    if (status !== 202) throw new Error(`a scan is answered by ${status}: ${JSON.stringify(body)}`);
+    const request = { scanner: "rig", steps: kSteps, publish: true, metadata: { title: `Scan ${number}` } };
+    const { status, body } = await this.visitor.json("POST", "/scans", request, { "Idempotency-Key": `scan-${number}` });
+    if (status !== 202) throw new Error(`a scan gets status ${status}: ${JSON.stringify(body)}`);
     note(`scan ${number} is ${body.id}, job ${body.job}`);
     this.scans.push(body);
     return body;
   }
 
-  /** Until it has so many steps, and is not at its end. */
+  /** Waits until the scan has measured at least `steps` steps. Throws if the scan is then complete. */
   async measured({ id }, steps) {
     const scan = await this.#until(`/scans/${id}`, ({ step }) => step >= steps);
-    if (scan.step === kSteps) throw new Error("the scan is over before anybody dies");
+    if (scan.step === kSteps) throw new Error("the scan has ended before a daemon was killed");
   }
 
-  /** Until it has ended in a model of a whole turn. */
+  /** Waits until the scan has made a model. Throws if the scan did not measure a whole revolution. */
   async scanned(scan) {
     const { step, model } = await this.#until(`/scans/${scan.id}`, ({ state }) => state === "done");
     if (step !== kSteps) throw new Error(`a scan is done after ${step} steps`);
@@ -67,14 +67,14 @@ export class Technician {
     this.stopped = true;
   }
 
-  /** Until the table has been turned so often from now on. */
+  /** Waits until work() has turned the table `times` more times. */
   async turned(times) {
     for (const wanted = this.turns + times; this.turns < wanted;) await pause(100);
   }
 
   async #jog({ url }) {
     const headers = { Authorization: `Bearer ${this.token}`, "Content-Type": "application/json" };
-    const signal = AbortSignal.timeout(kPatience);
+    const signal = AbortSignal.timeout(kResponseTimeout);
     const answer = await fetch(`${url}/api/v1/scanners/rig/jog`, { method: "POST", headers, body: '{"degrees": 30}', signal }).catch(() => undefined);
     await answer?.text().catch(() => undefined);
     return answer?.status;

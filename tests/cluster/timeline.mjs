@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was done to the cluster and what it said, in its order, for whoever has to explain a fault.
+// Records notes on the test's actions and the cluster's reactions, each with its time, to explain a failure.
 const kStart = performance.now();
 const lines = [];
 

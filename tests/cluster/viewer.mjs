@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// A viewer that refines one model over the stream and, whenever its connection ends, goes on at the
-// next with what it has. Whole, it begins again from nothing.
+// Simulates a viewer that refines one model over the stream. When a connection ends, it continues on a new one. When
+// the model is complete, it starts again from the beginning.
 import { createHash, randomBytes } from "node:crypto";
 import { once } from "node:events";
 import https from "node:https";
 import { setTimeout as pause } from "node:timers/promises";
 
-const kHeader = 16; // bytes of a slice's header, FORMAT: server/stream/PROTOCOL.md
-const kPace = 60; // ms between a slice and its acknowledgement, so that a model takes a while
+const kHeader = 16; // bytes of a slice's header (server/stream/PROTOCOL.md)
+const kPace = 60; // ms before a slice is acknowledged, so that refining takes a while
 
 export class Viewer {
-  /** `manifest` is the model's; `visitor` knows nginx. */
+  /** Views the model `id`, which has this `manifest`, through the nginx to which `visitor` connects. */
   constructor(visitor, id, manifest) {
     Object.assign(this, { visitor, id, manifest, stopped: false, connections: 0, rounds: 0, resumed: 0 });
-    this.progress = [performance.now()]; // when something came
+    this.progress = [performance.now()]; // times in ms at which data was received
     this.#forget();
   }
 
@@ -63,7 +63,7 @@ export class Viewer {
     this.socket.write(Buffer.concat([Buffer.from([0x81, ...length]), mask, text.map((byte, i) => byte ^ mask[i % 4])]));
   }
 
-  /** Takes the whole frames; what is left. */
+  /** Processes the complete frames in `bytes`; returns the remaining bytes. */
   #frames(bytes) {
     for (;;) {
       if (bytes.length < 2) return bytes;
@@ -93,7 +93,7 @@ export class Viewer {
     const chunk = Buffer.concat(parts);
     if (chunk.length < length) return;
     const sha256 = createHash("sha256").update(chunk).digest("hex");
-    if (sha256 !== this.manifest.chunks[index].sha256) this.fault = `chunk ${index} is another`;
+    if (sha256 !== this.manifest.chunks[index].sha256) this.fault = `chunk ${index} has another SHA-256`;
     this.held.add(index);
     this.parts.delete(index);
   }
@@ -101,6 +101,6 @@ export class Viewer {
   #whole() {
     ++this.rounds;
     this.#forget();
-    this.socket.end(); // what the server believes is held goes with the connection
+    this.socket.end(); // so that the server forgets the chunks that this connection reported in `have`
   }
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who asks the cluster through nginx, as its public does: again until there is an answer.
+// Sends requests through nginx, as the public does, and repeats each until a response arrives.
 import { once } from "node:events";
 import https from "node:https";
 import { setTimeout as pause } from "node:timers/promises";
 
-const kPause = 100; // ms until one asks again
+const kPause = 100; // ms between attempts
 
 export class Visitor {
-  /** At nginx's `url`, whose certificate `ca` is. */
+  /** Connects to nginx at `url`; `ca` is its certificate. */
   constructor(url, ca, token) {
     Object.assign(this, { url, ca, token, agent: new https.Agent({ keepAlive: true, ca }) });
   }
 
-  /** One answer, whatever it says; undefined where none comes. */
+  /** Sends a request once. Returns the response, whatever its status, or undefined if none arrives. */
   async try(method, path, { headers = {}, body } = {}) {
     const fields = { ...(this.token && { Authorization: `Bearer ${this.token}` }), ...headers };
     const request = https.request(this.url + path, { method, headers: fields, agent: this.agent, timeout: 15_000 });
@@ -26,7 +26,7 @@ export class Visitor {
     }
   }
 
-  /** The first answer that is neither a fault of the server's nor a wish to come back later. */
+  /** Repeats a request until a response arrives that is neither a server error (5xx) nor 429. Returns this response. */
   async ask(method, path, more) {
     for (;;) {
       const answer = await this.try(method, path, more);

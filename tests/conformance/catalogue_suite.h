@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a back end of the catalogue supplies to be tested.
+// The interface through which the suite tests a catalogue implementation.
 #pragma once
 
 #include <memory>
 
 #include "server/catalogue/catalogue.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
 class CatalogueBackend {
  public:
   virtual ~CatalogueBackend() = default;
-  // A new connection to the same catalogue, empty at first.
+  // Opens a new connection to the same catalogue, which is empty at first.
   virtual std::unique_ptr<Catalogue> connect() = 0;
 };
 

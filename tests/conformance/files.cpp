@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/object_store_suite.h"
 #include "server/store/file_store.h"
+#include "support/product_names.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {

@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ids that a test can tell apart.
+// IDs for tests: id_of(1) converts to the ID of a model, job, scan or token, and differs from
+// id_of(2).
 #pragma once
 
-#include <array>
+#include <cstdint>
 
-#include "server/catalogue/model_id.h"
+#include "server/catalogue/id.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
-inline ModelId id_of(std::uint8_t value) {
-  std::array<std::uint8_t, 16> bytes{};
-  bytes[0] = value;
-  return ModelId::from_bytes(bytes);
+struct TestId {
+  std::uint8_t value = 0;
+
+  template <class Tag>
+  operator server::Id<Tag>() const {
+    server::Ulid bytes{};
+    bytes[0] = value;
+    return server::Id<Tag>::from_bytes(bytes);
+  }
+};
+
+inline TestId id_of(std::uint8_t value) {
+  return {value};
 }
 
 }  // namespace vitrine::test

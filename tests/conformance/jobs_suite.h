@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a back end of the jobs' catalogue supplies to be tested.
+// The interface through which the suite tests a job catalogue implementation.
 #pragma once
 
 #include <memory>
 
 #include "server/catalogue/catalogue.h"
 #include "server/catalogue/jobs.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
 class JobsBackend {
  public:
   virtual ~JobsBackend() = default;
-  // A new connection to the same catalogue, empty at first.
+  // Opens a new connection to the same catalogue, which is empty at first.
   virtual std::unique_ptr<JobCatalogue> connect() = 0;
   virtual std::unique_ptr<Catalogue> connect_models() = 0;
 };

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a back end of the object store supplies to be tested.
+// The interface through which the suite tests an object store implementation.
 #pragma once
 
 #include <memory>
 
 #include "server/store/object_store.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
 class ObjectStoreBackend {
  public:
   virtual ~ObjectStoreBackend() = default;
-  // A new connection to the same store, empty at first.
+  // Opens a new connection to the same store, which is empty at first.
   virtual std::unique_ptr<ObjectStore> connect() = 0;
 };
 

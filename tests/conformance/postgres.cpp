@@ -4,7 +4,8 @@
 #include "server/catalogue/postgres_catalogue.h"
 #include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sql_jobs.h"
-#include "support/postgres_server.h"
+#include "support/process/postgres_server.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {

@@ -2,7 +2,8 @@
 #include "conformance/object_store_suite.h"
 #include "server/store/file_lock.h"
 #include "server/store/s3_store.h"
-#include "support/ceph_gateway.h"
+#include "support/process/ceph_gateway.h"
+#include "support/product_names.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {

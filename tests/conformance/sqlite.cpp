@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/catalogue_suite.h"
 #include "server/catalogue/sqlite_catalogue.h"
+#include "support/product_names.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {

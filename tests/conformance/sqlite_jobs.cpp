@@ -3,6 +3,7 @@
 
 #include "conformance/jobs_suite.h"
 #include "server/catalogue/sqlite_catalogue.h"
+#include "support/product_names.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Kills the daemon at random points of what it does for operators, starts it again, and looks.
+"""Kills the daemon at random points of an operator's requests, starts it again, and checks its data.
 
 usage: crash.py BINARIES [KILLS [SEED]]
 
-Meanwhile it uploads, builds, publishes, caps, replaces, deletes and collects. After each start: every model's
-file is the one that its manifest names and verifies, an upload holds all that was acknowledged, every job
-ends, no model that was made is missing unless it was to be deleted, and after a collection the store holds what
-models name and nothing else.
+The operator uploads, builds, publishes, limits, replaces and deletes models, and collects garbage. After each start:
+- Every model's file is the one that its manifest names, and passes `vitrine verify`.
+- Every upload contains all bytes that were acknowledged.
+- Every job ends.
+- No model is missing, unless its deletion was requested.
+- After a garbage collection, the store contains exactly the objects that models name.
 """
 import hashlib
 import math
@@ -21,13 +23,13 @@ from pathlib import Path
 
 from daemon import Client, Daemon, Gone, new_token
 
-MOST = 40  # requests until the kill
-LONGEST = 0.05  # seconds from the last of them to the kill
-PATIENCE = 120  # for jobs and collections
+MOST = 40  # maximum number of requests before the kill is planned
+LONGEST = 0.05  # maximum number of seconds from the last of these requests to the kill
+TIMEOUT = 120  # seconds until the test fails because a job or a garbage collection does not end
 
 
 def torus(rings, sides):
-    """A mesh file; of other counts, another one."""
+    """Returns a mesh file of a torus. Different counts give different meshes."""
     lines = []
     for i in range(rings):
         for j in range(sides):
@@ -42,14 +44,14 @@ def torus(rings, sides):
 
 
 class Known:
-    """What the operator has been told, whichever daemon it was."""
+    """The operator's knowledge from the responses of all daemons so far."""
 
     def __init__(self):
-        self.uploads = {}  # path -> [bytes, acknowledged]
-        self.ordered = set()  # uploads of which a model was to be made: they may be gone
-        self.jobs = set()  # that were accepted
-        self.made = set()  # models of jobs that were seen done
-        self.deleted = set()  # models that were to be deleted
+        self.uploads = {}  # path -> [content of the file, number of acknowledged bytes]
+        self.ordered = set()  # paths of uploads named in a request for a job; the job may have consumed them
+        self.jobs = set()  # jobs that the daemon has accepted
+        self.made = set()  # models of jobs that have succeeded
+        self.deleted = set()  # models whose deletion was requested
 
     def is_gone(self, path):
         if path not in self.ordered:
@@ -58,7 +60,7 @@ class Known:
 
 
 class Work(threading.Thread):
-    """What an operator does until the daemon is gone."""
+    """Makes an operator's requests until the daemon is killed."""
 
     def __init__(self, daemon, token, dice, known):
         super().__init__()
@@ -91,7 +93,7 @@ class Work(threading.Thread):
             offset = int(answer.getheader("Upload-Offset"))
             if offset < sent:
                 raise AssertionError(f"{path} had {sent} bytes and has {offset}")
-            self.uploads[path][1] = offset  # who is told of them sends them no more
+            self.uploads[path][1] = offset  # the client will not send these bytes again
             piece = mesh[offset:offset + self.dice.choice([len(mesh), self.dice.randint(1, len(mesh))])]
             if not piece:
                 continue
@@ -131,7 +133,7 @@ class Work(threading.Thread):
 
 
 class Look:
-    """Whether all is as it must be after a start."""
+    """Checks the daemon's data after each start."""
 
     def __init__(self, binaries, data):
         self.binaries, self.data, self.verified = binaries, data, set()
@@ -145,7 +147,7 @@ class Look:
             raise AssertionError(f"orphans: {self.stored() ^ names}")
 
     def until(self, what, holds):
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + TIMEOUT
         while not holds():
             if time.monotonic() > end:
                 raise AssertionError(what)
@@ -160,7 +162,7 @@ class Look:
             offset = int(answer.getheader("Upload-Offset") or -1)
             try:
                 held = (self.data / "uploads" / (path.rsplit("/", 1)[1] + ".part")).read_bytes()
-            except FileNotFoundError:  # a job that goes on has used it meanwhile
+            except FileNotFoundError:  # a continued job has used the upload meanwhile
                 known.is_gone(path)
                 continue
             if offset < sent or held[:offset] != mesh[:offset]:
@@ -171,7 +173,8 @@ class Look:
         jobs = client.json("GET", "/api/v1/jobs?limit=50")[1]["jobs"]
         known.made.update(job["model"] for job in jobs if job["state"] == "done")
         for job in jobs:
-            if job["state"] == "failed" and "gone" not in job["error"]:  # what it needs was used or deleted before
+            # a job may fail because its upload was consumed, or its model deleted, by an earlier request
+            if job["state"] == "failed" and "gone" not in job["error"]:
                 raise AssertionError(f"a job failed: {job}")
         return all(job["state"] in ("done", "failed", "cancelled") for job in jobs)
 
@@ -185,7 +188,7 @@ class Look:
                 raise AssertionError(f"job {job} is lost")
 
     def models(self, client):
-        """The objects that models name."""
+        """Returns the names of the objects that models name, or None if one of these names cannot be requested."""
         names = set()
         for model in client.json("GET", "/api/v1/models?drafts=true&limit=200")[1]["models"]:
             path = "/api/v1/models/" + model["id"]
@@ -195,7 +198,7 @@ class Look:
                 names.add(self.model(client, path))
                 client.bearer = bearer
             elif model["public_max_level"] is not None:
-                return None  # what is public of a draft has no address
+                return None  # the file with the public levels of a draft has no URL
         return names
 
     def model(self, client, path):
@@ -223,18 +226,18 @@ class Look:
         return {file.name for file in (self.data / "objects").rglob("*") if file.is_file()}
 
     def until_clean(self, client, names):
-        """A collection is asked for as a deletion asks for one: by changing a model to what it is."""
+        """Requests a garbage collection by an update without changes. Returns whether only `names` remain."""
         models = client.json("GET", "/api/v1/models?drafts=true")[1]["models"]
         if models:
             client.json("PATCH", "/api/v1/models/" + models[0]["id"], {"title": models[0]["title"]})
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + TIMEOUT
         while self.stored() != names and time.monotonic() < end:
             time.sleep(0.02)
         return self.stored() == names
 
 
 def check_log(daemon):
-    """A daemon that was killed has told of no error before."""
+    """Checks that the daemon logged no error before it was killed."""
     if faults := [line for line in daemon.printed if "event=error" in line or "terminate called" in line]:
         raise AssertionError("".join(faults))
 
@@ -256,9 +259,9 @@ def main():
                 look.at(Client(daemon, token), known)
                 work = Work(daemon, token, random.Random(dice.random()), known)
                 work.start()
-                work.client.enough.wait(PATIENCE)
+                work.client.enough.wait(TIMEOUT)
                 time.sleep(dice.uniform(0, LONGEST))
-            except BaseException:  # else it would outlive this
+            except BaseException:  # otherwise the daemon would outlive this process
                 daemon.kill()
                 print("".join(daemon.printed[-20:]))
                 raise

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The daemon as a process that can be killed, and what is asked of it over HTTP."""
+"""The daemon as a process that can be killed, and an HTTP client for it."""
 import http.client
 import json
 import os
@@ -9,7 +9,7 @@ import threading
 
 
 class Gone(Exception):
-    """The daemon answers no more: it was killed."""
+    """The daemon does not respond: it was killed."""
 
 
 class Daemon:
@@ -46,7 +46,7 @@ class Daemon:
 
 
 class Client:
-    """One connection at a time; Gone where it breaks. `enough` is set with the request of that number."""
+    """A client with one connection. Raises Gone if the connection breaks. Its request number `number` sets `enough`."""
 
     def __init__(self, daemon, token, number=0):
         self.left, self.enough = number, threading.Event()

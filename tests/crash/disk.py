@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A disk that is full, and one that fails: what cannot be kept is refused in clear words, and all else is served.
+"""Tests the daemon on a full disk and on a failing disk.
+
+On a full disk, requests that need space must fail with a clear message, and all others must succeed. On a failing disk,
+requests and jobs that the fault affects must fail, and published models must still be served.
 
 usage: disk.py BINARIES
 """
@@ -19,7 +22,7 @@ SIZE = 6 << 20  # bytes of the small disk
 
 
 def upload(client, content):
-    """The status and the path."""
+    """Uploads `content`. Returns the status of the last response, and the path of the upload."""
     answer = client.tus("POST", "/api/v1/uploads", Upload_Length=len(content))
     if answer.status != 201:
         return answer.status, None
@@ -122,7 +125,7 @@ def a_failing_disk(binaries, data, control):
 
 
 def collect_while_reading_fails(client, fiu, data):
-    """What cannot be read just now is not garbage, and who collects it lives on."""
+    """Checks that a garbage collection skips files that it cannot read, and continues."""
     content = torus(12, 8)
     kept = upload(client, content)[1]
     doomed = job_of(client, upload(client, torus(20, 10))[1])["model"]
@@ -130,7 +133,7 @@ def collect_while_reading_fails(client, fiu, data):
     for fault in ("enable name=posix/io/rw/read", "enable_random name=posix/io/oc/open,probability=0.5",
                   "enable_random name=posix/io/dir/readdir,probability=0.5"):
         fiu(f"{fault},failinfo=5")
-        for _ in range(20):  # each that succeeds asks for a collection
+        for _ in range(20):  # each successful PATCH starts a garbage collection
             client.json("PATCH", f"/api/v1/models/{doomed}", {"title": "doomed"})
             client.json("GET", "/api/v1/models")
         fiu("disable name=" + fault.split("name=")[1].split(",")[0])

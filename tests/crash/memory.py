@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Memory that is refused now and then: what cannot be answered is refused or cut, and the daemon serves on.
+"""Lets allocations fail at random. Requests that need memory may fail or be cut off, but the daemon must go on serving.
 
 usage: memory.py BINARIES [ROUNDS]
 """
@@ -15,11 +15,11 @@ from crash import torus
 from daemon import Client, Daemon, new_token
 from disk import job_of, upload
 
-REFUSED = 0.02  # of all calls of malloc, calloc and realloc
+REFUSED = 0.02  # share of all calls of malloc, calloc and realloc that fail
 
 
 def calls(model):
-    """What visitors and operators ask for, in the ways of the daemon that differ."""
+    """Yields requests as (method, path, body, headers). They use different parts of the daemon."""
     path = f"/api/v1/models/{model}"
     order = {"Content-Type": "application/json"}
     stream = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
@@ -38,7 +38,7 @@ def calls(model):
 
 
 def ask(daemon, token, call):
-    """The status; 0 where the connection was cut."""
+    """Sends a request and returns the status; 0 if the connection was cut."""
     method, path, body, fields = call
     connection = http.client.HTTPConnection("127.0.0.1", daemon.port, timeout=60)
     try:
@@ -51,7 +51,7 @@ def ask(daemon, token, call):
 
 
 def refuse_memory(daemon, control, token, model, rounds):
-    """The statuses of what is asked meanwhile, each with how often it came."""
+    """Sends requests while allocations fail. Returns how often each status occurred."""
     def fiu(command):
         subprocess.run(["fiu-ctrl", "-f", str(control), "-c", command, str(daemon.process.pid)], check=True, capture_output=True, timeout=20)
 

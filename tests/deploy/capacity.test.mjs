@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulator behind deploy/CAPACITY.md against the real thing: the same visitors before a real
-// nginx with a cache that is too small for all, in front of a real daemon. Counts of requests and
-// bytes are to be within 2 %. Environment: VITRINE_BIN.
+// Compares the simulation behind deploy/CAPACITY.md with a real installation. The same visitors use a real nginx, whose
+// cache is too small for all models, in front of a real daemon. The counts of requests and bytes must agree within 2 %.
+// Environment: VITRINE_BIN.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { once } from "node:events";
@@ -40,7 +40,7 @@ after(async () => {
   await rm(folder, { recursive: true, force: true });
 });
 
-/** A relief of its own for each number. */
+/** Returns an OBJ file with a relief that differs for each number. */
 function bumps(number) {
   const random = chance(number + 1), side = 60, lines = [];
   for (let i = 0; i < side * side; ++i) lines.push(`v ${i % side} ${Math.floor(i / side)} ${(3 * random()).toFixed(3)}`);
@@ -57,7 +57,7 @@ async function ask(path) {
   assert.equal(response.statusCode, 200, path);
 }
 
-/** A new process of nginx has its manager look at once; until there is room. */
+/** Reloads nginx, so that the cache manager runs immediately, and waits until the cache has free space. */
 async function managed() {
   agent.destroy();
   agent = new https.Agent({ keepAlive: true });
@@ -80,7 +80,7 @@ function near(real, simulated, what, tolerance = 0.02) {
   assert.ok(Math.abs(real - simulated) <= tolerance * real, `${what}: ${real}, but ${simulated} in the simulation`);
 }
 
-test("the simulation asks the origin for what nginx asks it for", async () => {
+test("the simulation sends the origin as many requests as nginx", async () => {
   const models = manifests.map(({ chunks }) => chunks.map(({ length }) => length));
   const simulated = serve(looks(models, kVisits, visitor, chance(7)), models, new DiskCache(kCapacity), kManaged);
   agent = new https.Agent({ keepAlive: true });
@@ -95,19 +95,19 @@ test("the simulation asks the origin for what nginx asks it for", async () => {
   }
   const [requests, bytes] = [await origin("vitrine_http_requests_total", kChunk), await origin("vitrine_http_response_bytes_total", kChunk)];
   assert.equal(asked, simulated.chunks);
-  assert.ok(simulated.originChunks < 0.6 * simulated.chunks && simulated.originChunks > 2 * models.flat().length, "the cache is of use, and too small");
+  assert.ok(simulated.originChunks < 0.6 * simulated.chunks && simulated.originChunks > 2 * models.flat().length, "the cache must be useful, and too small");
   near(requests, simulated.originChunks, "chunk requests");
   near(bytes, simulated.originBytes, "chunk bytes");
   near(await origin("vitrine_http_requests_total", kHead), seen, "heads");
 });
 
-test("a cache with room for all asks for each chunk once", () => {
+test("a cache with space for all requests each chunk once", () => {
   const models = Array(50).fill([100, 200, 300]);
   const sum = serve(looks(models, 5000, { ...visitor, seconds: 1000 }, chance(3)), models, new DiskCache(1e9), 1);
   assert.equal(sum.originChunks, 150);
 });
 
-test("the most popular model is looked at as often as Zipf's law has it", () => {
+test("the most popular model is viewed as often as Zipf's law says", () => {
   const models = Array(100).fill([1]);
   const all = [...looks(models, 20000, visitor, chance(5))];
   const law = Array.from(models, (_, i) => (i + 1) ** -visitor.exponent);
@@ -115,7 +115,7 @@ test("the most popular model is looked at as often as Zipf's law has it", () => 
   near(all.length / 20000, visitor.looks, "looks a visit", 0.05);
 });
 
-test("the page on capacity has the table that the simulation prints", async () => {
+test("CAPACITY.md contains the table that the simulation prints", async () => {
   const deploy = new URL("../../deploy/", import.meta.url);
   const table = execFileSync(process.execPath, [new URL("capacity/simulate.mjs", deploy).pathname], { encoding: "utf8" });
   assert.ok((await readFile(new URL("CAPACITY.md", deploy), "utf8")).includes(table), table);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// No container engine runs here: the linter of the language, and what can be tried without one.
+// Checks the container files with their linter, and runs the parts that need no container engine.
 // Environment: VITRINE_BIN.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -29,12 +29,12 @@ before(async () => {
 
 const instructions = (file, keyword) => file.parsed.getInstructions().filter((one) => one.getKeyword() === keyword);
 
-test("container files have no fault that their linter knows", () => {
+test("container files pass their linter", () => {
   for (const { name, text } of files) assert.deepEqual(validate(text).map(({ message, range }) => `${name}:${range.start.line + 1}: ${message}`), []);
   assert.notDeepEqual(validate("FROM debian\nCOPPY . .\n"), []);
 });
 
-test("images have versions, and packages leave no lists behind", () => {
+test("images have versions, and package lists are removed", () => {
   for (const file of files) {
     for (const from of file.parsed.getFROMs()) assert.match(from.getImage(), /^[a-z/-]+:(?!latest)[\w.-]+$/, file.name);
     for (const run of instructions(file, "RUN").map((one) => one.getArgumentsContent()).filter((text) => text.includes("apt-get install"))) {
@@ -43,7 +43,7 @@ test("images have versions, and packages leave no lists behind", () => {
   }
 });
 
-test("what is copied from the clone is there", () => {
+test("files that are copied from the clone exist", () => {
   for (const file of files) {
     for (const copy of file.parsed.getCOPYs().filter((one) => !one.getFlags().some((flag) => flag.getName() === "from"))) {
       const sources = copy.getArguments().slice(0, -1).map((one) => one.getValue());
@@ -54,11 +54,11 @@ test("what is copied from the clone is there", () => {
 
 const image = () => files.find(({ name }) => name === "container/Containerfile");
 
-test("the daemon is nobody's process: not root's, and by number", () => {
+test("the daemon runs as an unprivileged user, given by number", () => {
   assert.equal(instructions(image(), "USER").at(-1).getArgumentsContent(), "65532:65532");
 });
 
-test("the image's settings are ones that the daemon takes", () => {
+test("the daemon accepts the image's settings", () => {
   const settings = instructions(image(), "ENV").flatMap((one) => one.getArguments().map((argument) => argument.getValue().split("=")));
   assert.equal(settings.length, 3);
   const env = { PATH: process.env.PATH, ...Object.fromEntries(settings), VITRINE_DATA: "/tmp" };
@@ -66,7 +66,7 @@ test("the image's settings are ones that the daemon takes", () => {
   assert.equal(status, 0, stderr);
 });
 
-test("the health check tells a ready daemon from none", async () => {
+test("the health check succeeds for a ready daemon only", async () => {
   const [check] = instructions(image(), "HEALTHCHECK");
   const command = JSON.parse(check.getArgumentsContent().replace(/^.*?CMD /s, ""));
   const healthy = (port) => spawnSync(command[0], command.slice(1).map((word) => word.replace("/9400", `/${port}`))).status === 0;

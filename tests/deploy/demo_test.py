@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The demo as a newcomer meets it: it serves the page that it names, and leaves when told."""
+"""Tests the demo as a newcomer runs it. It must serve the page whose URL it prints, and end when it gets a signal."""
+import fcntl
 import json
 import os
 import re
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import tempfile
 import time
@@ -18,13 +20,20 @@ ROOT = Path(__file__).resolve().parents[2]
 DEMO = ROOT / "deploy" / "demo"
 
 
+def setUpModule():
+    """Brings up the loopback interface, because a new network namespace starts with it down."""
+    set_flags, is_up = 0x8914, 1  # SIOCSIFFLAGS, IFF_UP
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:
+        fcntl.ioctl(any_socket, set_flags, struct.pack("16sh14x", b"lo", is_up))
+
+
 class Demo(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.folder)
 
     def start(self, listen, *arguments):
-        """The running demo, all it said up to the URL, and the URL."""
+        """Starts the demo. Returns the process, its output up to the URL, and the URL."""
         environment = os.environ | {"VITRINE_LISTEN": listen, "VITRINE_DATA": self.folder + "/data", "VITRINE_STEPS": "24"}
         demo = subprocess.Popen([DEMO, *arguments], env=environment, text=True, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -44,13 +53,13 @@ class Demo(unittest.TestCase):
         self.assertEqual(self.processes(), [])
 
     def processes(self):
-        """The command lines of all that works on the test's folder."""
+        """Returns the command lines of all processes that use the test's folder."""
         lines = []
         for file in Path("/proc").glob("[0-9]*/cmdline"):
             try:
                 lines.append(file.read_bytes().replace(b"\0", b" ").decode(errors="replace"))
             except OSError:
-                pass  # it has ended
+                pass  # the process has ended
         return [line for line in lines if self.folder in line]
 
     def mesh(self):
@@ -67,7 +76,7 @@ class Demo(unittest.TestCase):
             return answer.read().decode()
 
     def failed(self, listen, data):
-        """All that a demo said that did not come up; it leaves nothing in the clone."""
+        """Runs a demo that must fail to start, and returns its output. Checks that it leaves no files in the clone."""
         before = self.states()
         environment = os.environ | {"VITRINE_LISTEN": listen, "VITRINE_DATA": data}
         done = subprocess.run([DEMO, self.mesh()], env=environment, text=True, stdin=subprocess.DEVNULL,
@@ -90,7 +99,7 @@ class Demo(unittest.TestCase):
         self.assertIn("<progressive-mesh", self.page(url))
         self.stop(demo)
         again, _, second = self.start("127.0.0.1:0", self.mesh())
-        self.assertEqual(second.rpartition("/")[2], url.rpartition("/")[2], "the model was published anew")
+        self.assertEqual(second.rpartition("/")[2], url.rpartition("/")[2], "the model was published again")
         self.stop(again, signal.SIGTERM)
 
     def test_scans_the_mesh_that_ships_once(self):
@@ -98,12 +107,12 @@ class Demo(unittest.TestCase):
         self.assertIn("<canvas", self.page(url))
         while (scan := self.scan(url))["state"] not in ("done", "failed", "cancelled"):
             self.assertFalse([line for line in self.processes() if "vtr_" in line], "a token is in the list of processes")
-            time.sleep(0.2)  # between two questions
+            time.sleep(0.2)
         self.assertEqual((scan["state"], scan["steps"], scan["error"]), ("done", 24, None))
         self.assertIn("<progressive-mesh", self.page(url.partition("/scans/")[0] + f"/models/{scan['model']}"))
         self.stop(demo)
         again, said, second = self.start("127.0.0.1:0", "--scan")
-        self.assertIn("to scan it anew: rm '", said)
+        self.assertIn("to scan it again: rm '", said)
         self.assertEqual(self.scan(second), scan)
         self.stop(again, signal.SIGTERM)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The compose file's object store starts, keeps what its user sends, and shows it to nobody else; in a
-# network and a space of processes that end with the test.
+# Tests the object store of the compose file: it starts, stores an object of its user, and denies access to others. The
+# test runs in its own network and PID namespaces, which end with it.
 set -euo pipefail
 if [[ -z ${RGW_DATA-} ]]; then
   RGW_DATA=$(mktemp -d)

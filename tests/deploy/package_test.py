@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The Debian package installs, makes its user, and runs its service under a real systemd, as confined as it is.
-VITRINE_BUILD: the build whose programs are packed."""
+"""Tests that the Debian package installs, creates its user, and runs its confined service under a real systemd.
+
+Environment: VITRINE_BUILD, the folder of the build whose programs are packed."""
 import os
 import re
 import subprocess
@@ -13,8 +14,8 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ["VITRINE_BUILD"])
 MESH = ROOT / "tests" / "models" / "demosthenes.obj"
 
-# This machine with the package on it, booted by a systemd of its own in mounts, processes and a network of
-# its own. Nothing but what the script starts runs there; it is off when the script ends.
+# Boots a copy of this machine's file system in new mount, PID and network namespaces. Its systemd starts the unit
+# `trial`, whose script installs and tests the package. The system ends when the script ends.
 MACHINE = """set -euo pipefail
 mount -t tmpfs none "$STATE"
 mkdir "$STATE/upper" "$STATE/work" "$STATE/root"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The element's attributes, at the start and at run time.
+// Tests the attributes of <progressive-mesh>, set before the start and at run time.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { ViewerPage, launch } from "./browser.mjs";
@@ -67,10 +67,11 @@ test("max-bytes and target-error are kept to, and progress tells how much of it 
   const told = (await viewer.events("progress")).map(({ detail }) => detail);
   assert.ok(told.length > 1 && told.every(({ bytes, total }) => bytes <= total));
   assert.deepEqual(told.at(-1), { bytes: some.bytes, total: some.bytes });
-  await viewer.settled(async () => {
-    await set(viewer, "target-error", String(fine));
-    await set(viewer, "max-bytes", null);
-  });
+  // In one step: two would settle twice.
+  await viewer.settled(() => element(viewer).evaluate((viewed, error) => {
+    viewed.setAttribute("target-error", error);
+    viewed.removeAttribute("max-bytes");
+  }, String(fine)));
   assert.equal((await shown()).triangles, levels.at(-3).faces);
   assert.equal((await shown()).vertices, levels.at(-3).vertices);
   await viewer.page.context().close();
@@ -163,7 +164,7 @@ test("the poster is seen until the first picture; reveal manual keeps it until i
 test("alt is what is heard of the picture, now and later", async () => {
   const viewer = await opened({ "max-triangles": "0" });
   await viewer.events("load");
-  await viewer.page.getByRole("img", { name: "Demosthenes", exact: true }).waitFor(); // the page's words
+  await viewer.page.getByRole("img", { name: "Demosthenes", exact: true }).waitFor(); // the `alt` that the page sets
   await set(viewer, "alt", "Roman copy");
   await viewer.page.getByRole("img", { name: "Roman copy", exact: true }).waitFor();
   await set(viewer, "alt", null);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Debian's Chromium, and what a test wants to know of a viewer page.
+// Starts Debian's Chromium, and helps tests to use pages with a viewer.
 import { createRequire } from "node:module";
 
 const require = createRequire(new URL("../../web/package.json", import.meta.url));
@@ -13,9 +13,18 @@ export function launch() {
   });
 }
 
+const kActionTimeout = 120_000; // ms until an action fails; long, because drawing and compiling may occupy both cores
+
+/** Returns a new browser context without cookies or cache, like a private window. */
+export async function newContext(browser, options) {
+  const context = await browser.newContext(options);
+  context.setDefaultTimeout(kActionTimeout);
+  return context;
+}
+
 const kEvents = ["first-paint", "refine", "progress", "load", "error", "camera-change"];
 
-/** Sets attributes of each viewer as soon as the page has it. */
+/** Runs in the page: sets `attributes` on each <progressive-mesh> as soon as it is in the document. */
 function dress(attributes) {
   new MutationObserver(() => {
     for (const viewer of document.querySelectorAll("progressive-mesh:not([data-dressed])")) {
@@ -25,16 +34,16 @@ function dress(attributes) {
   }).observe(document, { childList: true, subtree: true });
 }
 
-/** A page with one <progressive-mesh>, its events, requests and complaints. */
+/** A page with one <progressive-mesh>. Records the page's events, requests and errors. */
 export class ViewerPage {
   /**
-   * `init` runs in the page before its own scripts. `attributes` are the viewer's, before it is one: with none
-   * it shows all there is.
+   * Opens the page at `url`. `init` runs in the page before the page's own scripts. `attributes` are set before the
+   * element is defined; by default, the whole model is shown.
    */
   static async open(browser, url, {
     colorScheme = "light", reducedMotion = "reduce", width = 1100, height = 760, init, attributes = { "pixel-error": "0" },
   } = {}) {
-    const context = await browser.newContext({ viewport: { width, height }, colorScheme, reducedMotion });
+    const context = await newContext(browser, { viewport: { width, height }, colorScheme, reducedMotion });
     const viewer = new ViewerPage(await context.newPage());
     await viewer.#listen();
     if (init) await viewer.page.addInitScript(init);
@@ -46,21 +55,22 @@ export class ViewerPage {
   errors = [];
   held = [];
   holding = true;
-  askedChunks = 0; // exact once their effect is seen: each request passes through here
-  origins = []; // of all requests
-  finishedChunks = 0; // as the browser tells: may lag behind what the page shows
+  askedChunks = 0; // number of requests for chunks, which all pass through the route handler below
+  origins = []; // origins of all HTTP requests
+  // Number of finished requests for chunks; the browser may report them after the page shows the result.
+  finishedChunks = 0;
 
   constructor(page) {
     this.page = page;
   }
 
-  /** Lets the requests for enhancement layers go, those held so far and all later ones. */
+  /** Continues the held requests for enhancement layers, and holds no later ones. */
   async releaseLayers() {
     this.holding = false;
     await Promise.all(this.held.splice(0).map((route) => route.continue()));
   }
 
-  /** Waits until `type` has been fired `count` times since the page began; returns all details. */
+  /** Waits until the event `type` has been fired `count` times since the page was loaded. Returns the recorded events of that type. */
   async events(type, count = 1) {
     await this.page.waitForFunction(([name, n]) => window.seen.filter((event) => event.type === name).length >= n,
       [type, count], { timeout: 60_000 });
@@ -71,7 +81,7 @@ export class ViewerPage {
     return this.page.evaluate(() => window.seen);
   }
 
-  /** Does `action` and waits for the state it leads to. */
+  /** Performs `action` and waits for the next `load` event, which means that the requested detail is shown. */
   async settled(action) {
     const before = (await this.seen()).filter(({ type }) => type === "load").length;
     await action();
@@ -85,7 +95,7 @@ export class ViewerPage {
     }, Math.round(1000 * fraction)));
   }
 
-  /** Does `action` and waits until more than `count` triangles are shown and that is reported as reached. */
+  /** Performs `action`. Waits until more than `count` triangles are shown and a `load` event has followed. */
   async sharpened(count, action) {
     await action();
     await this.page.waitForFunction((few) => {
@@ -101,7 +111,7 @@ export class ViewerPage {
     if (await button.getAttribute("aria-expanded") === "false") await button.click();
   }
 
-  /** The switch of that name, in its open sheet. */
+  /** Opens the sheet "surface" and returns its switch `name`. */
   async toggle(name) {
     await this.sheet("surface");
     return this.page.locator(`input[name=${name}]`);
@@ -112,25 +122,25 @@ export class ViewerPage {
     return shown.at(-1).detail.triangles;
   }
 
-  /** What stands in the panel. */
+  /** Returns the text in which the panel states the number of triangles. */
   async counts() {
     return this.page.locator("output .triangles").textContent();
   }
 
-  /** Two frames: what was asked for before is drawn. */
+  /** Waits for two animation frames, after which all earlier requests to draw have been served. */
   frames() {
     return this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
 
-  /** The element as it stands still: transitions of its controls are at their end. */
+  /** Takes a screenshot of the element, with the transitions of its controls finished. */
   async picture(path) {
     await this.frames();
     return this.page.locator("progressive-mesh").screenshot({ path, animations: "disabled" });
   }
 
-  /** What the browser has complained of up to now. */
+  /** Returns the errors that the browser has reported so far. */
   async complaints() {
-    await this.frames(); // the answer comes after the messages before it
+    await this.frames(); // the browser sends the reply to this call after all earlier messages of the page
     return this.errors;
   }
 

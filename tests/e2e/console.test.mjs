@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// An operator's day at the console, in a real browser against the real daemon: from a file to an object
-// in the gallery and away again. Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests an operator's typical tasks in the console, in a real browser with the real daemon: upload a file, publish the
+// model, and delete it.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
 import assert from "node:assert/strict";
 import { mkdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { launch } from "./browser.mjs";
+import { launch, newContext } from "./browser.mjs";
 import { Desk, overflow, tokenFor, violations } from "./console_desk.mjs";
 import { Daemon } from "./daemon.mjs";
 import { FakeScanner } from "./fake_scanner.mjs";
 
 const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
-const kPiece = 8 << 20; // of an upload
+const kPiece = 8 << 20; // bytes per request of an upload
 const kTetrahedron = Buffer.from("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
 
 let daemon, browser, operator, admin;
@@ -29,7 +30,7 @@ after(async () => {
   await daemon?.stop();
 });
 
-/** With an operator's token. */
+/** Sends a request to the API; uses the operator's token unless `token` is given. */
 async function asked(path, { token = operator, ...options } = {}) {
   return fetch(`${daemon.url}/api/v1${path}`, { ...options, headers: { Authorization: `Bearer ${token}`, "Content-Type": "application/json" } });
 }
@@ -62,17 +63,17 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   await card.getByLabel("Title").fill("Bust of Demosthenes");
   await card.getByLabel("Creator").fill("Polyeuktos");
   await card.getByLabel("Unit").selectOption("mm");
-  await desk.press("Make the model", card);
+  await desk.press("Create the model", card);
   await card.getByText("Done").waitFor({ timeout: 60_000 });
   assert.deepEqual(await onDisplay(), [], "a draft is nobody's business");
-  await card.getByRole("link", { name: "Its model" }).click();
+  await card.getByRole("link", { name: "Open the model" }).click();
   await page.getByRole("heading", { level: 1, name: "Bust of Demosthenes" }).waitFor();
-  await page.locator("progressive-mesh output .triangles").filter({ hasText: "triangles" }).waitFor(); // shown to whoever has a token
+  await page.locator("progressive-mesh output .triangles").filter({ hasText: "triangles" }).waitFor(); // a draft, shown to clients with a token
   await page.locator("svg.curve circle").first().waitFor();
   await desk.isFit("draft");
 
   await desk.press("Publish");
-  await page.getByRole("button", { name: "Withdraw from the gallery" }).waitFor(); // the page is drawn anew
+  await page.getByRole("button", { name: "Withdraw from the gallery" }).waitFor(); // the page has been redrawn
   assert.deepEqual(await onDisplay(), ["Bust of Demosthenes"]);
   await page.getByLabel("Title").fill("Demosthenes");
   await page.getByLabel("Licence").fill("CC-BY-4.0");
@@ -101,7 +102,7 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   await desk.press("Delete…");
   await page.getByRole("dialog").getByText("Delete “By a colleague”?").waitFor();
   assert.deepEqual(await violations(page), [], "the question");
-  await desk.press("Keep it");
+  await desk.press("Keep");
   await desk.press("Delete…");
   await desk.press("Delete", page.getByRole("dialog"));
   await desk.says("There are no models yet");
@@ -113,7 +114,7 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   await desk.close();
 });
 
-test("an upload goes on where it was after the page was closed", async () => {
+test("an upload resumes where it was after the page was closed", async () => {
   const desk = await Desk.open(browser, daemon, { token: operator }), { page } = desk;
   const large = { name: "large.ply", bytes: Buffer.alloc(kPiece + 1000) }, offsets = [];
   let hold = true, secondIsHeld;
@@ -122,7 +123,8 @@ test("an upload goes on where it was after the page was closed", async () => {
     if (route.request().method() !== "PATCH") return route.continue();
     const offset = Number(route.request().headers()["upload-offset"]);
     offsets.push(offset);
-    return hold && offset > 0 ? secondIsHeld() : route.continue(); // the second piece never comes
+    // While `hold` is true, pieces after the first are never sent.
+    return hold && offset > 0 ? secondIsHeld() : route.continue();
   });
   page.on("dialog", (dialog) => dialog.accept());
   await desk.drop(large.name, large.bytes);
@@ -180,16 +182,16 @@ test("the emergency stop is in sight on every page, and says whether it was obey
   await desk.close();
 });
 
-test("administrators make and revoke tokens; a wrong one is told at its field", async () => {
+test("administrators make and revoke tokens; a wrong one is reported at its field", async () => {
   const desk = await Desk.open(browser, daemon, { token: admin }), { page } = desk;
   await page.getByRole("link", { name: "Tokens" }).click();
   await page.getByLabel("Name").fill("x".repeat(2000));
-  await desk.press("Make a token");
+  await desk.press("Create a token");
   await page.locator("[aria-invalid][name=label]").waitFor();
   assert.match(await page.locator("[aria-invalid] ~ small").textContent(), /^Expected: /);
   await page.getByLabel("Name").fill("Kiosk");
   await page.getByLabel("Role").selectOption("viewer");
-  await desk.press("Make a token");
+  await desk.press("Create a token");
   const token = await page.getByLabel("Token", { exact: true }).inputValue();
   assert.equal((await asked("/jobs", { token })).status, 200);
   await desk.isFit("tokens");
@@ -203,7 +205,7 @@ test("administrators make and revoke tokens; a wrong one is told at its field", 
 
 test("speaks German, and is as fit in the dark", async () => {
   const scanner = new FakeScanner(3);
-  const context = await browser.newContext({ locale: "de-DE", colorScheme: "dark", reducedMotion: "reduce" });
+  const context = await newContext(browser, { locale: "de-DE", colorScheme: "dark", reducedMotion: "reduce" });
   await scanner.play(context);
   const desk = new Desk(await context.newPage(), daemon), { page } = desk;
   await page.goto(`${daemon.url}/console`);
@@ -223,7 +225,7 @@ test("the gallery is searched, and an object's page tells what is known and give
   const { models: [{ id }] } = await (await fetch(`${daemon.url}/api/v1/models?q=Hermes`)).json();
   const words = { creator: "Praxiteles", licence: "CC0-1.0", unit: "mm", accuracy: 0.05, description: "Holds the infant Dionysos.", date: "about 340 BC" };
   await asked(`/models/${id}`, { method: "PATCH", body: JSON.stringify(words) });
-  const context = await browser.newContext({ viewport: { width: 1280, height: 860 }, permissions: ["clipboard-read", "clipboard-write"] }), page = await context.newPage();
+  const context = await newContext(browser, { viewport: { width: 1280, height: 860 }, permissions: ["clipboard-read", "clipboard-write"] }), page = await context.newPage();
   const shoot = async (name) => {
     for (const [width, height] of [[360, 740], [768, 1024], [1920, 1080]]) {
       await page.setViewportSize({ width, height });

@@ -1,38 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operator's console in a browser, and what a test wants to know of it.
+// Opens the operator's console in a browser. Tests use it like an operator and check its pages.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { promisify } from "node:util";
+import { newContext } from "./browser.mjs";
 
 const require = createRequire(new URL("../../web/package.json", import.meta.url));
 const axe = await readFile(require.resolve("axe-core/axe.min.js"), "utf8");
 const pictures = process.env.VITRINE_SCREENSHOTS;
 
-/** A new token of the daemon's, made as on its own machine. */
+/** Creates a token with the command line, as on the daemon's own machine. */
 export async function tokenFor(daemon, role) {
   const words = ["token", "create", "--role", role, "--data", daemon.data, "--json"];
   return JSON.parse((await promisify(execFile)(join(daemon.bin, "vitrine"), words)).stdout).token;
 }
 
-/** What axe-core has to say about a page as it is, in one line each. The viewer is looked at by its own test. */
+/** Returns the violations that axe-core finds on the page, one line each. The viewer is excluded, because its own test checks it. */
 export async function violations(page) {
   await page.evaluate(axe);
   const found = await page.evaluate(() => window.axe.run({ exclude: ["progressive-mesh"] }, { resultTypes: ["violations"] }));
   return found.violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target} ${failureSummary}`));
 }
 
-/** Pixels by which the page is wider than its window. */
+/** Returns the number of pixels by which the page is wider than its window. */
 export function overflow(page) {
   return page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
 }
 
 export class Desk {
-  /** `play(context)` may answer in the daemon's place. */
+  /** Opens the console. `play(context)` is called before, and may install routes that respond instead of the daemon. */
   static async open(browser, daemon, { token, play, ...options } = {}) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 860 }, reducedMotion: "reduce", ...options });
+    const context = await newContext(browser, { viewport: { width: 1280, height: 860 }, reducedMotion: "reduce", ...options });
     await play?.(context);
     const desk = new Desk(await context.newPage(), daemon);
     await desk.page.goto(`${daemon.url}/console`);
@@ -45,7 +46,8 @@ export class Desk {
   constructor(page, daemon) {
     Object.assign(this, { page, daemon });
     page.on("pageerror", (error) => this.complaints.push(String(error)));
-    // A browser tells of each answer that is no success, too: the console knows what to make of them.
+    // The browser also reports each failed response as an error. These errors are ignored, because the console handles
+    // them.
     page.on("console", (message) => message.type() === "error" && !/Failed to load resource/.test(message.text()) && this.complaints.push(message.text()));
   }
 
@@ -68,7 +70,7 @@ export class Desk {
     return this.page.getByText(text, { exact: false }).first().waitFor({ timeout: 60_000 });
   }
 
-  /** Drags a file out of nowhere onto the page. */
+  /** Drags a file onto the page, as from the desktop. */
   async drop(name, bytes) {
     const files = await this.page.evaluateHandle(([title, text]) => {
       const transfer = new DataTransfer();
@@ -78,7 +80,7 @@ export class Desk {
     await this.page.locator(".drop").first().dispatchEvent("drop", { dataTransfer: files });
   }
 
-  /** Fit for everybody at all widths in the colours that it has now. */
+  /** Checks that the page fits into windows 360, 768 and 1920 pixels wide, and has no accessibility violations. Takes screenshots. */
   async isFit(name) {
     for (const width of [360, 768, 1920]) {
       await this.page.setViewportSize({ width, height: width === 360 ? 740 : 1080 });

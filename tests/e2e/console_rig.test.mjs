@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From an empty table to a visitor's screen, all of it in the browser: calibrate, scan at the simulated
-// rig, watch it build, publish, and see it sharpen in the gallery. Environment: VITRINE_BIN, VITRINE_MODEL
-// (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests all work of an operator from the calibration to the published model, entirely in the browser: calibrate, scan
+// with the simulated scanner, watch the build, publish, and see the model refined in the gallery.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
@@ -63,10 +63,10 @@ test("calibrates", async () => {
   await page.getByRole("link", { name: "Accept" }).click();
 });
 
-test("scans, pauses, goes on, publishes, and a visitor sees it sharpen", async () => {
+test("scans, pauses, resumes, publishes, and a visitor sees it sharpen", async () => {
   await page.getByRole("link", { name: "New scan" }).click();
   await page.getByLabel("Title").fill("Demosthenes");
-  await page.getByLabel("Steps a turn").fill(String(kSteps));
+  await page.getByLabel("Steps per revolution").fill(String(kSteps));
   await desk.press("Start the scan");
   await page.getByRole("heading", { level: 1, name: "Demosthenes" }).waitFor();
   await desk.says(/[1-9]\d* points/);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shipped binaries with a data folder of their own, for the time of a test.
+// Runs the shipped binaries with a temporary data folder for the duration of a test.
 import { execFile, spawn } from "node:child_process";
 import { once } from "node:events";
 import { watch } from "node:fs";
@@ -9,14 +9,14 @@ import { join, resolve } from "node:path";
 import { promisify } from "node:util";
 
 const run = promisify(execFile);
-// The daemon refuses settings that it does not know, such as those of this test.
+// The environment without this test's VITRINE_ variables: the daemon refuses settings that it does not know.
 export const env = Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith("VITRINE_")));
 
-// A line of the daemon's own, or of the runtime under it.
+// Matches log lines that report a fault of the daemon or of its C++ runtime.
 const kFault = /event=(error|critical)|terminate called|Sanitizer/;
 
 export class Daemon {
-  /** `options` are more words of the command line of the program that runs it. */
+  /** Starts a daemon. `options` are appended to its command line; subclasses may use them for another program. */
   static async start(folderOfBinaries, options = []) {
     const bin = resolve(folderOfBinaries);
     const folder = await mkdtemp(join(tmpdir(), "vitrine-"));
@@ -34,12 +34,12 @@ export class Daemon {
     Object.assign(this, { bin, folder, data, options, env: { ...env }, log: "" });
   }
 
-  /** What is started so that the daemon runs with `words`. */
+  /** Returns the command line that runs the daemon with the arguments `words`. */
   command(words) {
     return [join(this.bin, "vitrined"), ...words, ...this.options];
   }
 
-  /** Starts the program; rejects when it ends. */
+  /** Starts the program. Returns a promise that rejects when the program ends. */
   spawn(listen, portFile) {
     const words = ["--listen", listen, "--admin-listen", "127.0.0.1:0", "--data", this.data, "--port-file", portFile,
                    "--admin-port-file", join(this.folder, "admin-port")];
@@ -52,7 +52,7 @@ export class Daemon {
     return ended;
   }
 
-  /** As after a power cut; at the same address. */
+  /** Kills the daemon, as a power cut would, and restarts it at the same address. */
   async killAndStartAgain() {
     await this.kill();
     await this.startAgain();
@@ -63,32 +63,32 @@ export class Daemon {
     await this.exit;
   }
 
-  /** At the same address. */
+  /** Restarts the daemon at the same address. */
   async startAgain() {
     const portFile = join(this.folder, "port-again");
     const appeared = watched(this.folder, portFile);
     await Promise.race([appeared, this.spawn(`127.0.0.1:${this.port}`, portFile)]);
   }
 
-  /** The samples of /metrics: [name, labels, value]. */
+  /** Returns the samples of /metrics as a list of [name, labels, value]. */
   async metrics() {
     const text = await (await fetch(`http://127.0.0.1:${this.adminPort}/metrics`)).text();
     return [...text.matchAll(/^([a-z_]+)(\{.*\})? (\S+)$/gm)].map(([, name, labels, value]) => [name, labels ?? "", Number(value)]);
   }
 
-  /** How often chunks were asked for. */
+  /** Returns the number of requests for chunks that the daemon has counted. */
   async chunkRequests() {
     const counted = (await this.metrics()).filter(([name, labels]) => name === "vitrine_http_requests_total" && labels.includes('"/api/v1/chunks/'));
     return counted.reduce((sum, [, , value]) => sum + value, 0);
   }
 
-  /** Publishes a mesh, with more words of the command; returns the address of its page. */
+  /** Publishes a mesh; `more` are further arguments of the command. Returns the URL of the model's page. */
   async publish(mesh, title, ...more) {
     const { stdout } = await run(join(this.bin, "vitrine"), ["publish", mesh, "--data", this.data, "--title", title, "--json", ...more], { env });
     return `${this.url}/models/${JSON.parse(stdout).id}`;
   }
 
-  /** Ends the daemon as an operator would; it must leave cleanly, and its log with it. */
+  /** Stops the daemon with SIGTERM. Fails unless the exit code is 0 and the log has no faults. */
   async stop() {
     this.child.kill("SIGTERM");
     const code = await this.exit;
@@ -99,7 +99,7 @@ export class Daemon {
   }
 }
 
-/** The content of `file` once it is there; it appears in one piece. */
+/** Resolves to the content of `file` when the file exists. The file is written atomically. */
 function watched(folder, file) {
   return new Promise((resolve) => {
     const watcher = watch(folder, async () => {

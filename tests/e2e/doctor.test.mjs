@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `vitrine doctor` finds at the real daemon, bare and behind proxies that spoil something.
+// Tests `vitrine doctor` with the real daemon, directly and behind faulty proxies.
 // Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file).
 import assert from "node:assert/strict";
 import { execFile, execFileSync } from "node:child_process";
@@ -26,7 +26,7 @@ after(async () => {
   await rm(folder, { recursive: true, force: true });
 });
 
-/** Exit code, and the findings by the word of their check. */
+/** Runs `vitrine doctor`. Returns the exit code, and the findings by the name of their check. */
 function doctor(...words) {
   return new Promise((resolve) => {
     execFile(join(bin, "vitrine"), ["doctor", "--json", ...words], (fault, stdout, stderr) => {
@@ -36,7 +36,10 @@ function doctor(...words) {
   });
 }
 
-/** A proxy to the daemon, which passes no upgrades, nor the fields of requests that it `drops`; `fields` changes the answers'. */
+/**
+ * Calls `examine` with the URL of a faulty proxy in front of the daemon. The proxy refuses upgrades and removes the
+ * request headers listed in `spoil.drops`. The function `spoil.fields` may change the response headers.
+ */
 async function proxied(spoil, examine) {
   const proxy = http.createServer((request, response) => {
     const { method, url, headers } = request;

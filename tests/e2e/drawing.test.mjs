@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn: base, middle and full against stored pictures, no crack in any state on the way,
-// and many models that share one worker and one budget.
+// Tests drawing. Base, middle and full resolution must match stored pictures. No state of a watertight model may have a
+// crack. Several models must share one worker and one budget.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
@@ -40,7 +40,10 @@ async function serve(mesh, name) {
   return host.add(`${name}.pmesh`, await readFile(file));
 }
 
-/** Runs in the page: pixels of background that the surface encloses, in one picture, also across corners: those are its outline's. */
+/**
+ * Runs in the page. Counts the pixels of the surface and the background pixels that the surface encloses. Background
+ * pixels that touch the outside only at their corners belong to the outline and are not counted.
+ */
 function holes() {
   const { data, width, height } = window.scene.pixels();
   const background = (i) => data[4 * i] === 255 && data[4 * i + 1] === 0 && data[4 * i + 2] === 255;
@@ -70,7 +73,7 @@ for (const reducedMotion of ["reduce", "no-preference"]) {
     await page.evaluate(`window.holes = ${holes}`);
     const seen = await page.evaluate(async (url) => {
       const mesh = await scene.load(url), { THREE } = scene;
-      mesh.material.side = THREE.FrontSide; // through a crack one would see the inside of the far wall
+      mesh.material.side = THREE.FrontSide; // otherwise the back of the far wall would be visible through a crack
       const states = [];
       const look = async () => {
         for (const distance of [3.2, 1.6]) {
@@ -108,7 +111,7 @@ test("a region shown at a level that its neighbours forbid lets the background t
   const [whole, broken] = await page.evaluate(async (url) => {
     const mesh = await scene.load(url), { THREE } = scene;
     const top = mesh.info.levels.length - 1, { radius } = mesh.geometry.boundingSphere;
-    /** The triangles of the present state with a corner sum that `belongs` to the part wanted. */
+    /** Refines to `level` and returns a mesh of the triangles whose centroids satisfy `belongs`. */
     const part = async (level, belongs) => {
       await mesh.refine({ level });
       const { index, attributes: { position } } = mesh.geometry, corners = [];
@@ -119,7 +122,7 @@ test("a region shown at a level that its neighbours forbid lets the background t
       }
       return new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(corners), new THREE.MeshBasicMaterial());
     };
-    /** A patch that faces the camera at `level`, the rest in full. */
+    /** Shows the patch that faces the camera at `level`, and the rest at full resolution. Returns the result of holes(). */
     const patched = async (level) => {
       const inside = ({ z }) => z > 0.4 * radius;
       const parts = [await part(level, inside), await part(top, (middle) => !inside(middle))];
@@ -155,7 +158,10 @@ test("base, middle and full are drawn as in the stored pictures", async () => {
   await page.context().close();
 });
 
-/** Of two pictures: the mean over all channels, and the share of pixels that differ by more than 32. */
+/**
+ * Compares two pictures. Returns `mean`, the mean difference of all channel values (0 to 255), and `far`, the share of
+ * pixels of which a channel differs by more than 32.
+ */
 function difference(page, ...pngs) {
   return page.evaluate(async (both) => {
     const [one, two] = await Promise.all(both.map(async (base64) => {

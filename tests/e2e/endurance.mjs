@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// endurance.mjs BIN_FOLDER MODEL [SWITCHES [MINUTES]]: a page whose worker lives on shows two models in
-// turn, refining each to the last triangle, 100 times; then one of them turns by itself for 20 minutes
-// while its camera comes near and goes away. Prints on the way what page, worker, WebAssembly, WebGL and
-// daemon hold, and fails where the second half of either part has more than a tenth (and 1 MB) above the first.
+// endurance.mjs BIN_FOLDER MODEL [SWITCHES [MINUTES]]: tests for memory leaks. One page, whose worker is never stopped,
+// shows two models alternately and refines each to the last triangle, 100 times. Then one model rotates for 20 minutes
+// while the camera approaches and recedes. Prints the memory of page, worker, WebAssembly, WebGL and daemon. Fails if
+// the second half of either part uses over 10 % (and 1 MB) more than the first half.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { ViewerPage, launch } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
 import { Memory, countWebGl } from "./memory.mjs";
 
-const kSamples = 10, kMost = 1.1, kNoise = 1; // what waits for a collection of garbage is some of the time in a sample
+// The mean of the second half of the kSamples samples may be kMost times the mean of the first half, plus kNoise MB.
+const kSamples = 10, kMost = 1.1, kNoise = 1;
 const kOrbits = ["30deg 75deg 60%", "120deg 60deg 30%", "210deg 90deg 150%", "300deg 75deg 40%"];
-const kStay = 5000; // ms at each of them
+const kStay = 5000; // ms at each orbit
 
 const [bin, scan, switches = 100, minutes = 20] = process.argv.slice(2).map((word, i) => (i < 2 ? word : Number(word)));
 if (!scan || !(switches >= kSamples) || !(minutes >= 0)) {
@@ -43,7 +44,7 @@ try {
   await daemon.stop();
 }
 
-/** A second viewer, at its base mesh: it keeps the worker. */
+/** Adds a second viewer that shows only its base mesh, so that the worker is not stopped when the first viewer changes its model. */
 async function companion({ page }, src) {
   await page.evaluate((url) => new Promise((resolve) => {
     const second = document.createElement("progressive-mesh");
@@ -55,12 +56,13 @@ async function companion({ page }, src) {
   }), src);
 }
 
-/** Does a tenth of the work again and again and looks at what is held after each. */
+/** Runs `work` kSamples times and measures the memory after each run. Fails if the second half of the samples exceeds the first. */
 async function endure(what, memory, work) {
   const samples = [];
   for (let tenth = 0; tenth < kSamples; ++tenth) {
     await work(tenth);
-    await memory.page.evaluate(() => (window.seen.length = 0)); // the test's own list of events
+    // Deletes the list of events, which would grow but belongs to the test.
+    await memory.page.evaluate(() => (window.seen.length = 0));
     const held = { ...(await memory.measure()), daemon: await residentMegabytes() };
     samples.push(held);
     console.log(`${tenth + 1}/${kSamples} of ${what}: ${Object.entries(held).map(([name, value]) => `${name} ${+value.toFixed(1)}`).join(", ")}`);
@@ -74,7 +76,8 @@ async function endure(what, memory, work) {
 }
 
 async function switchModels(viewer, sources, tenth) {
-  const [from, to] = [tenth, tenth + 1].map((n) => 2 * Math.round(n * switches / kSamples / 2)); // ends with the model it began with
+  // Even numbers, so that each tenth ends with the first model.
+  const [from, to] = [tenth, tenth + 1].map((n) => 2 * Math.round(n * switches / kSamples / 2));
   for (let i = from; i < to; ++i) {
     await viewer.settled(() => viewer.page.locator("progressive-mesh").first().evaluate((element, src) => (element.src = src), sources[(i + 1) % 2]));
   }
@@ -87,7 +90,7 @@ function turn({ page }) {
   });
 }
 
-/** For so many ms, at least once around the orbits. */
+/** Moves the camera along all orbits repeatedly, for `milliseconds` or at least once. */
 async function lookAround(viewer, milliseconds) {
   const end = performance.now() + milliseconds;
   do {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a visitor sees when something breaks: the last good picture, and words.
+// Tests failures: a visitor keeps the last good picture and sees a message.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { ViewerPage, launch } from "./browser.mjs";
@@ -25,7 +25,7 @@ const message = (viewer) => viewer.page.locator("progressive-mesh [role=alert]")
 const src = (viewer, address) => viewer.page.locator("progressive-mesh").evaluate((element, to) => element.setAttribute("src", to), address);
 
 for (const transport of ["http", "ws"]) {
-  test(`goes on where it was when the server died in mid-stream and came back, by ${transport}`, async () => {
+  test(`resumes where it was when the server died in mid-stream and came back, by ${transport}`, async () => {
     const viewer = await ViewerPage.open(browser, url, { attributes: { "pixel-error": "0", "max-triangles": "0", transport } });
     viewer.holding = false;
     await viewer.events("load");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan's part of the interface, played in the browser's network: the test says how far it is.
+// Simulates the API of one scan in the browser's network layer. The test sets the scan's progress.
 export const kScan = "01hf0000000000000000000000";
 
 export class FakeScan {
@@ -8,16 +8,16 @@ export class FakeScan {
     id: kScan, job: kScan, scanner: "rig", state: "waiting", step: 0, steps: 720, progress: 0, eta: null, error: null, note: null,
     calibration: 1, points: 0, model: null, title: "Demosthenes", created: 0,
   };
-  fault = null; // "network", or a status to answer with
+  fault = null; // "network" for a lost connection, or the HTTP status to respond with
   #asked = 0;
   #waiting = [];
 
-  /** Before the page is opened. */
+  /** Intercepts the requests. Call before the page is opened. */
   async play(context) {
     await context.route("**/api/v1/scans/**", (route) => this.#answer(route));
   }
 
-  /** How far it is, and how many points there are. */
+  /** Updates the scan's record and, if `points` is given, its points. */
   tell(changes, points) {
     Object.assign(this.record, changes);
     if (!points) return;
@@ -25,7 +25,7 @@ export class FakeScan {
     this.record.points = points.length / 3;
   }
 
-  /** Resolves when the page has asked `times` more. */
+  /** Resolves when the page has polled the scan `times` more times. */
   asked(times = 1) {
     return new Promise((resolve) => this.#waiting.push({ at: this.#asked + times, resolve }));
   }
@@ -49,13 +49,16 @@ export class FakeScan {
   }
 }
 
-/** Points on a mesh with y upwards as a scanner finds it: 80 mm high, z upwards, one side after the other. */
+/**
+ * Returns `count` points of a mesh as a scanner measures them: ordered by their angle around the turntable's axis,
+ * scaled to a height of 80 mm, and with z upwards. In the mesh, y is upwards.
+ */
 export function measured({ vertices, faces }, count) {
   const range = (axis) => vertices.reduce(([low, high], v) => [Math.min(low, v[axis]), Math.max(high, v[axis])], [Infinity, -Infinity]);
   const [x, y, z] = [0, 1, 2].map(range), scale = 80 / (y[1] - y[0]), middle = ([low, high]) => (low + high) / 2;
   const points = Array.from({ length: count }, (_, i) => {
     const [a, b, c] = faces[(i * 7919) % faces.length].map((corner) => vertices[corner]);
-    let [u, v] = [(i * 0.7548776662) % 1, (i * 0.5698402910) % 1]; // evenly spread, the same each time
+    let [u, v] = [(i * 0.7548776662) % 1, (i * 0.5698402910) % 1]; // a low-discrepancy sequence: evenly spread and deterministic
     if (u + v > 1) [u, v] = [1 - u, 1 - v];
     const at = (axis) => a[axis] + u * (b[axis] - a[axis]) + v * (c[axis] - a[axis]);
     return [scale * (at(0) - middle(x)), scale * (middle(z) - at(2)), scale * (at(1) - y[0])];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner's part of the interface, played in the browser's network: somebody places its target.
+// Simulates the API of a scanner during a calibration, in the browser's network layer. Each "resume" counts as a placed
+// target.
 const kCalibrate = "01hf0000000000000000000001";
 
 export class FakeScanner {
   stops = 0;
-  /** With this status stops are answered. */
+  /** HTTP status of the responses to emergency stops. */
   stopStatus = 200;
   pose = 0;
   state = "paused";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same element from every host that the product promises, and nothing from anywhere else.
+// Tests the element with every kind of host that the product supports. Nothing may be loaded from other servers.
 import assert from "node:assert/strict";
 import { execFile, spawn } from "node:child_process";
 import { once } from "node:events";
@@ -40,7 +40,10 @@ after(async () => {
   await daemon?.stop();
 });
 
-/** Each: the page's attributes, and whether requests name chunks, as the daemon's plain HTTP has it. */
+/**
+ * The kinds of hosts. Each function returns the viewer's attributes and `chunks`, which is true if the viewer must
+ * request the daemon's chunk URLs. `page` is the host of the page if it is not `hosts.page`.
+ */
 const kHosts = {
   "the daemon by WebSocket": () => ({ src: api, transport: "ws", chunks: false }),
   "the daemon by plain HTTP": () => ({ src: api, transport: "http", chunks: true }),
@@ -74,7 +77,7 @@ test("a host with Range is asked for parts, one without for the whole once", asy
   assert.equal(models(hosts.whole).length, 1);
 });
 
-/** A proxy as museums have it: uploads are capped, connections are upgraded. */
+/** An nginx in front of a daemon. As in many museums, it limits the size of uploads and forwards WebSocket upgrades. */
 class Nginx {
   static async start({ folder, port: upstream }) {
     const port = await freePort();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page with viewers holds: JavaScript's heap and arrays of page and worker, WebAssembly's
-// memory, and WebGL's objects with the bytes of its buffers.
+// Measures the memory of a page with viewers: JavaScript heaps and arrays of page and worker, WebAssembly memory, the
+// number of WebGL objects, and the bytes of WebGL buffers.
 import { once } from "node:events";
 
-/** Runs in the page before its own scripts: counts what each living context has. */
+/** Runs in the page before the page's own scripts. Counts the WebGL objects of each context that is not lost. */
 export function countWebGl() {
   const contexts = new Map(), kinds = ["Buffer", "Texture", "Program", "Shader", "VertexArray", "Framebuffer", "Renderbuffer"];
   const prototype = WebGL2RenderingContext.prototype;
@@ -16,7 +16,7 @@ export function countWebGl() {
     };
   };
   const objects = (gl) => contexts.get(gl) ?? (contexts.set(gl, new Map()), contexts.get(gl));
-  const bound = new WeakMap(); // context to what is bound where
+  const bound = new WeakMap(); // maps each context to the buffers that are bound to its targets
   for (const kind of kinds) {
     wrap(`create${kind}`, (gl, _, made) => objects(gl).set(made, 0));
     wrap(`delete${kind}`, (gl, [gone]) => objects(gl).delete(gone));
@@ -34,7 +34,10 @@ export function countWebGl() {
   };
 }
 
-/** Runs in the worker: knows the memory of each decoder from now on, as long as it lives. */
+/**
+ * Runs in the worker. Counts the memory of each WebAssembly instance that is created later, until it is
+ * garbage-collected.
+ */
 function countWebAssembly() {
   const memories = [], { instantiate } = WebAssembly;
   WebAssembly.instantiate = async (...words) => {
@@ -46,7 +49,7 @@ function countWebAssembly() {
 }
 
 export class Memory {
-  /** Of a page that has a worker already; decoders that are there do not count. */
+  /** Prepares to measure a page whose worker is running. WebAssembly instances that already exist are not counted. */
   static async of(page) {
     const devtools = await page.context().newCDPSession(page);
     const attached = once(devtools, "Target.attachedToTarget");
@@ -63,7 +66,7 @@ export class Memory {
     Object.assign(this, { page, devtools, worker });
   }
 
-  /** After a collection of garbage, in MB; objects of WebGL as their number. */
+  /** Collects garbage, then returns the memory in MB and the number of WebGL objects. */
   async measure() {
     await this.devtools.send("HeapProfiler.collectGarbage");
     await this.#ask("HeapProfiler.collectGarbage");
@@ -77,7 +80,7 @@ export class Memory {
     };
   }
 
-  /** Asks the worker's inspector. */
+  /** Sends a command to the worker's inspector and returns the reply. */
   async #ask(method, params) {
     const id = ++this.#last;
     const answer = new Promise((resolve) => {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test meshes out of the scan that ships.
+// Reads and writes meshes for tests.
 import { readFile, writeFile } from "node:fs/promises";
 
-/** Vertices and faces of an OBJ file of triangles. */
+/** Returns the vertices and faces of an OBJ file of triangles. */
 export async function readObj(path) {
   const lines = (await readFile(path, "utf8")).split("\n").map((line) => line.trim().split(/\s+/));
   const numbers = (tag, map) => lines.filter(([first]) => first === tag).map(([, ...rest]) => rest.slice(0, 3).map(map));
   return { vertices: numbers("v", Number), faces: numbers("f", (corner) => parseInt(corner, 10) - 1) };
 }
 
-/** The same mesh as PLY, coloured by position: red to blue along x, green along y. */
+/** Writes the mesh as PLY, coloured by position: red to blue along x, green along y. */
 export async function writeColoured({ vertices, faces }, path) {
   const range = (axis) => vertices.reduce(([low, high], v) => [Math.min(low, v[axis]), Math.max(high, v[axis])], [Infinity, -Infinity]);
   const [x, y] = [range(0), range(1)];
@@ -22,7 +22,7 @@ export async function writeColoured({ vertices, faces }, path) {
   await writeFile(path, [...header, ...lines, ...faces.map((face) => `3 ${face.join(" ")}`), ""].join("\n"));
 }
 
-/** A watertight, bumpy ball as PLY: 12 (n^2) triangles, whose outline has no holes from anywhere. */
+/** Writes a watertight, bumpy ball of 12 n² triangles as PLY. From every direction, its outline has no holes. */
 export async function writeBlob(path, n) {
   const vertices = [], faces = [], known = new Map();
   const at = (point) => {

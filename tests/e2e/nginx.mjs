@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The configuration that ships (deploy/nginx/vitrine.conf) in a real nginx, for the time of a test.
+// Runs nginx with the shipped configuration (deploy/nginx/vitrine.conf) for the duration of a test.
 import { execFile, execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
 import { chmod, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
@@ -12,11 +12,14 @@ const kProgram = "/usr/sbin/nginx";
 const kShipped = new URL("../../deploy/nginx/vitrine.conf", import.meta.url);
 
 export class Nginx {
-  /** In front of daemons at `origins` ("127.0.0.1:PORT"), the last of which scans; `changes`: what of the configuration is other. */
+  /**
+   * Starts nginx in front of the daemons at `origins`, each given as "127.0.0.1:PORT". The last one has the scanner.
+   * `changes` are pairs [old, new] of texts to replace in the configuration.
+   */
   static async start(origins, changes = []) {
     const nginx = new Nginx();
     nginx.folder = await mkdtemp(join(tmpdir(), "vitrine-nginx-"));
-    await chmod(nginx.folder, 0o755);  // for its workers, which are another user's
+    await chmod(nginx.folder, 0o755);  // so that the worker processes, which run as another user, can read it
     nginx.port = await freePort();
     nginx.url = `https://127.0.0.1:${nginx.port}`;
     await nginx.#configure(origins, changes);
@@ -44,8 +47,8 @@ export class Nginx {
 http { access_log off; client_body_temp_path body; proxy_temp_path proxy; fastcgi_temp_path fastcgi; uwsgi_temp_path uwsgi; scgi_temp_path scgi;
 include site.conf; }\n`);
     await writeFile(path("site.conf"), replaced(await readFile(kShipped, "utf8"), [
-      ["server 127.0.0.1:8080;  # one line for each replica", `${origins.map((origin) => `server ${origin};`).join(" ")}  #`],
-      ["server 127.0.0.1:8080;  # the replica that scans", `server ${origins.at(-1)};`],
+      ["server 127.0.0.1:8080;  # one line per replica", `${origins.map((origin) => `server ${origin};`).join(" ")}  #`],
+      ["server 127.0.0.1:8080;  # the replica with the scanner", `server ${origins.at(-1)};`],
       ["/var/cache/nginx/vitrine", this.cache],
       ["/etc/ssl/certs/museum.example.pem", this.certificate],
       ["/etc/ssl/private/museum.example.key", path("key.pem")],
@@ -57,14 +60,14 @@ include site.conf; }\n`);
     ]));
   }
 
-  /** Starts its processes anew, when those before have ended; the cache stays. */
+  /** Reloads the configuration and waits until all old worker processes have ended. The cache stays. */
   async reload() {
     const before = new Set(await this.#children());
     this.child.kill("SIGHUP");
     while ((await this.#children()).some((pid) => before.has(pid)));
   }
 
-  /** All of its processes die at once; returns when it has started again, after `pause` ms. The cache stays. */
+  /** Kills all processes of nginx and starts nginx again after `pause` ms. The cache stays. */
   async crash(pause) {
     const children = await this.#children();
     this.child.kill("SIGKILL");
@@ -85,7 +88,7 @@ include site.conf; }\n`);
   }
 }
 
-/** `text` with places of this machine instead of those of a museum; each has to be there once. */
+/** Replaces texts of the shipped configuration. Throws unless each occurs exactly once. */
 function replaced(text, changes) {
   for (const [from, to] of changes) {
     if (text.split(from).length !== 2) throw new Error(`'${from}' is not once in ${kShipped.pathname}`);
@@ -94,7 +97,7 @@ function replaced(text, changes) {
   return text;
 }
 
-/** Of 127.0.0.1; nobody listens at it now. */
+/** Returns a free port of 127.0.0.1. */
 export async function freePort() {
   const server = createServer().listen(0, "127.0.0.1");
   await once(server, "listening");
@@ -104,7 +107,7 @@ export async function freePort() {
   return port;
 }
 
-/** Until somebody listens at `port`; asks again after each refusal. */
+/** Resolves when a server listens at `port`; retries after each refused connection. */
 async function listens(port) {
   for (;;) {
     const socket = createConnection(port, "127.0.0.1");

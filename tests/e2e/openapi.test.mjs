@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OpenAPI document of the real daemon is valid, its answers keep to it, and the page /docs shows
-// it without asking anybody else. Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file),
-// VITRINE_SCREENSHOTS.
+// Tests the real daemon's OpenAPI document: it is valid, the responses conform to it, and the page /docs shows it
+// without requests to other servers.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdir } from "node:fs/promises";
@@ -10,7 +10,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
 import { pathToFileURL } from "node:url";
-import { launch } from "./browser.mjs";
+import { launch, newContext } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
 
 const require = createRequire(new URL("../../web/package.json", import.meta.url));
@@ -39,7 +39,7 @@ test("the document is valid OpenAPI 3.1", async () => {
   assert.equal(validator.version, "3.1");
 });
 
-/** Whether a value keeps to a schema of the document; the faults where it does not. */
+/** Checks whether `value` conforms to a schema of the document. Returns the errors; empty if it conforms. */
 function faults(schema, value) {
   const ajv = new Ajv({ strict: false });
   addFormats(ajv);
@@ -47,7 +47,7 @@ function faults(schema, value) {
   return check(value) ? [] : check.errors;
 }
 
-/** Paths with values in the place of parameters; what this daemon has nothing of is left out. */
+/** Fills in the parameters of a path. Returns null if this daemon has no such resource. */
 function target(path) {
   const filled = path.replace("{id}", model).replace("{format}", "ply");
   return filled.includes("{") || /^\/api\/v1\/(scans|jobs|uploads)\/./.test(path) ? null : filled;
@@ -89,7 +89,7 @@ test("a schema refuses what is wrong", () => {
 test("the page shows every call and asks nobody else", async () => {
   const browser = await launch();
   try {
-    const page = await browser.newPage({ viewport: { width: 1000, height: 900 } });
+    const page = await (await newContext(browser, { viewport: { width: 1000, height: 900 } })).newPage();
     const asked = [], complaints = [];
     page.on("request", (request) => asked.push(new URL(request.url()).origin));
     page.on("pageerror", (error) => complaints.push(String(error)));
@@ -124,7 +124,7 @@ test("a model's page tells where it is described", async () => {
 test("the collection shows posters", async () => {
   const browser = await launch();
   try {
-    const page = await browser.newPage({ viewport: { width: 1000, height: 700 } });
+    const page = await (await newContext(browser, { viewport: { width: 1000, height: 700 } })).newPage();
     await page.goto(daemon.url);
     await page.waitForFunction(() => document.querySelector("#models img")?.naturalWidth === 480);
     await page.screenshot({ path: join(pictures, "gallery-posters.png") });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daemon behind nginx with the configuration that ships. Environment: VITRINE_BIN, VITRINE_MODEL
-// (an OBJ file).
+// Tests the daemon behind nginx with the shipped configuration.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file).
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -35,24 +35,24 @@ after(async () => {
   await rm(folder, { recursive: true, force: true });
 });
 
-/** The whole answer of nginx. */
+/** Sends a request to nginx and returns the whole response. */
 async function ask(path, headers = {}, method = "GET") {
   const request = https.request(nginx.url + path, { headers, method, ca, agent: false });
-  request.on("error", () => undefined);  // of a body that nobody reads
+  request.on("error", () => undefined);  // an error after the response would otherwise end the test
   request.end();
   const [response] = await once(request, "response");
   const parts = await response.toArray();
   return { status: response.statusCode, headers: response.headers, body: Buffer.concat(parts) };
 }
 
-/** The `vitrine` command, with nginx's certificate trusted. */
+/** Runs the `vitrine` command, which trusts nginx's certificate. */
 async function vitrine(...words) {
   const env = { PATH: process.env.PATH, SSL_CERT_FILE: nginx.certificate };
   const { stdout } = await run(join(bin, "vitrine"), [...words, "--json"], { env }).catch((failed) => failed);
   return JSON.parse(stdout);
 }
 
-/** Until the daemon has counted `count` requests of chunks: it counts one after its last byte. */
+/** Waits until the daemon has counted `count` requests for chunks. The daemon counts a request after sending its last byte. */
 async function counted(count) {
   let now;
   do now = await daemon.chunkRequests();
@@ -86,7 +86,8 @@ test("five first visitors at once cost the origin one request a chunk, the next 
     assert.equal(createHash("sha256").update(body).digest("hex"), chunks[i]);
     assert.deepEqual(body, first[i].body);
   }
-  await fetch(`${daemon.url}/api/v1/chunks/${chunks[0]}`);  // past nginx: the next one that is counted
+  // Sent directly to the daemon; it must be the only request that the daemon counts.
+  await fetch(`${daemon.url}/api/v1/chunks/${chunks[0]}`);
   assert.equal(await counted(once + 1), once + 1);
 });
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of `vitrine build --report` in a real browser that may fetch nothing. Environment:
-// VITRINE_BIN, VITRINE_MODEL (a mesh file), VITRINE_SCREENSHOTS.
+// Tests the report of `vitrine build --report` in a real browser. The report must load no other file.
+// Environment: VITRINE_BIN, VITRINE_MODEL (a mesh file), VITRINE_SCREENSHOTS.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdir, mkdtemp, rm } from "node:fs/promises";
@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { launch } from "./browser.mjs";
+import { launch, newContext } from "./browser.mjs";
 
 const { VITRINE_BIN: bin, VITRINE_MODEL: scan, VITRINE_SCREENSHOTS: pictures } = process.env;
 
@@ -27,9 +27,9 @@ after(async () => {
   await rm(folder, { recursive: true, force: true });
 });
 
-/** Opens the report; returns its page, what it asked for and what the browser complained about. */
+/** Opens the report. Returns the page, the URLs that it requests, and the browser's messages and errors. */
 async function open(options) {
-  const context = await browser.newContext({ viewport: { width: 1180, height: 900 }, ...options });
+  const context = await newContext(browser, { viewport: { width: 1180, height: 900 }, ...options });
   const page = await context.newPage();
   const requests = [], complaints = [];
   page.on("request", (request) => request.url().startsWith("data:") || requests.push(request.url()));

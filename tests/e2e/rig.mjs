@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daemon with the simulated scanner beside it, both on a loopback of their own: a camera's port is
-// fixed, and tests run side by side. A socket leads out of there, and the browser is led to it.
+// Runs the daemon with the simulated scanner in a private network namespace, because the camera's port is fixed and
+// tests run in parallel. The daemon listens on a Unix socket, to which a TCP port forwards the browser's connections.
 import { once } from "node:events";
 import { connect, createServer } from "node:net";
 import { join } from "node:path";
@@ -8,7 +8,7 @@ import { pipeline } from "node:stream";
 import { Daemon } from "./daemon.mjs";
 
 export class DaemonAtRig extends Daemon {
-  /** `options` of the rig, such as --mesh FILE. */
+  /** Starts the daemon. `options` are options of vitrine-rig, such as --mesh FILE. */
   static async start(folderOfBinaries, options) {
     const daemon = await super.start(folderOfBinaries, options);
     daemon.door = createServer((visitor) => pipeline(visitor, connect(daemon.socket), visitor, () => undefined)).listen(0, "127.0.0.1");

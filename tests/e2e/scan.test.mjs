@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who watches an object being measured, in a real browser: the scan itself is played, page and model
-// are the daemon's. Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests how a visitor watches a scan, in a real browser. The scan is simulated; the page and the model come from a real
+// daemon.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { launch } from "./browser.mjs";
+import { launch, newContext } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
 import { FakeScan, kScan, measured } from "./fake_scan.mjs";
 import { readObj } from "./models.mjs";
@@ -28,9 +29,9 @@ after(async () => {
   await daemon?.stop();
 });
 
-/** A page that watches a scan. */
+/** Opens the page of the scan that `fake` simulates. */
 async function watched(fake, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1100, height: 760 }, ...options });
+  const context = await newContext(browser, { viewport: { width: 1100, height: 760 }, ...options });
   await fake.play(context);
   const page = await context.newPage(), complaints = [];
   page.on("pageerror", (error) => complaints.push(String(error)));
@@ -58,7 +59,7 @@ test("points grow, then the base mesh stands in their place, then the whole mode
   }
   await visitor.says("about a minute left");
   fake.tell({ state: "meshing", step: 720, progress: 0.85, eta: 8 }, points);
-  await visitor.says("Joining the points to a surface");
+  await visitor.says("Creating a surface from the points");
   await visitor.says("a few seconds left");
   await visitor.shoot("meshing");
 
@@ -92,7 +93,8 @@ for (const [name, options] of Object.entries({
     fake.tell(midway(0.5), part(0.5));
     const visitor = await watched(fake, { ...options, reducedMotion: "reduce" });
     await visitor.says(grown(0.5));
-    const { width, height } = options.viewport; // there is nothing to scroll
+    // Nothing can be scrolled: the document is as large as the viewport.
+    const { width, height } = options.viewport;
     assert.deepEqual(await visitor.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.scrollHeight]), [width, height]);
     await frames(visitor.page);
     await visitor.shoot(name);
@@ -107,7 +109,7 @@ test("turns by itself, but not for who asks for less motion", async () => {
   for (const reducedMotion of ["reduce", "no-preference"]) {
     const visitor = await watched(fake, { reducedMotion, viewport: { width: 360, height: 480 } });
     await visitor.says(grown(1));
-    await fake.asked(2); // the camera stands where it should, and no point is new
+    await fake.asked(2); // after two polls, all points are shown and the camera has reached its place
     const before = await view(visitor.page);
     const turned = () => view(visitor.page).then((after) => !after.equals(before));
     if (reducedMotion === "reduce") assert.ok(!(await turned()));
@@ -116,13 +118,13 @@ test("turns by itself, but not for who asks for less motion", async () => {
   }
 });
 
-test("goes on where it was when the connection comes back", async () => {
+test("resumes where it was when the connection comes back", async () => {
   const fake = new FakeScan();
   fake.tell(midway(0.3), part(0.3));
   const visitor = await watched(fake);
   await visitor.says(grown(0.3));
   fake.fault = "network";
-  await visitor.says("The connection is lost");
+  await visitor.says("Connection lost");
   fake.fault = null;
   fake.tell(midway(0.6), part(0.6));
   await visitor.says(grown(0.6));
@@ -145,14 +147,14 @@ test("shows no points of steps that are measured again", async () => {
   await visitor.close();
 });
 
-test("says what an operator should know, and goes on when the operator does", async () => {
+test("says what an operator should know, and resumes when the operator does", async () => {
   const fake = new FakeScan();
   fake.tell({ ...midway(0.1), state: "paused" }, part(0.1));
   const visitor = await watched(fake);
   await visitor.says("Paused");
   assert.equal(await visitor.page.locator("#left").textContent(), "");
   fake.tell({ state: "failed", error: "the board is gone; plug it in and resume the scan" });
-  await visitor.says("The scan has failed: the board is gone; plug it in and resume the scan");
+  await visitor.says("The scan failed: the board is gone; plug it in and resume the scan");
   await visitor.shoot("failed");
   fake.tell({ state: "cancelled", error: null });
   await visitor.says("The scan was cancelled");
@@ -180,7 +182,7 @@ test("a scan that is not for everybody is not on display", async () => {
   await visitor.close();
 });
 
-/** Whether the scan's bar and words are seen from the moment on at which the model is. */
+/** Resolves to the visibility of the scan's progress bar and status text at the moment when the model appears. */
 function wordsWhenModelled(page) {
   return page.evaluate(() => new Promise((done) => {
     const main = document.querySelector("main");
@@ -189,7 +191,7 @@ function wordsWhenModelled(page) {
   }));
 }
 
-/** Two frames: what was asked for before is drawn. */
+/** Waits for two frames, so that everything requested before has been drawn. */
 function frames(page) {
   return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }

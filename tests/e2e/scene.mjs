@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A page of somebody with a three.js of their own, who takes ProgressiveMeshLoader as it is published.
+// A page with its own three.js scene that uses the published ProgressiveMeshLoader.
 import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 import { ViewerPage } from "./browser.mjs";
@@ -7,7 +7,7 @@ import { ViewerPage } from "./browser.mjs";
 const web = new URL("../../web/", import.meta.url);
 const { build } = createRequire(new URL("package.json", web))("esbuild");
 
-/** Runs in the page: draws in colours that tell a surface's front from what is behind it. */
+/** Runs in the page: draws models in front of a magenta background, which shows through cracks. */
 const kScene = `
 import * as THREE from "three";
 import * as vitrine from "./dist/progressive-mesh-loader.js";
@@ -46,7 +46,7 @@ window.scene = { THREE, vitrine, renderer, scene, camera, meshes: [],
   },
 };`;
 
-/** Puts the page on `host` and opens it. */
+/** Bundles the page's script, adds the page to `host` and opens it. */
 export async function openScene(browser, host, options) {
   const { outputFiles } = await build({ stdin: { contents: kScene, resolveDir: fileURLToPath(web) }, bundle: true, format: "esm", write: false });
   host.add("scene.js", outputFiles[0].contents);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host that knows nothing of Vitrine: the viewer's files, a model file and a page that shows it.
+// A static web host with the viewer's files, a model file and pages that show the model.
 import { once } from "node:events";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
@@ -10,7 +10,10 @@ const dist = new URL("../../web/dist/", import.meta.url);
 const kTypes = { js: "text/javascript", wasm: "application/wasm", html: "text/html" };
 
 export class StaticHost {
-  /** `range`: parts of files are served; `cors`: pages of other origins may read them; `tuned`: code is compressed, and browsers keep it. */
+  /**
+   * Starts a host. With `range`, it supports Range requests. With `cors`, it allows pages of other origins. With
+   * `tuned`, it compresses code and lets browsers cache it.
+   */
   static async start({ range = true, cors = false, tuned = false } = {}) {
     const host = new StaticHost({ range, cors, tuned });
     host.server.listen(0, "127.0.0.1");
@@ -20,15 +23,15 @@ export class StaticHost {
   }
 
   files = new Map();
-  asked = []; // "GET /model.pmesh bytes=0-32767"
-  sent = []; // { path, bytes, at }: when it was asked for, as Date.now()
+  asked = []; // all requests so far, such as "GET /model.pmesh bytes=0-32767"
+  sent = []; // all responses so far, as { path, bytes, at }; `at` is the time of the request in ms since 1970
 
   constructor(options) {
     Object.assign(this, options);
     this.server = createServer((request, response) => this.#answer(request, response).catch(() => response.writeHead(404).end()));
   }
 
-  /** The address of a page with one viewer that has these attributes. */
+  /** Adds a page with one viewer that has these attributes, and returns the page's URL. */
   page(attributes) {
     const words = Object.entries(attributes).map(([name, value]) => `${name}="${value}"`).join(" ");
     return this.add(`page${this.files.size}.html`, `<!doctype html><link rel="icon" href="data:,"><script type="module" src="/progressive-mesh.js">

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a visitor does with the viewer's tools, with pointer, keyboard and ear, in a real browser against the
-// real daemon; one page for each scheme. axe-core looks at every state. Environment: VITRINE_BIN,
-// VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests the viewer's tools with pointer, keyboard and screen reader texts, in a real browser with the real daemon, with
+// one page for each colour scheme. axe-core checks every state.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { mkdir, readFile } from "node:fs/promises";
@@ -28,24 +28,24 @@ after(async () => {
   await daemon?.stop();
 });
 
-/** What axe holds against the page as it stands. */
+/** Returns the violations that axe-core finds on the page. */
 async function faults(viewer) {
   await viewer.frames();
   const { violations } = await viewer.page.evaluate(() => window.axe.run(document));
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target}: ${failureSummary}`).join("; ")}`);
 }
 
-/** A digest of what is drawn of the model, without what lies over it. */
+/** Returns a hash of the canvas, without the elements over it. */
 async function drawn(viewer) {
   await viewer.frames();
   const picture = await viewer.page.locator("canvas").evaluate((canvas) => canvas.toDataURL());
   return createHash("sha256").update(picture).digest("hex");
 }
 
-/** Waits until the page says something like `words`. */
+/** Waits until the viewer announces a text that contains `words`. */
 const heard = (viewer, words) => viewer.page.locator("[role=status]", { hasText: words }).waitFor({ state: "attached" });
 
-/** The camera, as the link to this view tells it. */
+/** Returns the camera position, taken from the link to the current view. */
 async function cameraOf(viewer) {
   await viewer.sheet("save");
   return viewer.page.locator("input[name=link]").inputValue().then((link) => new URL(link).hash);
@@ -75,14 +75,14 @@ describe("on a wide, light page", () => {
   test("each choice tells its size, and its wait once the line has been measured", async () => {
     assert.match(await facts("lowest"), /^1\.\d KB at once$/);
     assert.match(await facts("highest"), /^\d+(\.\d)? KB$/);
-    await heard(viewer, /^The first shape is shown, [1-9]/);
+    await heard(viewer, /^The coarse shape is shown, [1-9]/);
     await page.locator("progressive-mesh [role=status]").evaluate((place) => {
       window.said = [];
       new MutationObserver(() => place.textContent && window.said.push(place.textContent)).observe(place, { childList: true });
     });
     await viewer.releaseLayers();
     await viewer.events("load");
-    await heard(viewer, "The detail asked for is shown");
+    await heard(viewer, "The requested detail is shown");
     const said = await page.evaluate(() => window.said), states = (await viewer.events("refine")).length;
     assert.ok(said.length <= 2 && states > said.length, `milestones alone, of ${states} states: ${said.join(" ")}`);
     assert.match(await page.locator("output .bytes").textContent(), /^[\d.]+ KB of [\d.]+ KB$/);
@@ -103,7 +103,7 @@ describe("on a wide, light page", () => {
     assert.equal(await button("highest").getAttribute("aria-pressed"), "true");
   });
 
-  test("keys turn, zoom and reset, and the view is told in words", async () => {
+  test("keys turn, zoom and reset, and the view is described in words", async () => {
     await page.locator("canvas").focus();
     const first = await cameraOf(viewer);
     await page.locator("canvas").focus();
@@ -196,7 +196,7 @@ describe("on a wide, light page", () => {
       element.setAttribute("annotations", "/notes.json");
     });
     await page.getByRole("button", { name: "Note 1: Ear" }).click();
-    await heard(viewer, "Seen from the right."); // where it looks
+    await heard(viewer, "Seen from the right."); // the announced camera position: the camera has turned to the note
     assert.equal(await page.locator(".notes [aria-current]").textContent(), "EarRestored.");
     assert.ok(await page.locator("b[slot=hotspot-nose]").isVisible());
   });
@@ -252,7 +252,7 @@ test("a narrow, dark page in German has all of it within reach of a finger", asy
   assert.deepEqual(small, []);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
   assert.match(await viewer.counts(), /Dreiecken/);
-  await page.locator("progressive-mesh").evaluate((element) => element.removeAttribute("lang")); // as the page around it
+  await page.locator("progressive-mesh").evaluate((element) => element.removeAttribute("lang")); // the viewer then uses the language of the page
   await page.locator("button[name=light][title=Light]").waitFor();
   assert.match(await viewer.counts(), /triangles/);
   assert.ok(await page.locator("input[value=studio]").isChecked());

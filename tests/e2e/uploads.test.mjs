@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client of others (tus-js-client) uploads through a daemon that is killed in mid-file and started
-// again, and what it uploaded becomes a model.
+// Tests uploads with the third-party client tus-js-client: the daemon is killed during an upload and restarted, and the
+// uploaded file becomes a model.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
@@ -24,7 +24,7 @@ before(async () => {
 });
 after(() => daemon.stop());
 
-/** Uploads `bytes`; `onProgress(sent)` is told how many are accepted. Resolves to the upload's id. */
+/** Uploads `bytes` and resolves to the upload's ID. Calls `onProgress` with the number of bytes accepted so far. */
 function upload(bytes, onProgress = () => undefined) {
   return new Promise((resolve, reject) => {
     const one = new tus.Upload(bytes, {
@@ -41,7 +41,7 @@ function upload(bytes, onProgress = () => undefined) {
   });
 }
 
-/** The job that `order` begins, once it has ended. */
+/** Starts a job with the request `order`. Resolves to the job's final state when it has ended. */
 async function made(order) {
   const json = { ...headers, "Content-Type": "application/json" };
   const answer = await fetch(`${daemon.url}/api/v1/models`, { method: "POST", headers: json, body: JSON.stringify(order) });
@@ -51,7 +51,7 @@ async function made(order) {
   return JSON.parse(told.at(-1).slice("data: ".length));
 }
 
-test("an upload goes on where a daemon was killed, and becomes a model", async () => {
+test("an upload resumes where a daemon was killed, and becomes a model", async () => {
   const bytes = await readFile(mesh);
   const accepted = [];
   let restart;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A visitor's way through the viewer page, in a real browser against the real daemon. Environment:
-// VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
+// Tests the viewer page as a visitor uses it, in a real browser with the real daemon.
+// Environment: VITRINE_BIN, VITRINE_MODEL (an OBJ file), VITRINE_SCREENSHOTS.
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
@@ -166,7 +166,8 @@ test("a page for a narrow, dark screen shows the whole model", async () => {
   const viewer = await ViewerPage.open(browser, pages.coloured, { colorScheme: "dark", width: 360, height: 640 });
   await viewer.releaseLayers();
   await viewer.events("load");
-  await viewer.page.getByRole("heading", { name: "Demosthenes, coloured" }).waitFor(); // its title takes room, too
+  // The layout changes when the title arrives.
+  await viewer.page.getByRole("heading", { name: "Demosthenes, coloured" }).waitFor();
   await viewer.page.screenshot({ path: join(pictures, "narrow-dark.png"), animations: "disabled" });
   const overflow = await viewer.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.equal(overflow, 0);
@@ -196,12 +197,12 @@ test("draws again when a lost WebGL context comes back", async () => {
     const lost = heard("webglcontextlost");
     context.loseContext();
     await lost;
-    await new Promise(requestAnimationFrame); // it can be restored only after its event
+    await new Promise(requestAnimationFrame); // a lost context cannot be restored before its event has been handled
     const restored = heard("webglcontextrestored");
     context.restoreContext();
     await restored;
   });
-  await until(async () => isDeepStrictEqual(await canvas(viewer), before)); // the surface goes back in slices
+  await until(async () => isDeepStrictEqual(await canvas(viewer), before)); // the surface is uploaded again in slices
   await viewer.page.context().close();
 });
 
@@ -238,7 +239,7 @@ test("says so when the page forbids its worker", async () => {
   await viewer.page.context().close();
 });
 
-/** A page that shows all that its element asks for, which is the whole model unless `attributes` say less. */
+/** Opens a page and waits until all requested detail is shown: the whole model, unless `attributes` request less. */
 async function refined(url, attributes) {
   const viewer = await ViewerPage.open(browser, url, { attributes });
   await viewer.events("first-paint");
@@ -253,7 +254,7 @@ test("with a pixel error the camera decides what is fetched", async () => {
   assert.ok(far < mesh.faces.length, "the whole is not needed from afar");
   const box = await viewer.page.locator("progressive-mesh").boundingBox();
   await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 3);
-  await viewer.sharpened(far, () => viewer.page.mouse.wheel(0, -4000)); // near by there is more to see
+  await viewer.sharpened(far, () => viewer.page.mouse.wheel(0, -4000)); // more detail is visible when the camera is near
   assert.ok(viewer.askedChunks > asked);
   assert.deepEqual(await viewer.complaints(), []);
   await viewer.page.context().close();
@@ -279,7 +280,8 @@ test("the far side of the surface does not speckle its outline", async () => {
       const end = 4 * width * (y + 1);
       let at = end - 4 * width;
       while (at < end && data[at + 3] === 0) at += 4;
-      if (at === end || data[at + 3] === 255) continue; // nothing there, or no pixel that is covered in part
+      // Rows are skipped if they have no surface, or no partly covered pixel at the surface's edge.
+      if (at === end || data[at + 3] === 255) continue;
       const edge = (255 * data[at]) / data[at + 3];
       while (data[at + 3] < 255) at += 4;
       ++seen.edges;
@@ -302,18 +304,18 @@ test("the code of a first visit travels packed, in less than half of its bytes",
   await viewer.page.context().close();
 });
 
-/** Looks again until it holds; the test's own end is the limit. */
+/** Polls until `holds` resolves to true. Only the timeout of the whole test limits the wait. */
 async function until(holds) {
   while (!(await holds()));
 }
 
-/** The middle of the viewer, free of controls. */
+/** Returns a hash of the viewer's upper half, which has no controls. Saves the picture if `name` is given. */
 async function canvas(viewer, name) {
   const bytes = await viewer.picture(name && join(pictures, `${name}.png`));
   return crop(viewer, bytes);
 }
 
-/** Raw pixels of the upper half of a picture, without the panel at its foot and the sheet above that. */
+/** Returns the SHA-256 of the pixels in a picture's upper half, without the panel and the sheet at the bottom. */
 function crop(viewer, png) {
   return viewer.page.evaluate(async (base64) => {
     const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
@@ -326,7 +328,7 @@ function crop(viewer, png) {
   }, png.toString("base64"));
 }
 
-/** Whether a picture has more than a smooth background: its middle differs from its corner. */
+/** Whether a picture shows more than the smooth background: its centre differs from its corner. */
 function differs(viewer, png) {
   return viewer.page.evaluate(async (base64) => {
     const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));

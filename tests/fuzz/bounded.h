@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory as an oracle: an input that takes more than its size allows ends the run.
+// Bounds the memory of a fuzz target. The run aborts if an input uses more memory than its size
+// allows.
 #pragma once
 
 #include <cstdio>
@@ -10,7 +11,8 @@
 
 namespace vitrine::fuzz {
 
-// Runs `run` on an input of so many bytes. What it leaves on the heap counts, too.
+// Calls `run`, which handles an input of `bytes` bytes. Aborts if the heap memory that `run`
+// allocates exceeds `bound` at any time.
 template <class Run>
 void bounded(const test::HeapBound& bound, std::size_t bytes, Run&& run) {
   const std::size_t before = test::heap_bytes();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fuzzers of `.pmesh` bytes share.
+// Helper functions that several fuzzers share.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,13 @@
 
 namespace vitrine::fuzz {
 
-// A fault that the sanitisers would not see ends the run as one of theirs does.
+// Aborts the run if `condition` is false. The fuzzer then reports the input, as it does for faults
+// that a sanitizer finds.
 inline void require(bool condition) {
   if (!condition) std::abort();
 }
 
-// As much of a range as there is.
+// Returns `length` bytes from `offset` on, or fewer if `bytes` ends earlier.
 inline std::span<const std::uint8_t> part(std::span<const std::uint8_t> bytes, std::uint64_t offset,
                                           std::uint64_t length) {
   const std::uint64_t from = std::min<std::uint64_t>(offset, bytes.size());

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How many lines of decoder and readers the fuzzers' corpora reach: coverage.py PROFDATA COV BUILD
+"""coverage.py PROFDATA COV BUILD: prints the share of the decoder's and readers' lines that the fuzzers' corpora reach.
 
 Replays the committed corpora through the programs of the preset `coverage`. Fails below 95 % of the
 decoder's lines."""
@@ -13,22 +13,24 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests/fuzz/corpus"
-LEAST_OF_DECODER = 95  # per cent
+# minimum share of the decoder's lines that the corpora must reach, in per cent
+LEAST_OF_DECODER = 95
+DECODER = r"codec/(?:format|coding|refine|plan)/\w+"
 
 
 def decoder_sources(lines):
-    """What of codec/progressive the browser compiles, the headers there that it includes, connectivity, and what decodes
-    the base natively. Not codec/core, which serves encoder and decoder alike."""
-    listed = set(re.findall(r"codec/progressive/\w+\.cpp", (ROOT / "codec/wasm/CMakeLists.txt").read_text()))
-    listed |= {"codec/mesh/connectivity.cpp", "codec/base/base_decoder.cpp", "codec/progressive/refine.cpp"}
+    """Returns the sources of the decoder with the headers that they include. These are the sources that the browser
+    compiles, connectivity, and the native decoder of the base mesh. Omits codec/core, which the encoder shares."""
+    listed = set(re.findall(DECODER + r"\.cpp", (ROOT / "codec/wasm/CMakeLists.txt").read_text()))
+    listed |= {"codec/mesh/connectivity.cpp", "codec/base/base_decoder.cpp", "codec/build/refine.cpp"}
     return set(lines) & with_headers(listed)
 
 
 def with_headers(sources):
-    """The sources, and what of codec/progressive they include, by whatever way."""
+    """Returns the sources, and the decoder's headers that they include directly or indirectly."""
     found, ahead = set(sources), list(sources)
     while ahead:
-        included = set(re.findall(r'#include "(codec/progressive/\w+\.h)"', (ROOT / ahead.pop()).read_text()))
+        included = set(re.findall(r'#include "(' + DECODER + r'\.h)"', (ROOT / ahead.pop()).read_text()))
         ahead += included - found
         found |= included
     return found
@@ -41,13 +43,13 @@ def replay(program, profile):
 
 
 def count_lines(cov, profile, programs):
-    """{source: (lines reached, lines)} of all that the programs hold."""
+    """Returns {source: (number of lines reached, number of lines)} for all sources of the codec."""
     objects = [word for program in programs[1:] for word in ("-object", program)]
     report = subprocess.run([cov, "export", "-summary-only", "-instr-profile", profile, programs[0], *objects],
                             check=True, capture_output=True, text=True).stdout
     lines = {}
     for file in json.loads(report)["data"][0]["files"]:
-        path = Path(re.sub(r".*/rooms/\w+/", f"{ROOT}/", file["filename"])).resolve()
+        path = Path(re.sub(r".*/modules/\w+/", f"{ROOT}/", file["filename"])).resolve()
         if path.is_relative_to(ROOT / "codec"):
             summary = file["summary"]["lines"]
             lines[str(path.relative_to(ROOT))] = (summary["covered"], summary["count"])

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a fuzz target once over every file of the folders given: the committed corpus as a test.
+// Runs a fuzz target once on every file of the given folders. The tests use it on the committed
+// corpora.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

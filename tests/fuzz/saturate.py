@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fuzzes in rounds until one reaches nothing new, or for SECONDS: saturate.py SECONDS FUZZER [ARGUMENT...]
+"""saturate.py SECONDS FUZZER [ARGUMENT...]: fuzzes in rounds until a round adds no coverage, for SECONDS at most.
 
-Fails with the fuzzer."""
+Fails if the fuzzer fails."""
 import re
 import subprocess
 import sys
@@ -11,7 +11,7 @@ ROUND = 300  # seconds
 
 
 def fuzz(seconds, command):
-    """Runs one round and shows what it says. Returns the edges reached before and after."""
+    """Runs one round and prints its output. Returns the number of edges reached before and after."""
     before = after = 0
     with subprocess.Popen([*command, f"-max_total_time={seconds}"], stderr=subprocess.PIPE, text=True,
                           errors="replace") as fuzzer:
@@ -19,7 +19,7 @@ def fuzz(seconds, command):
             print(line, end="", flush=True)
             if reached := re.search(r"\bcov: (\d+)", line):
                 after = int(reached[1])
-            if "INITED" in line:  # the corpus has been read
+            if "INITED" in line:  # the fuzzer has read the corpus
                 before = after
     if fuzzer.returncode != 0:
         sys.exit(1)
@@ -29,7 +29,8 @@ def fuzz(seconds, command):
 def main(seconds, command):
     if seconds < 1:
         sys.exit("saturate.py: it takes at least a second")
-    most = 0  # of any round: an edge that hangs on addresses is reached anew in each
+    # the most edges that a round has reached; memory addresses differ in each round and affect a few edges
+    most = 0
     for start in range(0, seconds, ROUND):
         length = min(ROUND, seconds - start)
         before, after = fuzz(length, command)

@@ -2,12 +2,14 @@
 #include "golden/golden_models.h"
 
 #include "codec/core/byte_cursor.h"
+#include "support/product_names.h"
 #include "support/random_mesh.h"
 
 namespace vitrine::test {
 namespace {
 
-// A hilly square on the lattice out of integers alone, so that every machine makes the same.
+// Returns a hilly square of side² vertices on the lattice, or a tube if `closed`. All numbers are
+// integers, so that the mesh is the same on every machine.
 LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool closed) {
   LatticeMesh mesh;
   mesh.lattice = {.origin = {-1, 2, 0.5}, .step = 0.125, .bits = bits};
@@ -20,12 +22,14 @@ LatticeMesh hills(std::uint32_t side, int bits, bool coloured, bool closed) {
       mesh.positions.push_back(
           {x * pitch + dice.between(0, 3), y * pitch + dice.between(0, 3), height});
       if (coloured) {
-        mesh.colours.push_back({static_cast<std::uint8_t>(5 * i), static_cast<std::uint8_t>(7 * j),
-                                static_cast<std::uint8_t>(dice.below(20))});
+        mesh.attributes.colours.push_back({static_cast<std::uint8_t>(5 * i),
+                                           static_cast<std::uint8_t>(7 * j),
+                                           static_cast<std::uint8_t>(dice.below(20))});
       }
     }
   }
-  const std::uint32_t quads = closed ? side : side - 1;  // a closed tube, or a sheet
+  // A row of a closed tube has one quad more than a row of a sheet.
+  const std::uint32_t quads = closed ? side : side - 1;
   for (std::uint32_t j = 0; j + 1 < side; ++j) {
     for (std::uint32_t i = 0; i < quads; ++i) {
       const std::uint32_t right = (i + 1) % side, up = j + 1;
@@ -62,7 +66,7 @@ std::vector<GoldenModel> golden_models() {
        {.lattice = {},
         .positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 1}},
         .faces = {{0, 1, 2}},
-        .colours = {}},
+        .attributes = {}},
        {}},
   };
 }

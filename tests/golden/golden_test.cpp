@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The committed files decode to the committed surfaces, level by level, and the same input is coded
-// to the same bytes: the format of a released version does not change.
+// The committed files must decode to the committed surfaces at every level. The same input must be
+// encoded to the same bytes, because the format of a released version does not change.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include "codec/base/base_decoder.h"
 #include "golden/golden_models.h"
 #include "support/meshes.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {
@@ -18,7 +19,8 @@ std::vector<std::uint8_t> golden_file(const std::string& name) {
   return file_bytes(kFolder + name);
 }
 
-// `earlier` has files of an encoder that chose other collapses.
+// This includes the files in the folder `earlier`. They are from an older encoder, which chose
+// other collapses.
 TEST(Golden, FilesDecodeToTheSameSurfaceAtEveryLevel) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kFolder)) {
@@ -45,18 +47,19 @@ TEST(Golden, TheSameInputIsCodedToTheSameBytes) {
   }
 }
 
-TEST(Golden, TheModelsCoverPlacementsColoursBoundariesRegionsAndBirths) {
-  bool pyramid = false, colours = false, loops = false, regions = false, births = false;
+TEST(Golden, TheModelsCoverPlacementsColoursBoundariesRegionsAndInsertions) {
+  bool pyramid = false, colours = false, loops = false, regions = false, insertions = false;
   for (const GoldenModel& golden : golden_models()) {
     const auto manifest = parse_header(golden_file(golden.name + ".pmesh"));
     ASSERT_TRUE(manifest);
     pyramid |= manifest->placement == Placement::kPyramid;
-    colours |= manifest->coloured;
+    colours |= manifest->has(Semantic::kColour);
     loops |= manifest->loops > 1;
     regions |= manifest->tree.leaves() > 1;
-    births |= manifest->births && manifest->coloured && manifest->tree.leaves() > 1;
+    insertions |=
+        manifest->has_insertions && manifest->has(Semantic::kColour) && manifest->tree.leaves() > 1;
   }
-  EXPECT_TRUE(pyramid && colours && loops && regions && births);
+  EXPECT_TRUE(pyramid && colours && loops && regions && insertions);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the golden files into a folder: golden_writer FOLDER
+// golden_writer FOLDER: writes the golden files into a folder.
 #include <cstdio>
 #include <fstream>
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The house rules that no compiler checks: lint.py RULE [ROOT]. Prints `file:line: fault` lines."""
+"""Checks the house rules that no compiler checks: lint.py RULE [ROOT]. Prints `file:line: fault` lines."""
 import re
 import subprocess
 import sys
@@ -13,7 +13,7 @@ MAX_FILE_LINES, MAX_FUNCTION_LINES = 600, 120
 
 
 def files(root):
-    """Paths of the work tree that git tracks or would track."""
+    """Returns the files of the work tree that git tracks or would track (neither deleted nor ignored)."""
     listing = subprocess.run(["git", "-c", "safe.directory=*", "-C", root, "ls-files", "-co", "--exclude-standard"],
                              check=True, capture_output=True, text=True).stdout
     return [path for path in map(Path, listing.splitlines()) if (root / path).is_file()]
@@ -53,16 +53,28 @@ def length(root):
 
 
 def functions(lines):
-    """(first, last) line of each block that opens after `)`, found by indentation (code is formatted).
-    A test suite's describe() is a list of functions, not one."""
+    """Yields (first, last) line of each block that opens after `)`, found by indentation (code is formatted). Skips describe(), a list of tests."""
     for start, line in enumerate(lines):
         if re.search(r"\)[^;{}]*\{$", line) and not re.match(r"\s*describe\(", line):
-            indent = line[:len(line) - len(line.lstrip())]
-            if line.lstrip().startswith(": "):  # a constructor's initialisers
+            first = opening_line(lines, start)
+            indent = first[:len(first) - len(first.lstrip())]
+            if first.lstrip().startswith(": "):  # a constructor's initialisers
                 indent = indent[4:]
             closing = re.compile(re.escape(indent) + r"\}")
             end = next((i for i in range(start + 1, len(lines)) if closing.match(lines[i])), start)
             yield start, end
+
+
+def opening_line(lines, last):
+    """Returns the line on which a block's head begins. `last` is the index of the line on which the head ends.
+
+    Parameters and initialisers may be on lines of their own."""
+    depth = 0
+    for at in range(last, max(0, last - 20), -1):
+        depth += lines[at].count(")") - lines[at].count("(")
+        if depth <= 0 and not lines[at - 1].endswith("),"):
+            return lines[at]
+    return lines[last]
 
 
 def unfinished(root):
@@ -86,97 +98,126 @@ def top(root):
             yield Path(name), 1, "does not belong at the top level"
 
 
-def read_table(root):
-    """rooms.txt as {room: set of what it may use}."""
-    table = {}
-    for number, line in enumerate(text(root, Path("tests/lint/rooms.txt")).splitlines(), 1):
-        if line and not line.startswith("#"):
-            room, uses = line.split(":", 1)
-            table[room] = set(uses.split())
-    return table
+ARCHITECTURE = Path("codec/ARCHITECTURE.md")
+PUBLIC_HEADER = Path("codec/vitrine.h")  # includes the modules that users of the library see
+# The headers whose inclusion shows that a source uses a library of ARCHITECTURE.md.
+LIBRARIES = {"Aravis": "arv", "Boost": "boost/", "CURL": "curl/", "Draco": "draco/", "Embree": "embree3/", "LibArchive": "archive",
+             "OpenCV": "opencv2/", "OpenMesh": "OpenMesh/", "OpenSSL": "openssl/", "PNG": "png.h", "PostgreSQL": "libpq-fe.h",
+             "SQLite": "sqlite3.h", "TurboJPEG": "turbojpeg.h", "fmt": "fmt/", "libsystemd": "systemd/", "libusb": "libusb.h",
+             "meshoptimizer": "meshoptimizer.h", "nlohmann-json": "nlohmann/", "pugixml": "pugixml.hpp", "seccomp": "seccomp.h",
+             "threads": ("thread", "future"), "tl-expected": "tl/", "umockdev": "umockdev.h"}
 
 
-def allowed(uses, name):
-    library = name.split("::")[0].lower()
-    for use in uses:
-        if use in ("*", name) or (use.endswith("/*") and name.startswith(use[:-1])):
-            return True
-        if "/" not in use and library.startswith(use.split("::")[0].lower().replace("-", "_")):
-            return True
-    return False
+class Module:
+    """A module: its row in ARCHITECTURE.md, and the other modules and the libraries that its sources include."""
+
+    def __init__(self, line, cells):
+        self.line, self.name = line, cells[0].strip("` ")
+        self.modules, self.libraries = cells[2].split(), cells[3].split()
+        self.used_modules, self.used_libraries = set(), set()
 
 
-def links(cmake):
-    """(line, room, names after USES and PRIVATE) of each vitrine_room() call."""
-    for call in re.finditer(r"^\s*vitrine_room\(([^)]*)\)", cmake, re.M):
-        line = cmake.count("\n", 0, call.start(1)) + 1
-        words = re.sub(r"#.*", "", call.group(1)).split()
-        names, taking = [], False
-        for word in words[1:]:
-            if word in ("USES", "PRIVATE", "SOURCES"):
-                taking = word != "SOURCES"
-            elif taking:
-                names.append(word)
-        yield line, words[0], names
+def read_architecture(root):
+    rows = {}
+    for number, line in enumerate(text(root, ARCHITECTURE).splitlines(), 1):
+        if line.startswith("| `"):
+            module = Module(number, line.strip("|").split("|"))
+            rows[module.name] = module
+    return rows
 
 
-def rooms(root):
-    table = read_table(root)
-    reached = {room: {room} for room in table}
-    order = list(table)
+def owner(rows, path):
+    return next((rows[str(folder)] for folder in Path(path).parents if str(folder) in rows), None)
+
+
+def modules(root):
+    rows = read_architecture(root)
     for path in files(root):
-        if path.name != "CMakeLists.txt" or path.parts[0] in ("tests", "web"):
+        if path.suffix in {".cpp", ".h"} and path.parts[0] in {"codec", "acquisition", "server"} and path != PUBLIC_HEADER:
+            module = owner(rows, path)
+            if module is None:
+                yield path, 1, f"{ARCHITECTURE} has no row for {path.parent}"
+            else:
+                yield from check_includes(root, rows, module, path)
+    for module in rows.values():
+        yield from check_row(list(rows), module)
+
+
+def check_includes(root, rows, module, path):
+    for number, line in enumerate(text(root, path).splitlines(), 1):
+        included = re.match(r'\s*#include (["<])([^">]+)[">]', line)
+        if not included:
             continue
-        for line, room, names in links(text(root, path)):
-            if room not in table:
-                yield path, line, f"{room} is not in tests/lint/rooms.txt"
-                continue
-            for name in names:
-                if not allowed(table[room], normal(name)):
-                    yield path, line, f"{room} may not link {name} (tests/lint/rooms.txt)"
-                elif name in table:
-                    reached[room].add(name)
-                    if order.index(name) > order.index(room):
-                        yield path, line, f"{room} reaches up to {name}, which rooms.txt lists after it"
-    for room in order:  # lower rooms come first, so that theirs are complete
-        for below in list(reached[room]):
-            reached[room] |= reached[below]
-    yield from includes(root, table, reached)
+        if included[1] == "<":
+            library = next((name for name, start in LIBRARIES.items() if is_header_of(included[2], start)), None)
+            if library:
+                module.used_libraries.add(library)
+                if library not in module.libraries:
+                    yield path, number, f"{module.name} uses {library}, which {ARCHITECTURE} does not permit"
+            continue
+        used = owner(rows, included[2])
+        if used is None:
+            yield path, number, f'"{included[2]}" is not a path from the root into a module'
+        elif used is not module:
+            module.used_modules.add(used.name)
+            if used.name not in module.modules:
+                yield path, number, f"{module.name} uses {used.name}, which {ARCHITECTURE} does not permit"
 
 
-def normal(name):
-    """Library names as the table spells them."""
-    return {"Threads::Threads": "threads", "nlohmann_json::nlohmann_json": "nlohmann-json", "OpenMeshCore": "OpenMesh",
-            "OpenMeshTools": "OpenMesh", "SQLite::SQLite3": "SQLite", "PostgreSQL::PostgreSQL": "PostgreSQL", "pugixml::pugixml": "pugixml", "${VITRINE_SECCOMP}": "seccomp",
-            "${VITRINE_TURBOJPEG}": "TurboJPEG", "PkgConfig::aravis": "Aravis", "PkgConfig::libusb": "libusb",
-            "PkgConfig::umockdev": "umockdev"}.get(name, name)
+def is_header_of(header, start):
+    return header in start if isinstance(start, tuple) else header.startswith(start)
 
 
-def includes(root, table, reached):
+def check_row(order, module):
+    for name in module.modules:
+        if name not in order:
+            yield ARCHITECTURE, module.line, f"{module.name} uses {name}, which has no row"
+        elif order.index(name) > order.index(module.name):
+            yield ARCHITECTURE, module.line, f"{module.name} reaches up to {name}, which is listed after it"
+        elif name not in module.used_modules:
+            yield ARCHITECTURE, module.line, f"{module.name} may use {name} and does not"
+    for name in module.libraries:
+        if name not in module.used_libraries:
+            yield ARCHITECTURE, module.line, f"{module.name} may use {name} and does not"
+
+
+# Idioms that are hard to read, each with its replacement.
+IDIOMS = {
+    r"\bwhoever\b": "name the person or program: client, visitor, operator",
+    r"(?:^\s*(?://+|#+|\*|/\*\*)\s*|[.:;] )(?:What|Who|Whom|Of) (?![^.]*\?)": "begin the sentence with its subject",
+    r"\b(?:nothing|none) (?:where|if|when)\b": "say what it returns: nullopt if, empty if, an error if",
+    r"\b(?:is|are|be) told\b": "say who reports what: the client receives, the log names",
+    r"\banew\b": "again, or rebuilds, rereads",
+    r"\ball the same\b": "anyway, or leave it out",
+    r"\bwhere there (?:is|are) no(?:ne)?\b": "if there is no, or without",
+    r"\b(?:takes?|taken|taking) back\b": "undo",
+    r"\breckon": "estimate, compute",
+    r"\b(?:goes|going|go|went) on\b": "continue",
+    r"\bDESIGN(?:\.md)?,? section|(?<!\w)the paper\b(?!')": "cite a key of codec/REFERENCES.md with section or equation",
+}
+
+
+def words(root):
+    """Reports places in comments, messages and documents that contain one of IDIOMS."""
     for path in files(root):
-        room = next((str(folder) for folder in path.parents if str(folder) in table), None)
-        if room is None or path.suffix not in {".cpp", ".h"}:
+        if "corpus" in path.parts or not (is_code(root, path) or path.suffix == ".md") or path.parts[-1] in {"lint.py", "lint_test.py"}:
             continue
         for number, line in enumerate(text(root, path).splitlines(), 1):
-            quoted = re.match(r'\s*#include "([^"]+)"', line)
-            if not quoted:
-                continue
-            owner = next((str(folder) for folder in Path(quoted.group(1)).parents if str(folder) in table), None)
-            if owner is None:
-                yield path, number, f'"{quoted.group(1)}" is not a path from the root into a room'
-            elif owner not in reached[room]:
-                yield path, number, f"{room} includes {owner} without a link edge"
+            prose = line if path.suffix == ".md" else " ".join(re.findall(r"(?://|(?<![\w&$])#(?!include)|\*|/\*\*) ?.*|\"[^\"]*\"|'[^']* [^']*'|`[^`]*`", line))
+            for idiom, instead in IDIOMS.items():
+                if found := re.search(idiom, prose):
+                    yield path, number, f'"{found[0].strip()}": {instead}'
 
 
 def types(root):
-    """A second type of the same full name: the linker takes the members of one for those of the other."""
+    """Reports types with the same full name, because the linker would mix up their members."""
     seen = {}
     for path in files(root):
         if path.suffix != ".h" or path.parts[0] not in {"codec", "acquisition", "server"}:
             continue
         space = ""
         for number, line in enumerate(text(root, path).splitlines(), 1):
-            if opened := re.match(r"namespace ([\w:]+) \{", line):
+            if opened := re.match(r"namespace ([\w: ]+) \{", line):
                 space = opened[1]
             defined = re.match(r"(?:struct|class|enum class) (\w+)(?: final)?(?: : .*)? \{", line)
             if defined and (name := f"{space}::{defined[1]}") in seen:
@@ -185,7 +226,30 @@ def types(root):
                 seen[name] = path
 
 
-RULES = {rule.__name__: rule for rule in (spdx, length, unfinished, headers, top, rooms, types)}
+FORMAT_TABLES = (Path("codec/import/formats.h"), Path("codec/export/write_mesh.h"))
+FORMAT_ROW = re.compile(r'\.name = "([A-Z]+)",\s+\.extension = "(\w+)"')
+NAME_LIST = re.compile(r"\b[A-Z]{3,4}(?:, [A-Z]{3,4})+,? (?:and|or|und|oder) [A-Z]{3,5}\b")
+EXTENSION_LIST = re.compile(r"(?<!\w)\.?(?:[a-z]{3}(?:,|, |\"?, \"|\|)\.?){2,}(?:(?:or|and) \.?)?[a-z]{3}\b")
+
+
+def formats(root):
+    """Reports lists of three or more mesh formats that differ from the tables. Other names, such as PMESH and ZIP, may be among them."""
+    tables = {path: FORMAT_ROW.findall(text(root, path)) for path in FORMAT_TABLES if (root / path).exists()}
+    yield from ((path, 1, "has no row with .name and .extension") for path, rows in tables.items() if not rows)
+    names = [{name for name, _ in rows} for rows in tables.values()]
+    extensions = [{extension for _, extension in rows} for rows in tables.values()]
+    for path in files(root):
+        if path in tables or path.parts[0] == "tests" or path.name == "CHANGELOG.md" or not (is_code(root, path) or path.suffix == ".md"):
+            continue
+        for number, line in enumerate(text(root, path).splitlines(), 1):
+            for pattern, known in ((NAME_LIST, names), (EXTENSION_LIST, extensions)):
+                for found in pattern.finditer(line):
+                    listed = set(re.findall(r"[A-Za-z]{3,5}", found[0])) & set().union(*known)
+                    if len(listed) > 3 and listed not in known:
+                        yield path, number, f'"{found[0]}" lists other formats than the tables in {", ".join(map(str, tables))}'
+
+
+RULES = {rule.__name__: rule for rule in (spdx, length, unfinished, headers, top, modules, types, formats, words)}
 
 
 def main():

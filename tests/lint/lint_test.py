@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Each lint rule finds its fault in a tree made for it, and none in a clean one."""
+"""Tests that each lint rule finds the fault in a tree that has one, and finds none in a clean tree."""
 import shutil
 import subprocess
 import sys
@@ -10,8 +10,8 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 SPDX = "// SPDX-License-Identifier: Apache-2.0\n"
-CORE = "vitrine_room(codec/core SOURCES a.cpp USES)\n"
-MESH = "vitrine_room(codec/mesh SOURCES a.cpp USES codec/core)\n"
+CORE = "| `codec/core` | The core. | | |\n"
+MESH = "| `codec/mesh` | The mesh. | codec/core | |\n"
 
 
 class Lint(unittest.TestCase):
@@ -19,9 +19,7 @@ class Lint(unittest.TestCase):
         self.root = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.root)
         subprocess.run(["git", "init", "-q", self.root], check=True)
-        self.write("tests/lint/rooms.txt", (HERE / "rooms.txt").read_text())
-        self.write("codec/core/CMakeLists.txt", "#" + SPDX[2:] + CORE)
-        self.write("codec/mesh/CMakeLists.txt", "#" + SPDX[2:] + MESH)
+        self.write("codec/ARCHITECTURE.md", CORE + MESH)
         self.write("codec/mesh/a.cpp", SPDX + '#include "codec/core/a.h"\n')
 
     def write(self, path, content):
@@ -38,7 +36,7 @@ class Lint(unittest.TestCase):
         self.assertIn(words, result.stdout)
 
     def test_a_clean_tree_passes_every_rule(self):
-        for rule in ("spdx", "length", "unfinished", "headers", "top", "rooms", "types"):
+        for rule in ("spdx", "length", "unfinished", "headers", "top", "modules", "types", "formats"):
             result = self.run_rule(rule)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
@@ -54,10 +52,25 @@ class Lint(unittest.TestCase):
         self.write("codec/core/b.cpp", SPDX + "void b() {\n" + "  b();\n" * 120 + "}\n")
         self.assert_fault("length", "codec/core/b.cpp:2: a function of 121 lines")
 
+    def test_a_function_is_measured_from_its_own_head(self):
+        head = "void f(\n    int a) {\n  return;\n}\nvoid g() {\n"
+        self.write("codec/core/b.cpp", SPDX + head + "    {\n    }\n" + "  g();\n" * 118 + "}\n")
+        self.assertEqual(self.run_rule("length").stdout.count("a function of"), 1)
+        self.assert_fault("length", "codec/core/b.cpp:6: a function of 121 lines")
+
     def test_two_types_of_one_name_are_named(self):
-        for room in ("core", "mesh"):
-            self.write(f"codec/{room}/b.h", SPDX + "#pragma once\nnamespace vitrine {\nstruct B {\n};\n}\n")
+        for module in ("core", "mesh"):
+            self.write(f"codec/{module}/b.h", SPDX + "#pragma once\nnamespace vitrine {\nstruct B {\n};\n}\n")
         self.assert_fault("types", "codec/mesh/b.h:4: vitrine::B is a type of codec/core/b.h already")
+
+    def test_a_list_of_formats_that_lacks_one_is_named(self):
+        self.write("codec/import/formats.h", SPDX + "".join(f'{{.name = "{name}",\n .extension = "{name.lower()}"}},' for name in ("PLY", "OBJ", "STL", "OFF", "GLB")))
+        self.write("codec/README.md", "Reads PLY, OBJ, STL, OFF and GLB: .ply,.obj,.stl,.off,.glb,.pmesh\n")
+        self.assertEqual(self.run_rule("formats").returncode, 0)
+        self.write("codec/README.md", "Reads PLY, OBJ, STL and OFF.\n")
+        self.assert_fault("formats", "codec/README.md:1:")
+        self.write("codec/README.md", "accept: .ply,.obj,.stl,.off\n")
+        self.assert_fault("formats", "codec/README.md:1:")
 
     def test_unfinished_work_is_named(self):
         self.write("codec/core/b.cpp", SPDX + "// TO" + "DO later\n")
@@ -71,25 +84,35 @@ class Lint(unittest.TestCase):
         self.write("notes.txt", "x")
         self.assert_fault("top", "notes.txt:1")
 
-    def test_an_include_without_link_edge_is_named(self):
-        self.write("codec/mesh/b.cpp", SPDX + '#include "codec/progressive/manifest.h"\n')
-        self.assert_fault("rooms", "codec/mesh includes codec/progressive without a link edge")
+    def test_an_include_that_the_table_does_not_permit_is_named(self):
+        self.write("codec/core/b.cpp", SPDX + '#include "codec/mesh/a.h"\n')
+        self.assert_fault("modules", "codec/core/b.cpp:2: codec/core uses codec/mesh, which codec/ARCHITECTURE.md does not permit")
+
+    def test_a_library_that_the_table_does_not_permit_is_named(self):
+        self.write("codec/mesh/b.cpp", SPDX + "#include <OpenMesh/Core/Mesh.hh>\n")
+        self.assert_fault("modules", "codec/mesh/b.cpp:2: codec/mesh uses OpenMesh")
 
     def test_a_relative_include_is_named(self):
         self.write("codec/mesh/b.cpp", SPDX + '#include "../core/a.h"\n')
-        self.assert_fault("rooms", "is not a path from the root into a room")
+        self.assert_fault("modules", "is not a path from the root into a module")
 
-    def test_a_link_that_the_table_forbids_is_named(self):
-        self.write("codec/mesh/CMakeLists.txt", MESH.replace("codec/core", "codec/core\n  OpenMeshCore"))
-        self.assert_fault("rooms", "codec/mesh may not link OpenMeshCore")
+    def test_permissions_that_nothing_uses_are_named(self):
+        self.write("codec/ARCHITECTURE.md", CORE + MESH.replace("| |", "| fmt |"))
+        self.assert_fault("modules", "codec/ARCHITECTURE.md:2: codec/mesh may use fmt and does not")
+        self.write("codec/mesh/a.cpp", SPDX)
+        self.assert_fault("modules", "codec/ARCHITECTURE.md:2: codec/mesh may use codec/core and does not")
 
-    def test_a_link_upwards_is_named(self):
-        self.write("codec/core/CMakeLists.txt", CORE.replace("USES", "USES codec/mesh"))
-        self.assert_fault("rooms", "codec/core may not link codec/mesh")
+    def test_a_module_that_uses_a_later_one_is_named(self):
+        self.write("codec/ARCHITECTURE.md", MESH + CORE)
+        self.assert_fault("modules", "codec/mesh reaches up to codec/core, which is listed after it")
 
-    def test_a_room_that_the_table_does_not_know_is_named(self):
-        self.write("codec/attic/CMakeLists.txt", CORE.replace("core", "attic"))
-        self.assert_fault("rooms", "codec/attic is not in")
+    def test_a_folder_without_a_row_is_named(self):
+        self.write("codec/attic/a.cpp", SPDX)
+        self.assert_fault("modules", "codec/attic/a.cpp:1: codec/ARCHITECTURE.md has no row for codec/attic")
+
+    def test_a_table_of_formats_without_rows_is_named(self):
+        self.write("codec/import/formats.h", SPDX)
+        self.assert_fault("formats", "codec/import/formats.h:1: has no row")
 
 
 if __name__ == "__main__":

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any order of chunks that obeys the region rule gives the same meshes, and splits can be undone.
+// Tests that chunks give the same mesh in every order that the region rule permits, and that their
+// splits can be undone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "codec/progressive/birth_pass.h"
-#include "codec/progressive/cell.h"
+#include "codec/coding/component_pass.h"
+#include "codec/format/cell.h"
+#include "support/product_names.h"
 #include "support/random_mesh.h"
 #include "support/seeds.h"
 #include "support/stored_model.h"
@@ -14,7 +16,7 @@
 namespace vitrine::test {
 namespace {
 
-using Surface = std::vector<SurfaceFace>;
+using SurfaceFaces = std::vector<SurfaceFace>;
 
 constexpr std::uint32_t kOrders = 4;
 
@@ -35,9 +37,10 @@ void expect_manifold(const Refiner& refiner) {
   ASSERT_EQ(closed->loop_count(), refiner.connectivity().loop_count());
 }
 
-// Refines in a random order; every state must be the one that its set of chunks had before.
+// Refines a model in a random order. After each chunk, the surface must equal that which the same
+// set of chunks gave in an earlier order. `known` holds the surface of each set.
 void refine_at_random(const StoredModel& model, Dice& dice,
-                      std::map<std::vector<bool>, Surface>& known) {
+                      std::map<std::vector<bool>, SurfaceFaces>& known) {
   Refiner refiner = start_refiner(model);
   std::vector<bool> applied(model.manifest.chunks.size(), false);
   for (std::size_t step = 0; step < applied.size(); ++step) {
@@ -47,7 +50,7 @@ void refine_at_random(const StoredModel& model, Dice& dice,
     apply_chunk(refiner, model, chunk);
     applied[chunk] = true;
     expect_manifold(refiner);
-    Surface surface = canonical_surface(refiner.lattice_mesh());
+    SurfaceFaces surface = canonical_surface(refiner.lattice_mesh());
     const auto [before, is_new] = known.emplace(applied, surface);
     ASSERT_TRUE(is_new || before->second == surface) << "after chunk " << chunk;
   }
@@ -56,7 +59,7 @@ void refine_at_random(const StoredModel& model, Dice& dice,
 void expect_same_in_every_order(std::uint64_t seed) {
   const StoredModel model = random_model(seed);
   Dice dice(seed);
-  std::map<std::vector<bool>, Surface> known;
+  std::map<std::vector<bool>, SurfaceFaces> known;
   for (std::uint32_t order = 0; order < kOrders; ++order) {
     refine_at_random(model, dice, known);
     if (::testing::Test::HasFatalFailure()) return;
@@ -64,12 +67,12 @@ void expect_same_in_every_order(std::uint64_t seed) {
 }
 
 TEST(RefinementOrder, ManyRandomModelsForkAndBringComponentsWhole) {
-  std::uint32_t forked = 0, forked_again = 0, with_births = 0;
+  std::uint32_t forked = 0, forked_again = 0, with_insertions = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Manifest manifest = random_model(seed).manifest;
     const RegionTree& tree = manifest.tree;
-    with_births += std::ranges::any_of(manifest.chunks, [](const ChunkInfo& chunk) {
-      return chunk.level > 1 && chunk.newborn > 0;
+    with_insertions += std::ranges::any_of(manifest.chunks, [](const ChunkInfo& chunk) {
+      return chunk.level > 1 && chunk.inserted > 0;
     });
     forked += tree.leaves() > 1 ? 1 : 0;
     forked_again += std::ranges::any_of(
@@ -77,7 +80,7 @@ TEST(RefinementOrder, ManyRandomModelsForkAndBringComponentsWhole) {
   }
   EXPECT_GE(forked, 20u);
   EXPECT_GE(forked_again, 10u) << "regions fork at several levels";
-  EXPECT_GE(with_births, 10u);
+  EXPECT_GE(with_insertions, 10u);
 }
 
 TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
@@ -89,28 +92,30 @@ TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
   }
 }
 
-// As far as the lattice of `level` tells vertices apart: low bits are not taken back.
-Surface surface_in_cells(const Refiner& refiner, std::uint32_t level) {
+// Returns the surface with its positions converted to cells of `level`. This drops the lower bits,
+// which a layer adds to the positions and an undo does not clear.
+SurfaceFaces surface_in_cells(const Refiner& refiner, std::uint32_t level) {
   LatticeMesh mesh = refiner.lattice_mesh();
   for (Vec3i& p : mesh.positions)
     p = cell_of(p, refiner.manifest().levels[level].shift);
   return canonical_surface(mesh);
 }
 
-// Applies `chunks` chunks in file order, shows the last one in part, then takes it back.
+// Applies the first `chunks` chunks in file order. Undoes first a part of the last chunk and then
+// all of it. The surface must then be that before the last chunk.
 void expect_undo(const StoredModel& model, Dice& dice, std::size_t chunks) {
   Refiner refiner = start_refiner(model);
   for (std::size_t i = 0; i + 1 < chunks; ++i)
     apply_chunk(refiner, model, i);
   const std::uint32_t level = model.manifest.chunks[chunks - 1].level - 1;
-  const Surface before = surface_in_cells(refiner, level);
+  const SurfaceFaces before = surface_in_cells(refiner, level);
   const std::uint32_t coarse = refiner.face_count();
   apply_chunk(refiner, model, chunks - 1);
   const std::uint32_t wanted = coarse + dice.below(refiner.face_count() - coarse + 1);
   refiner.undo_to_faces(wanted);
   ASSERT_LE(refiner.face_count(), wanted);
-  // A split has at most two faces, a component that is born whole two per vertex.
-  const std::uint32_t most = model.manifest.chunks[chunks - 1].newborn > 0 ? 2 * kMostNewborn : 2;
+  // A split adds at most two faces. A component adds at most two faces per vertex.
+  const std::uint32_t most = model.manifest.chunks[chunks - 1].inserted > 0 ? 2 * kMostInserted : 2;
   ASSERT_GT(refiner.face_count() + most, wanted);
   expect_manifold(refiner);
   refiner.undo_to_faces(0);

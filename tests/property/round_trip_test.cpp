@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is coded comes back, for random meshes.
+// Random meshes must be decoded exactly as they were encoded.
 #include <gtest/gtest.h>
 
+#include "support/product_names.h"
 #include "support/random_mesh.h"
 #include "support/seeds.h"
 #include "support/stored_model.h"
@@ -9,7 +10,8 @@
 namespace vitrine::test {
 namespace {
 
-// Small bases and small regions, so that little meshes have levels and forks too.
+// Returns random options with a small base and small regions, so that even small meshes have
+// several levels and forks.
 SimplifyOptions random_options(Dice& dice) {
   return {.placement = dice.one_in(2) ? Placement::kPyramid : Placement::kMidpoint,
           .order = dice.one_in(4) ? CollapseOrder::kHeap : CollapseOrder::kBatch,

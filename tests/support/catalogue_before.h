@@ -2,10 +2,11 @@
 #pragma once
 
 #include "server/catalogue/catalogue.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
-// Hands all on: for catalogues that differ in one thing.
+// Forwards all calls to another catalogue. Base class for catalogues that differ in one function.
 class CatalogueBefore : public Catalogue {
  public:
   explicit CatalogueBefore(Catalogue& before) : before_(before) {}
@@ -26,7 +27,9 @@ class CatalogueBefore : public Catalogue {
   }
   Expected<std::vector<NamedFile>> files() override { return before_.files(); }
   Expected<std::vector<TokenRecord>> tokens() override { return before_.tokens(); }
-  Expected<std::optional<ModelRecord>> find(const ModelId& id) override { return before_.find(id); }
+  Expected<std::optional<server::ModelRecord>> find(const ModelId& id) override {
+    return before_.find(id);
+  }
   Expected<std::optional<ModelRecord>> find_same(const ModelRecord& model) override {
     return before_.find_same(model);
   }
@@ -34,11 +37,13 @@ class CatalogueBefore : public Catalogue {
   Expected<std::optional<ChunkLocation>> find_chunk(const Sha256& chunk) override {
     return before_.find_chunk(chunk);
   }
-  Expected<void> add_token(const TokenRecord& token) override { return before_.add_token(token); }
+  Expected<void> add_token(const server::TokenRecord& token) override {
+    return before_.add_token(token);
+  }
   Expected<std::vector<TokenRecord>> tokens_like(const Sha256& hash) override {
     return before_.tokens_like(hash);
   }
-  Expected<void> revoke_token(const ModelId& id) override { return before_.revoke_token(id); }
+  Expected<void> revoke_token(const TokenId& id) override { return before_.revoke_token(id); }
   Expected<std::uint64_t> revision() override { return before_.revision(); }
 
  protected:

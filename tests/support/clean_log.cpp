@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linked into a test, a daemon that tells of an error which the test has not waited for fails it.
+// A test that links this file fails if a daemon logs an error that the test does not wait for.
 #include <gtest/gtest.h>
 
-#include "support/daemon.h"
+#include "support/process/daemon.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {

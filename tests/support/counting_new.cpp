@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/counting_new.h"
+#include "support/product_names.h"
 
 #include <sanitizer/asan_interface.h>
 
@@ -9,11 +10,11 @@
 
 namespace {
 
-// Each block is preceded by its size, in a place that keeps the alignment of malloc. The address
-// sanitizer is told that the place is nobody's.
+// Each block is preceded by its size, at an offset that keeps the alignment of malloc. The address
+// sanitizer reports any access to the size by a test.
 constexpr std::size_t kPrefix = alignof(std::max_align_t);
 std::size_t held = 0, peak = 0, calls = 0;
-std::size_t until_failure = 0;  // 0: none
+std::size_t until_failure = 0;  // allocations until one fails; 0: none fails
 
 void* take(std::size_t size) noexcept {
   ++calls;
@@ -62,7 +63,7 @@ void fail_allocation(std::size_t n) {
 
 }  // namespace vitrine::test
 
-// All forms: the sanitisers' own do not call each other.
+// All forms of new are replaced, because the sanitizers' own forms do not call each other.
 void* operator new(std::size_t size) {
   return take_or_throw(size);
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what a test binary that links counting_new.cpp holds on the heap through operator new and
-// how often it asks for more, and lets that fail.
+// Counts the heap memory and the allocations through operator new in a test binary that links
+// counting_new.cpp. Can also let an allocation fail.
 #pragma once
 
 #include <cstddef>
 
 namespace vitrine::test {
 
-std::size_t heap_bytes();       // held now
-std::size_t peak_heap_bytes();  // most held since start_peak()
+std::size_t heap_bytes();       // bytes in use now
+std::size_t peak_heap_bytes();  // most bytes in use at a time since start_peak()
 void start_peak();
-std::size_t allocations();  // calls so far
+std::size_t allocations();  // allocations since the program started
 
-// The allocation that comes as number `n` from now on fails, once; with 0 none does.
+// Lets allocation number `n`, counted from now, fail once. 0: no allocation fails.
 void fail_allocation(std::size_t n);
 
 }  // namespace vitrine::test

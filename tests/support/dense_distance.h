@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The largest distance of a fine grid of points on triangles: what a bound must not be below.
+// Returns the largest distance to a mesh from a fine grid of points on triangles. A correct error
+// bound is at least this distance.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace vitrine::test {
 
-inline double dense_maximum(const Corners& t, const TriangleBvh& to) {
+inline double dense_maximum(const TrianglePoints& t, const TriangleBvh& to) {
   constexpr int kGrid = 10;
   double most = 0;
   for (int i = 0; i <= kGrid; ++i) {
@@ -24,7 +25,7 @@ inline double dense_maximum(const Corners& t, const TriangleBvh& to) {
 inline double dense_maximum(const TriangleMesh& from, const TriangleBvh& to) {
   double most = 0;
   for (const Triangle& f : from.faces) {
-    const Corners t{from.positions[f[0]], from.positions[f[1]], from.positions[f[2]]};
+    const TrianglePoints t{from.positions[f[0]], from.positions[f[1]], from.positions[f[2]]};
     most = std::max(most, dense_maximum(t, to));
   }
   return most;

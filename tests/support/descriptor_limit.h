@@ -5,7 +5,7 @@
 
 namespace vitrine::test {
 
-// As many sockets as the system lets this process have, and what it starts from now on.
+// Raises the limit of open files for this process and its children, as far as the system permits.
 inline void raise_descriptor_limit() {
   rlimit limit{};
   ::getrlimit(RLIMIT_NOFILE, &limit);

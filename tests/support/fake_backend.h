@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner without devices: its scans are profiles of a tube, one line a step in a file of their
-// folder, so that they survive as real ones do. A test holds it at a step, or has it fail there.
+// A scanner without devices. Its scans are profiles of a tube. A scan's folder has one line per
+// step, so that a scan survives a restart. A test can hold a scan at a step, or let it fail there.
 #pragma once
 
 #include <atomic>
@@ -15,20 +15,21 @@
 
 #include "server/jobs/scanner_backend.h"
 #include "support/meshes.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
-// What the test sees and decides; outlives the backend.
+// State that the test reads and changes. It must outlive the backend.
 struct FakeScanner {
   std::string name = "rig";
-  std::function<std::optional<Error>(int step)> before_step;  // may wait
-  std::function<void()> while_opening;                        // may wait
+  std::function<std::optional<Error>(int step)> before_step;  // called before each step; may block
+  std::function<void()> while_opening;  // called at the start of identify(); may block
 
   bool stopped() const { return stops > allowed; }
 
-  bool by_hand = false;  // somebody places the target
-  std::string note;      // told at each step
-  ScanOrder anew;        // the newest that was to be meshed anew
+  bool is_placed_by_hand = false;  // whether the operator places the target
+  std::string note;                // the note that a scan reports at each step
+  ScanOrder rebuilt;               // the newest order given to rebuild_mesh()
 
   std::atomic<bool> reachable{true}, jams{false}, laser{false}, open{false};
   std::atomic<std::uint64_t> stops{0}, allowed{0};
@@ -36,13 +37,13 @@ struct FakeScanner {
   std::atomic<double> degrees{0};
 };
 
-inline constexpr std::size_t kFakePoints = 10;  // of a step
+inline constexpr std::size_t kFakePoints = 10;  // points per step
 
 class FakeView final : public ScanView {
  public:
   explicit FakeView(int steps) : steps_(steps) {}
 
-  ScanTold told() const override {
+  ScanProgress progress() const override {
     const int step = static_cast<int>(points() / kFakePoints);
     return {.step = step, .progress = 0.9 * step / steps_, .calibration = 1};
   }
@@ -78,7 +79,7 @@ class FakeBackend final : public ScannerBackend {
 
   Expected<ScannerIdentity> identify() override {
     if (world_.while_opening) world_.while_opening();
-    if (auto ready = use(); !ready) return Unexpected(ready.error());
+    if (auto ready = use(); !ready) return tl::unexpected(ready.error());
     ScannerIdentity identity{{"Acme", "C1", "42"}, {"horus", "fake 1.0", "7"}, std::nullopt};
     if (world_.calibrations > 0) identity.calibration = world_.calibrations;
     return identity;
@@ -95,7 +96,7 @@ class FakeBackend final : public ScannerBackend {
     return {};
   }
   Expected<Frame> picture() override {
-    if (auto ready = reach(); !ready) return Unexpected(ready.error());
+    if (auto ready = reach(); !ready) return tl::unexpected(ready.error());
     return Frame{1, 2, {3, 4}};
   }
 
@@ -112,32 +113,32 @@ class FakeBackend final : public ScannerBackend {
     world_.laser = true;
     const LightsOff off{world_};
     for (; step < order.request.steps; ++step) {
-      listener.told({.step = step,
-                     .progress = 0.9 * step / order.request.steps,
-                     .calibration = 1,
-                     .note = world_.note});
+      listener.report({.step = step,
+                       .progress = 0.9 * step / order.request.steps,
+                       .calibration = 1,
+                       .note = world_.note});
       if (world_.before_step) {
-        if (const auto error = world_.before_step(step)) return Unexpected(*error);
+        if (const auto error = world_.before_step(step)) return tl::unexpected(*error);
       }
       if (listener.is_interrupted()) return std::nullopt;
-      if (auto ready = use(); !ready) return Unexpected(ready.error());
+      if (auto ready = use(); !ready) return tl::unexpected(ready.error());
       std::ofstream(folder / "steps", std::ios::app) << step << std::endl;
       view->add_step(step);
       ++world_.steps;
     }
-    listener.told({.stage = "meshing",
-                   .step = step,
-                   .progress = 0.9,
-                   .calibration = 1,
-                   .rows = ScannedRows{.empty = .5, .saturated = .25, .doubled = .125}});
+    listener.report({.stage = "meshing",
+                     .step = step,
+                     .progress = 0.9,
+                     .calibration = 1,
+                     .rows = ScannedRows{.empty = .5, .saturated = .25, .doubled = .125}});
     return torus(40, 20);
   }
 
   Expected<int> calibrate(const CalibrationOrder& order, CalibrationListener& listener) override {
     if (world_.before_step) {
-      if (const auto error = world_.before_step(0)) return Unexpected(*error);
+      if (const auto error = world_.before_step(0)) return tl::unexpected(*error);
     }
-    for (int pose = 0; world_.by_hand && pose < order.poses; ++pose) {
+    for (int pose = 0; world_.is_placed_by_hand && pose < order.poses; ++pose) {
       const auto asked = "place the target, pose " + std::to_string(pose + 1);
       if (!listener.await_operator({.stage = asked, .note = "so far it is seen"})) break;
     }
@@ -156,8 +157,9 @@ class FakeBackend final : public ScannerBackend {
     world_.allowed = std::max(world_.allowed.load(), stops);
   }
 
-  Expected<TriangleMesh> mesh_anew(const ScanOrder& order, const std::filesystem::path&) override {
-    world_.anew = order;
+  Expected<TriangleMesh> rebuild_mesh(const ScanOrder& order,
+                                      const std::filesystem::path&) override {
+    world_.rebuilt = order;
     return torus(40, 20);
   }
   Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) override {
@@ -168,7 +170,7 @@ class FakeBackend final : public ScannerBackend {
       view->add_step(step);
     return view;
   }
-  Expected<std::vector<CalibrationSummary>> calibrations() override {
+  Expected<std::vector<server::CalibrationSummary>> calibrations() override {
     std::vector<CalibrationSummary> all;
     if (world_.damaged > 0) all.push_back({world_.damaged, "0009.json is cut short; remove it"});
     for (int i = world_.calibrations; i > 0; --i)
@@ -211,11 +213,11 @@ class FakeBackend final : public ScannerBackend {
   FakeScanner& world_;
 };
 
-// Keeps a scan at a step until it is let go on.
+// Holds a scan at a step until it is released.
 class HeldAtStep {
  public:
   explicit HeldAtStep(FakeScanner& world, int at) {
-    // The scan may go on when this is gone.
+    // The destructor of HeldAtStep releases the scan.
     world.before_step = [door = door_, at](int step) -> std::optional<Error> {
       std::unique_lock lock(door->mutex);
       if (step != at || door->open) return std::nullopt;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The most that hostile bytes may take of the heap, as the public headers state it.
+// Upper bounds of the heap memory that the codec uses for hostile bytes. The public headers promise
+// these bounds.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +13,10 @@ struct HeapBound {
   std::size_t of(std::size_t bytes) const { return always + per_byte * bytes; }
 };
 
-// What refiner.h states, at 16 vertices a byte, and what the header's own records take.
+// The bound in refiner.h at 16 vertices per byte, plus the records of the header.
 inline constexpr HeapBound kDecodingHeap{1 << 20, 2'500};
 
-// What read_mesh.h states, and a reader's own buffers and messages.
+// The bound in read_mesh.h, plus a reader's own buffers and messages.
 inline constexpr std::size_t kReaderAlways = 8 << 10;
 inline constexpr HeapBound kReadingHeap{kReaderAlways, 64};
 inline constexpr HeapBound kReadingGlbHeap{kReaderAlways, 128};

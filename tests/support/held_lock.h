@@ -5,10 +5,11 @@
 #include <memory>
 
 #include "server/catalogue/exclusive_lock.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
-// A lock that is lost after so many checks.
+// A lock that is lost after a given number of checks.
 class HeldLock final : public ExclusiveLock {
  public:
   explicit HeldLock(int checks = 1'000'000) : left_(checks) {}

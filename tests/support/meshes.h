@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small meshes for tests, and the shipped model.
+// Small meshes for tests, and the meshes of tests/models.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,13 @@
 #include <vector>
 
 #include "codec/import/read_mesh.h"
-#include "codec/import/repair.h"
 #include "codec/mesh/triangle_mesh.h"
+#include "codec/repair/repair.h"
 
 namespace vitrine::test {
 
-// Quads of a grid of `u` by `v` vertices, cut in two; closed where it wraps.
+// Returns the triangles of a grid of `u` by `v` vertices: two for each quad. `wrap_u` joins the
+// last column of vertices to the first, and `wrap_v` the last row to the first.
 inline std::vector<Triangle> grid_faces(std::uint32_t u, std::uint32_t v, bool wrap_u,
                                         bool wrap_v) {
   std::vector<Triangle> faces;
@@ -33,9 +34,9 @@ inline std::vector<Triangle> grid_faces(std::uint32_t u, std::uint32_t v, bool w
   return faces;
 }
 
-// A wavy sheet with one boundary loop.
+// Returns a wavy sheet with one boundary loop.
 inline TriangleMesh sheet(std::uint32_t u, std::uint32_t v) {
-  TriangleMesh mesh{.positions = {}, .faces = grid_faces(u, v, false, false), .colours = {}};
+  TriangleMesh mesh{.positions = {}, .faces = grid_faces(u, v, false, false), .attributes = {}};
   for (std::uint32_t j = 0; j < v; ++j) {
     for (std::uint32_t i = 0; i < u; ++i) {
       mesh.positions.push_back({1.0 * i, 1.0 * j, 2 * std::sin(0.4 * i) * std::cos(0.3 * j)});
@@ -44,10 +45,10 @@ inline TriangleMesh sheet(std::uint32_t u, std::uint32_t v) {
   return mesh;
 }
 
-// A cylinder open at both ends: two boundary loops.
+// Returns a cylinder that is open at both ends, so it has two boundary loops.
 inline TriangleMesh tube(std::uint32_t around, std::uint32_t along) {
   TriangleMesh mesh{
-      .positions = {}, .faces = grid_faces(around, along, true, false), .colours = {}};
+      .positions = {}, .faces = grid_faces(around, along, true, false), .attributes = {}};
   for (std::uint32_t j = 0; j < along; ++j) {
     for (std::uint32_t i = 0; i < around; ++i) {
       const double angle = 2 * std::numbers::pi * i / around;
@@ -57,10 +58,10 @@ inline TriangleMesh tube(std::uint32_t around, std::uint32_t along) {
   return mesh;
 }
 
-// Closed, genus 1.
+// Returns a torus, which is closed and has genus 1.
 inline TriangleMesh torus(std::uint32_t around, std::uint32_t across) {
   TriangleMesh mesh{
-      .positions = {}, .faces = grid_faces(around, across, true, true), .colours = {}};
+      .positions = {}, .faces = grid_faces(around, across, true, true), .attributes = {}};
   for (std::uint32_t j = 0; j < across; ++j) {
     for (std::uint32_t i = 0; i < around; ++i) {
       const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across;
@@ -77,7 +78,7 @@ inline std::vector<std::uint8_t> file_bytes(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// A mesh of tests/models, repaired.
+// Returns a mesh of tests/models after repair.
 inline TriangleMesh shipped_model(const std::string& name) {
   auto imported = read_mesh(file_bytes(VITRINE_SOURCE_DIR "/tests/models/" + name));
   if (!imported) throw std::runtime_error(imported.error().message);
@@ -86,7 +87,8 @@ inline TriangleMesh shipped_model(const std::string& name) {
   return std::move(repaired->mesh);
 }
 
-// Each face from its smallest vertex on, in ascending order: equal for equal surfaces.
+// Returns the faces, each rotated to start at its smallest vertex, in ascending order. Equal
+// surfaces give equal results.
 inline std::vector<Triangle> canonical(std::vector<Triangle> faces) {
   for (Triangle& f : faces)
     std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());

@@ -15,7 +15,7 @@
 
 namespace vitrine::test {
 
-// A program on a terminal.
+// Runs a program on a pseudo-terminal.
 class OnTerminal {
  public:
   explicit OnTerminal(std::vector<std::string> words) {
@@ -34,13 +34,13 @@ class OnTerminal {
   OnTerminal(const OnTerminal&) = delete;
   OnTerminal& operator=(const OnTerminal&) = delete;
 
-  // Reads until `text` has come so many times, or to the end.
+  // Reads until `text` has occurred `times` times, or until the program's output ends.
   void wait_for(const std::string& text, int times = 1) {
     while (count(text) < times && read_some()) {
     }
   }
   void signal(int number) const { ::kill(pid_, number); }
-  // To the process that does the work.
+  // Sends a signal to the child process, which does the work.
   void signal_child(int number) const {
     const std::string pid = std::to_string(pid_);
     std::ifstream children("/proc/" + pid + "/task/" + pid + "/children");
@@ -48,7 +48,7 @@ class OnTerminal {
     ASSERT_TRUE(children >> child);
     ::kill(child, number);
   }
-  // Reads to the end; the status as of waitpid().
+  // Reads the rest of the output. Returns the program's status in the form of waitpid().
   int finish() {
     while (read_some()) {
     }

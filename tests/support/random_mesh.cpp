@@ -6,27 +6,29 @@
 #include <utility>
 
 #include "codec/core/limits.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {
 
-// A component with positions in about [-1, 1].
-struct Part {
+// A connected mesh with positions in about [-1, 1].
+struct ComponentMesh {
   std::vector<Vec3> positions;
   std::vector<Triangle> faces;
 };
 
 Vec3 on_circle(std::uint32_t i, std::uint32_t n, double radius, double z) {
-  // A square instead of a circle: no libm, so the same on every machine.
+  // Uses a square instead of a circle. Without libm, the result is the same on every machine.
   const double t = 4.0 * i / n, f = t - std::floor(t);
   const int side = static_cast<int>(t);
   const double x[] = {1 - 2 * f, -1, -1 + 2 * f, 1}, y[] = {1, 1 - 2 * f, -1, -1 + 2 * f};
   return {radius * x[side], radius * y[side], z};
 }
 
-// A cone over n rim vertices, whose centre is vertex 0; closed by a second apex where asked for.
-Part fan(std::uint32_t n, bool closed) {
-  Part part{.positions = {{0, 0, 0.5}}, .faces = {}};
+// Returns a cone over n rim vertices, with its apex at vertex 0. If `closed` is true, a second apex
+// closes the cone.
+ComponentMesh fan(std::uint32_t n, bool closed) {
+  ComponentMesh part{.positions = {{0, 0, 0.5}}, .faces = {}};
   for (std::uint32_t i = 0; i < n; ++i)
     part.positions.push_back(on_circle(i, n, 1, 0));
   if (closed) part.positions.push_back({0, 0, -0.5});
@@ -38,20 +40,22 @@ Part fan(std::uint32_t n, bool closed) {
   return part;
 }
 
-Part few_triangles(std::uint32_t count) {
-  Part part{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}};
+ComponentMesh few_triangles(std::uint32_t count) {
+  ComponentMesh part{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}};
   if (count > 1) part.positions.push_back({1, 1, 0.3}), part.faces.push_back({2, 1, 3});
   return part;
 }
 
-void add_quad(Part& part, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+void add_quad(ComponentMesh& part, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+              std::uint32_t d) {
   part.faces.push_back({a, b, c});
   part.faces.push_back({a, c, d});
 }
 
-// u by v vertices; wrapped one way a tube, both ways a torus.
-Part grid(std::uint32_t u, std::uint32_t v, bool wrap_u, bool wrap_v) {
-  Part part;
+// Returns a grid of u by v vertices. If one direction wraps, the grid is a tube; if both wrap, a
+// torus.
+ComponentMesh grid(std::uint32_t u, std::uint32_t v, bool wrap_u, bool wrap_v) {
+  ComponentMesh part;
   for (std::uint32_t j = 0; j < v; ++j) {
     for (std::uint32_t i = 0; i < u; ++i) {
       const Vec3 across = on_circle(j, v, 0.3, 0);
@@ -69,20 +73,22 @@ Part grid(std::uint32_t u, std::uint32_t v, bool wrap_u, bool wrap_v) {
   return part;
 }
 
-// A plate of u by v cells with a tunnel through each cell of odd row and column: genus
-// floor(u/2) * floor(v/2) for odd u and v.
-Part plate(std::uint32_t u, std::uint32_t v) {
-  Part part;
+// Returns a plate of u by v cells with a tunnel through each cell of odd row and column. Its genus
+// is floor(u/2) * floor(v/2) for odd u and v.
+ComponentMesh plate(std::uint32_t u, std::uint32_t v) {
+  ComponentMesh part;
   const std::uint32_t layer = (u + 1) * (v + 1);
   for (std::uint32_t k = 0; k < 2 * layer; ++k) {
     const std::uint32_t i = k % layer % (u + 1), j = k % layer / (u + 1);
     part.positions.push_back({2.0 * i / u - 1, 2.0 * j / v - 1, k < layer ? 0.1 : -0.1});
   }
   const auto at = [&](std::uint32_t i, std::uint32_t j) { return j * (u + 1) + i; };
-  const auto solid = [&](std::uint32_t i, std::uint32_t j) {  // wraps below zero
+  // an index below zero wraps to a large one
+  const auto solid = [&](std::uint32_t i, std::uint32_t j) {
     return i < u && j < v && !(i % 2 == 1 && j % 2 == 1);
   };
-  // The wall below the upper edge a -> b of a solid cell whose other side is open.
+  // Adds the wall below the upper edge a -> b of a solid cell whose neighbour on that side is
+  // empty.
   const auto wall = [&](std::uint32_t a, std::uint32_t b) {
     add_quad(part, a, a + layer, b + layer, b);
   };
@@ -101,7 +107,7 @@ Part plate(std::uint32_t u, std::uint32_t v) {
   return part;
 }
 
-Part random_part(Dice& dice, std::uint32_t size) {
+ComponentMesh random_part(Dice& dice, std::uint32_t size) {
   const auto side = static_cast<std::int32_t>(std::max(4.0, std::sqrt(size)));
   const auto u = static_cast<std::uint32_t>(dice.between(3, side));
   const auto v = static_cast<std::uint32_t>(dice.between(3, side));
@@ -127,8 +133,8 @@ Part random_part(Dice& dice, std::uint32_t size) {
   }
 }
 
-// Puts a vertex into some faces, which makes valences irregular, many of them 3.
-void subdivide(Dice& dice, Part& part) {
+// Inserts vertices into some faces. The valences become irregular, and many of them are 3.
+void subdivide(Dice& dice, ComponentMesh& part) {
   const std::uint32_t count = dice.below(static_cast<std::uint32_t>(part.faces.size()) + 1) / 2;
   for (std::uint32_t k = 0; k < count; ++k) {
     const std::uint32_t f = dice.below(static_cast<std::uint32_t>(part.faces.size()));
@@ -142,7 +148,7 @@ void subdivide(Dice& dice, Part& part) {
   }
 }
 
-std::vector<bool> boundary_vertices(const Part& part) {
+std::vector<bool> boundary_vertices(const ComponentMesh& part) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const Triangle& t : part.faces) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -158,8 +164,8 @@ std::vector<bool> boundary_vertices(const Part& part) {
   return boundary;
 }
 
-// Takes out faces that share no vertex with each other or with a boundary.
-void cut_holes(Dice& dice, Part& part) {
+// Removes faces that share no vertex with each other or with a boundary.
+void cut_holes(Dice& dice, ComponentMesh& part) {
   std::vector<bool> taken = boundary_vertices(part);
   std::vector<std::uint32_t> faces_of(part.positions.size(), 0);
   for (const Triangle& t : part.faces) {
@@ -177,7 +183,7 @@ void cut_holes(Dice& dice, Part& part) {
   });
 }
 
-// A shuffled numbering, so that nothing rests on the order of construction.
+// Shuffles the numbering of the vertices, so that no test depends on the order of construction.
 void shuffle(Dice& dice, LatticeMesh& mesh) {
   const auto n = static_cast<std::uint32_t>(mesh.positions.size());
   std::vector<std::uint32_t> to(n);
@@ -195,14 +201,14 @@ void shuffle(Dice& dice, LatticeMesh& mesh) {
   }
 }
 
-enum class Spread { kSmooth, kNoisy, kCrowded, kCorners };
+enum class PositionSpread { kSmooth, kNoisy, kCrowded, kCorners };
 
-Vec3i place(Dice& dice, const Vec3& p, Spread spread, std::int32_t top) {
+Vec3i place(Dice& dice, const Vec3& p, PositionSpread spread, std::int32_t top) {
   const auto random = [&](std::int32_t low, std::int32_t high) {
     return Vec3i{dice.between(low, high), dice.between(low, high), dice.between(low, high)};
   };
-  if (spread == Spread::kCrowded) return random(0, 2);
-  if (spread == Spread::kCorners) {
+  if (spread == PositionSpread::kCrowded) return random(0, 2);
+  if (spread == PositionSpread::kCorners) {
     const Vec3i bits = random(0, 1);
     return {bits.x * top, bits.y * top, bits.z * top};
   }
@@ -211,7 +217,7 @@ Vec3i place(Dice& dice, const Vec3& p, Spread spread, std::int32_t top) {
     return static_cast<std::int32_t>(std::floor((c + 1.2) * half));
   };
   const Vec3i at = {grid(p.x), grid(p.y), grid(p.z)};
-  const std::int32_t noise = spread == Spread::kNoisy ? top / 20 : top / 400;
+  const std::int32_t noise = spread == PositionSpread::kNoisy ? top / 20 : top / 400;
   const Vec3i moved = at + random(-noise, noise);
   return {std::clamp(moved.x, 0, top), std::clamp(moved.y, 0, top), std::clamp(moved.z, 0, top)};
 }
@@ -223,11 +229,11 @@ void colour(Dice& dice, LatticeMesh& mesh) {
     const auto byte = [&](std::int32_t c) {
       return static_cast<std::uint8_t>(smooth ? c >> shift : dice.between(0, 255));
     };
-    mesh.colours.push_back({byte(p.x), byte(p.y), byte(p.z)});
+    mesh.attributes.colours.push_back({byte(p.x), byte(p.y), byte(p.z)});
   }
 }
 
-Part random_speck(Dice& dice) {
+ComponentMesh random_speck(Dice& dice) {
   switch (dice.below(8)) {
     case 0:
       return few_triangles(1);
@@ -251,9 +257,9 @@ Part random_speck(Dice& dice) {
 void add_specks(LatticeMesh& mesh, std::uint32_t count, std::uint64_t seed) {
   Dice dice(seed);
   const std::int32_t top = (1 << mesh.lattice.bits) - 1;
-  const bool coloured = !mesh.colours.empty();
+  const bool coloured = !mesh.attributes.colours.empty();
   for (std::uint32_t k = 0; k < count; ++k) {
-    const Part part = random_speck(dice);
+    const ComponentMesh part = random_speck(dice);
     const std::int32_t half = dice.between(top / 400 + 1, top / 40);
     const Vec3i middle = {dice.between(half, top - half), dice.between(half, top - half),
                           dice.between(half, top - half)};
@@ -261,7 +267,7 @@ void add_specks(LatticeMesh& mesh, std::uint32_t count, std::uint64_t seed) {
     const auto grid = [&](double c) { return static_cast<std::int32_t>(std::floor(c * half)); };
     for (const Vec3& p : part.positions) {
       mesh.positions.push_back(middle + Vec3i{grid(p.x), grid(p.y), grid(p.z)});
-      if (coloured) mesh.colours.push_back({static_cast<std::uint8_t>(k), 90, 17});
+      if (coloured) mesh.attributes.colours.push_back({static_cast<std::uint8_t>(k), 90, 17});
     }
     for (const auto& [a, b, c] : part.faces)
       mesh.faces.push_back({first + a, first + b, first + c});
@@ -275,13 +281,14 @@ LatticeMesh random_mesh(std::uint64_t seed, std::uint32_t size) {
   const std::int32_t top = (1 << mesh.lattice.bits) - 1;
   const std::uint32_t parts = dice.one_in(3) ? 1 + dice.below(4) : 1;
   for (std::uint32_t k = 0; k < parts; ++k) {
-    Part part = random_part(dice, size);
+    ComponentMesh part = random_part(dice, size);
     if (dice.one_in(2)) subdivide(dice, part);
     if (dice.one_in(3)) cut_holes(dice, part);
-    constexpr std::array kSpreads = {Spread::kSmooth, Spread::kSmooth, Spread::kSmooth,
-                                     Spread::kNoisy,  Spread::kNoisy,  Spread::kCrowded,
-                                     Spread::kCorners};
-    const Spread spread = kSpreads[dice.below(kSpreads.size())];
+    constexpr std::array kSpreads = {PositionSpread::kSmooth, PositionSpread::kSmooth,
+                                     PositionSpread::kSmooth, PositionSpread::kNoisy,
+                                     PositionSpread::kNoisy,  PositionSpread::kCrowded,
+                                     PositionSpread::kCorners};
+    const PositionSpread spread = kSpreads[dice.below(kSpreads.size())];
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vec3& p : part.positions)
       mesh.positions.push_back(place(dice, p, spread, top));

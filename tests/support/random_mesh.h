@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random manifold meshes on the lattice, the same for the same seed on every machine.
+// Makes random manifold meshes on the lattice. The same seed gives the same mesh on every machine.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace vitrine::test {
 
-// A source of random numbers whose results do not depend on the standard library.
+// Random numbers that are the same with every standard library.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
 
   std::uint64_t bits() { return engine_(); }
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine_() % n); }
-  std::int32_t between(std::int32_t low, std::int32_t high) {  // both included
+  std::int32_t between(std::int32_t low, std::int32_t high) {  // both bounds are included
     return low + static_cast<std::int32_t>(below(static_cast<std::uint32_t>(high - low + 1)));
   }
   bool one_in(std::uint32_t n) { return below(n) == 0; }
@@ -25,15 +25,16 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-// One to four components out of: single triangles, pairs, tetrahedra, fans and bipyramids of any
-// valence, sheets, tubes, tori, plates of high genus; then vertices put into faces, holes cut,
-// colours or none, positions smooth, noisy, crowded onto few lattice points or at its corners.
-// Connectivity::close accepts the faces. At most about `size` vertices a component.
+// Combines one to four components: single triangles, pairs, tetrahedra, fans and bipyramids of any
+// valence, sheets, tubes, tori, and plates of high genus. Then inserts vertices into faces and cuts
+// holes. Colours are optional. Positions are smooth, noisy, crowded onto few lattice points, or at
+// the lattice's corners. Connectivity::close accepts the faces. Each component has about `size`
+// vertices at most.
 LatticeMesh random_mesh(std::uint64_t seed, std::uint32_t size = 120);
 
-// Adds `count` small components all over the lattice: triangles, pairs, tetrahedra, bipyramids,
-// fans, little tubes and rings, each about 1/200 to 1/20 of the lattice wide; coloured where the
-// mesh is.
+// Adds `count` small components at random places of the lattice: triangles, pairs, tetrahedra,
+// bipyramids, fans, small tubes and rings. Each is about 1/200 to 1/20 of the lattice wide, and
+// coloured if the mesh is.
 void add_specks(LatticeMesh& mesh, std::uint32_t count, std::uint64_t seed);
 
 }  // namespace vitrine::test

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "codec/import/read_mesh.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what `codec/export` writes, the formats included that Vitrine does not import.
+// Reads the files that `codec/export` writes, including formats that Vitrine does not import.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace vitrine::test {
 
-// Positions and faces. Throws std::runtime_error where the file is not of the format.
+// Returns the positions and faces. Throws std::runtime_error if the file does not have that format.
 TriangleMesh read_export(std::span<const std::uint8_t> file, MeshFormat format);
 
-// The numbers between `[` and `]` after a keyword of a VRML file.
+// Returns the numbers between `[` and `]` after a keyword of a VRML file.
 std::vector<double> vrml_list(const std::string& text, const std::string& keyword);
 
 }  // namespace vitrine::test

@@ -9,8 +9,8 @@
 
 namespace vitrine::test {
 
-// `which` of proc(5): what a process has now, or at most had ("VmHWM:"); 0 where there is none. Its
-// children's is not in it.
+// Returns the memory of a process in bytes, without its children; 0 if there is no such process.
+// `which` is a key of proc(5), such as "VmRSS:" (now) or "VmHWM:" (the most so far).
 inline std::size_t resident_bytes(pid_t process, const std::string& which = "VmRSS:") {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(status, line);)

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a perfect calibration of the simulated rig would find, for tests of something else.
+// The exact calibration of the simulated rig, for tests that do not calibrate it themselves.
 #pragma once
 
 #include <vector>
 
 #include "acquisition/calibration/calibration.h"
-#include "acquisition/rig/renderer.h"
-#include "acquisition/rig/scanner.h"
+#include "acquisition/rig/rig_scanner.h"
+#include "acquisition/rig_optics/renderer.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 
-// In the sheet of light x is the world's, y upwards from the origin's foot.
+// Returns the calibration of the rig with this seed. In the laser plane, x is the world's x, and y
+// points up. The plane's origin is the foot of the perpendicular from the world's origin.
 inline Calibration perfect_calibration(std::uint64_t seed) {
   const Optics optics = optics_of(seed);
   const Vec3 &normal = optics.laser.normal, up{0, -normal.z, normal.y};
@@ -27,9 +28,10 @@ inline Calibration perfect_calibration(std::uint64_t seed) {
   calibration.camera = camera_serial(seed);
   calibration.region = kWholeSensor;
   calibration.map = *PlaneMap::fit(points, 5, kSensorWidth, kSensorHeight);
-  calibration.axis = {
-      .offset = optics.laser.offset, .tilt = -normal.z / normal.y, .clockwise = optics.clockwise};
+  calibration.axis = {.offset = optics.laser.offset,
+                      .tilt = -normal.z / normal.y,
+                      .is_clockwise = optics.is_clockwise};
   return calibration;
 }
 
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

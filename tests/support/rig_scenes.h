@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes whose stripe is known, and what a frame shows of one.
+// Shapes with a known laser stripe, and the position of the stripe in a frame.
 #pragma once
 
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "acquisition/frame/frame.h"
-#include "acquisition/rig/renderer.h"
-#include "acquisition/rig/solid.h"
+#include "acquisition/rig_optics/renderer.h"
+#include "acquisition/rig_optics/solid.h"
 #include "codec/mesh/triangle_mesh.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 
 inline void add_quad(TriangleMesh& mesh, const Vec3& corner, const Vec3& a, const Vec3& b) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -20,7 +20,7 @@ inline void add_quad(TriangleMesh& mesh, const Vec3& corner, const Vec3& a, cons
   mesh.faces.push_back({first, first + 2, first + 3});
 }
 
-// Square, its normal in that direction.
+// Returns a square around `middle` whose normal has the direction `normal`.
 inline TriangleMesh facet(const Vec3& middle, const Vec3& normal, double side) {
   const Vec3 level = cross({0, 0, 1}, normal), across = level * (side / length(level));
   const Vec3 slope = cross(normal, level), up = slope * (side / length(slope));
@@ -29,7 +29,7 @@ inline TriangleMesh facet(const Vec3& middle, const Vec3& normal, double side) {
   return mesh;
 }
 
-// Upright and square, through `middle`, its normal at that azimuth.
+// Returns an upright square through `middle` whose normal has the given azimuth.
 inline TriangleMesh wall(const Vec3& middle, double azimuth_degrees, double side) {
   const double a = azimuth_degrees * std::numbers::pi / 180;
   return facet(middle, {std::cos(a), std::sin(a), 0}, side);
@@ -54,18 +54,19 @@ inline TriangleMesh ball(const Vec3& middle, double radius, std::uint32_t around
 }
 
 inline Solid matt(const TriangleMesh& mesh) {
-  return Solid(mesh, {.painted = false, .gloss = 0});
+  return Solid(mesh, {.is_painted = false, .gloss = 0});
 }
 
 inline Realism ideal() {
-  return {.seed = 1, .ideal = true};
+  return {.seed = 1, .is_ideal = true};
 }
 
 inline Setting at(double degrees, bool laser) {
-  return {.degrees = degrees, .laser = laser};
+  return {.degrees = degrees, .is_laser_on = laser};
 }
 
-// The centre of mass of what the laser adds to a row near `u`; nothing where it adds little.
+// Returns the centre of mass of the laser's light in row `v` near column `u`; nullopt if there is
+// little light.
 inline std::optional<double> centre(const Frame& lit, const Frame& dark, int v, double u) {
   double sum = 0, moment = 0;
   const int middle = static_cast<int>(std::lround(u));
@@ -78,4 +79,4 @@ inline std::optional<double> centre(const Frame& lit, const Frame& dark, int v, 
   return moment / sum;
 }
 
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

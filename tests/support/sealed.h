@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the hash at the end of a changed header true, so that a test reaches what is behind it.
+// Corrects the hash at the end of a changed header, so that a test reaches the code behind the hash
+// check.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
 #include "codec/core/sha256.h"
-#include "codec/progressive/manifest.h"
+#include "codec/format/manifest.h"
 
 namespace vitrine::test {
 
-// The bytes as they are where they do not begin with a header.
+// Returns the file with a correct hash. If the bytes do not begin with a header, returns them
+// unchanged.
 inline std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> file) {
   std::vector<std::uint8_t> bytes(file.begin(), file.end());
   const auto length = header_bytes(file.first(std::min(file.size(), kHeaderPrefix)));

@@ -5,8 +5,8 @@
 
 namespace vitrine::test {
 
-// How many of `count` cases, random or spread over a file, this build tries. Sanitizers take ten
-// times as long and look for faults that show in any case: a tenth is enough for them.
+// Returns how many of `count` random or evenly spread cases this build tries. A build with
+// sanitizers takes ten times as long for each case, so it tries a tenth of them.
 constexpr std::uint64_t seeds(std::uint64_t count) {
 #ifdef VITRINE_SANITISED
   return count / 10;

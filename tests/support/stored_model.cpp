@@ -5,7 +5,8 @@
 #include <stdexcept>
 
 #include "codec/base/base_decoder.h"
-#include "codec/base/model_encoder.h"
+#include "codec/build/model_encoder.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {
@@ -46,7 +47,7 @@ void apply_chunk(Refiner& refiner, const StoredModel& model, std::size_t chunk) 
 std::vector<std::size_t> ready_chunks(const Refiner& refiner) {
   std::vector<std::size_t> ready;
   for (std::size_t i = 0; i < refiner.manifest().chunks.size(); ++i) {
-    if (refiner.ready(i)) ready.push_back(i);
+    if (refiner.is_ready(i)) ready.push_back(i);
   }
   return ready;
 }
@@ -58,7 +59,7 @@ std::vector<SurfaceFace> canonical_surface(const LatticeMesh& mesh) {
     SurfaceFace face{};
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3i& p = mesh.positions[t[k]];
-      const Colour c = mesh.colours.empty() ? Colour{} : mesh.colours[t[k]];
+      const Colour c = mesh.attributes.row(t[k]).colour;
       const std::array<std::int32_t, 6> corner = {p.x, p.y, p.z, c[0], c[1], c[2]};
       std::copy(corner.begin(), corner.end(), face.begin() + static_cast<std::ptrdiff_t>(6 * k));
     }

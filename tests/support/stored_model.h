@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lattice mesh as `.pmesh` bytes without error bounds, and back.
+// Encodes a lattice mesh as a `.pmesh` file, without computing error bounds, and refines the stored
+// model again.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "codec/progressive/refiner.h"
+#include "codec/refine/refiner.h"
 #include "codec/simplify/simplify.h"
 
 namespace vitrine::test {
 
 struct StoredModel {
-  Manifest manifest;  // as parse_header reads it
-  BaseMesh base;      // as the file's own Draco buffer decodes
+  Manifest manifest;  // the manifest as parse_header() reads it
+  BaseMesh base;      // the base mesh as decoded from the file's Draco buffer
   std::vector<std::uint8_t> file;
 
   std::span<const std::uint8_t> chunk(std::size_t i) const {
@@ -20,15 +21,16 @@ struct StoredModel {
   }
 };
 
-// Simplifies, codes, writes and parses again. Throws std::runtime_error where a step fails.
+// Simplifies, codes, writes and parses the mesh. Throws std::runtime_error if a step fails.
 StoredModel store_model(const LatticeMesh& fine, const SimplifyOptions& options);
 
 Refiner start_refiner(const StoredModel& model);
 void apply_chunk(Refiner& refiner, const StoredModel& model, std::size_t chunk);
 std::vector<std::size_t> ready_chunks(const Refiner& refiner);
 
-// The surface without its numbering: per face its corners as x y z r g b, from the smallest of the
-// three rotations on; sorted.
+// canonical_surface() returns the surface in a form that does not depend on the numbering of
+// vertices and faces: for each face, the corners as x y z r g b, starting with the smallest corner.
+// The faces are sorted.
 using SurfaceFace = std::array<std::int32_t, 18>;
 std::vector<SurfaceFace> canonical_surface(const LatticeMesh& mesh);
 

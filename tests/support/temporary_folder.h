@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of its own for a test, gone at the end.
+// A folder for one test; the destructor removes it.
 #pragma once
 
 #include <cstdlib>

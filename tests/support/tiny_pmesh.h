@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A .pmesh whose container is right and whose contents nobody decodes: base and chunk are text.
+// Makes a .pmesh file whose container is valid. Its base mesh and chunk are plain text, which no
+// test decodes.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "codec/progressive/manifest.h"
+#include "codec/format/manifest.h"
 
 namespace vitrine::test {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// System calls that are made again where a signal interrupts them. A child that ends does so to a
-// socket's that has a time limit, even where nobody handles the signal.
+// Repeats system calls that a signal interrupts. The end of a child process can interrupt calls on
+// a socket that has a timeout, even if no handler is installed.
 #pragma once
 
 #include <cerrno>

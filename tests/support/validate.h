@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every invariant of Connectivity, checked after each mutation in tests.
+// Checks all invariants of Connectivity. Tests call it after each mutation.
 #pragma once
 
 #include <gtest/gtest.h>

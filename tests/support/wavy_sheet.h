@@ -7,7 +7,7 @@
 
 namespace vitrine::test {
 
-// A wavy sheet of side * side vertices, 2 * (side - 1) * (side - 1) triangles, as OBJ.
+// Returns a wavy sheet as OBJ, with side * side vertices and 2 * (side - 1) * (side - 1) triangles.
 inline std::string wavy_sheet(int side) {
   std::string text;
   for (int y = 0; y < side; ++y) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The museum's own server, which is told of the ends of jobs: hears one request at a time, and
-// waits 20 s for it.
+// A server that receives webhooks. Accepts one request at a time, and waits at most 20 s for each.
 #pragma once
 
 #include <arpa/inet.h>
@@ -11,6 +10,7 @@
 #include <string>
 
 #include "codec/files/file_descriptor.h"
+#include "support/product_names.h"
 #include "support/uninterrupted.h"
 
 namespace vitrine::test {
@@ -22,8 +22,8 @@ class WebhookListener {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
-    const timeval patience{.tv_sec = 20, .tv_usec = 0};
-    ::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const timeval timeout{.tv_sec = 20, .tv_usec = 0};
+    ::setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
     EXPECT_EQ(::listen(socket_.get(), 8), 0);
     EXPECT_EQ(::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
@@ -31,8 +31,8 @@ class WebhookListener {
   }
   const std::string& host() const { return host_; }
 
-  // The next request, whose body is a JSON object where it is no GET; nobody answers it before the
-  // descriptor is gone.
+  // Accepts the next request. The body must be a JSON object, unless the request is a GET. The
+  // client gets no response until the returned descriptor is closed.
   FileDescriptor accept(std::string& request) {
     FileDescriptor peer(uninterrupted([&] { return ::accept(socket_.get(), nullptr, nullptr); }));
     char buffer[1024];

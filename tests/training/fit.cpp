@@ -3,28 +3,29 @@
 
 #include <cmath>
 
-#include "codec/progressive/trained_tables.h"
+#include "codec/coding/trained_tables.h"
 
 namespace vitrine::training {
 namespace {
 
-// -ln of the probability of a chunk's decisions under a beta prior.
-double cost(const Counts& c, double zeros, double ones) {
+// Returns -ln of the probability of a chunk's decisions under a beta prior with the parameters
+// `zeros` and `ones`.
+double cost(const BitCounts& c, double zeros, double ones) {
   return std::lgamma(zeros) + std::lgamma(ones) - std::lgamma(zeros + ones) -
          std::lgamma(zeros + c.zeros) - std::lgamma(ones + c.ones) +
          std::lgamma(zeros + ones + c.zeros + c.ones);
 }
 
-double total_cost(const std::vector<Counts>& chunks, double one, double weight) {
+double total_cost(const std::vector<BitCounts>& chunks, double one, double weight) {
   double sum = 0;
-  for (const Counts& c : chunks)
+  for (const BitCounts& c : chunks)
     sum += cost(c, (1 - one) * weight, one * weight);
   return sum;
 }
 
 }  // namespace
 
-Start fit_start(const std::vector<Counts>& chunks) {
+Start fit_start(const std::vector<BitCounts>& chunks) {
   double best = 1e300;
   constexpr int kHalf = trained::kHalf;
   Start start{kHalf, 0};

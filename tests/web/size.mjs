@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the viewer weighs as it travels, without three.js and Draco: node size.mjs DIST
+// Checks the compressed size of the viewer, without three.js and Draco: node size.mjs DIST
 import { execFileSync } from "node:child_process";
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
 
-const kMost = 60_000; // bytes by gzip -9, of all that comes before the visitor's tools
+const kMost = 60_000; // maximum number of compressed bytes of all code that is loaded before the visitor's tools
 
 const dist = process.argv[2];
-const kAfterwards = ["progressive-mesh-toolbox.js", "progressive-mesh-loader.js"]; // the loader is another way in
-const kLanguage = /^progressive-mesh-[a-z]{2}\.js$/; // of these a visitor loads one
+const kAfterwards = ["progressive-mesh-toolbox.js", "progressive-mesh-loader.js"]; // loaded after the first paint, or used instead of the element
+// Files with the texts of one language; a visitor loads one of them.
+const kLanguage = /^progressive-mesh-[a-z]{2}\.js$/;
 
 const sizes = {};
 for (const name of readdirSync(dist).filter((file) => file.startsWith("progressive-mesh")).sort()) {
-  sizes[name] = execFileSync("gzip", ["-9nc", join(dist, name)]).length;
+  sizes[name] = execFileSync("zopfli", ["-c", join(dist, name)]).length;
   console.log(`${String(sizes[name]).padStart(7)} ${name}`);
 }
 const first = Object.keys(sizes).filter((name) => !kAfterwards.includes(name) && !kLanguage.test(name));

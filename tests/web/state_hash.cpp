@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// state-hash FILE.pmesh: applies every chunk in the planner's order with the browser's own model,
-// natively, and prints the SHA-256 of each state: lattice positions, faces, colours, and what is
-// displayed. tests/web/native_equal.mjs prints the same from WebAssembly.
+// state-hash FILE.pmesh: applies all chunks in the planner's order, natively but with the browser's
+// model class (BrowserModel). Prints the number of faces and the SHA-256 of each state: lattice
+// positions, faces, colours, and displayed positions and normals. tests/web/native_equal.mjs
+// compares these lines with those from WebAssembly.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -10,7 +11,7 @@
 
 #include "codec/base/base_decoder.h"
 #include "codec/core/sha256.h"
-#include "codec/wasm/model.h"
+#include "codec/wasm/browser_model.h"
 
 namespace vitrine {
 namespace {
@@ -23,12 +24,12 @@ void append(Bytes& out, std::span<const T> values) {
   out.insert(out.end(), begin, begin + values.size_bytes());
 }
 
-void print_state(Model& model) {
+void print_state(BrowserModel& model) {
   Bytes lattice, faces, colours, positions, normals;
   model.display();
   while (model.next_vertices() > 0) {
     append<Vec3i>(lattice, model.lattice_positions());
-    append<Colour>(colours, model.colours());
+    append<Colour>(colours, model.attributes().colours);
     append<std::array<float, 3>>(positions, model.positions());
     append<std::array<std::int16_t, 4>>(normals, model.normals());
   }
@@ -41,18 +42,18 @@ void print_state(Model& model) {
 }
 
 Expected<void> replay(std::span<const std::uint8_t> file) {
-  auto opened = Model::open(file);
-  if (!opened) return Unexpected(opened.error());
-  Model* const model = opened->get();
+  auto opened = BrowserModel::open(file);
+  if (!opened) return tl::unexpected(opened.error());
+  BrowserModel* const model = opened->get();
   const Manifest& manifest = model->manifest();
   const auto base_bytes = file.subspan(manifest.base_offset, manifest.base_length);
   if (auto fits = model->check_base(base_bytes); !fits) return fits;
   auto base = decode_base(base_bytes, manifest);
-  if (!base) return Unexpected(base.error());
+  if (!base) return tl::unexpected(base.error());
   if (auto started = model->start(std::move(*base)); !started) return started;
   print_state(*model);
   constexpr std::uint32_t kLevel = 3;
-  if (auto wanted = model->want(kLevel, 1e9); !wanted) return Unexpected(wanted.error());
+  if (auto wanted = model->want(kLevel, 1e9); !wanted) return tl::unexpected(wanted.error());
   for (int chunk = model->next_chunk(); chunk >= 0; chunk = model->next_chunk()) {
     const ChunkInfo& info = manifest.chunks[static_cast<std::size_t>(chunk)];
     const auto bytes = file.subspan(info.offset, info.length);

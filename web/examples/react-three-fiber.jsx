@@ -16,7 +16,7 @@ function Bust({ url, ...props }) {
     };
   }, [mesh]);
   let frames = 0;
-  useFrame(() => ++frames % 30 === 0 && sharpen()); // asks again as the camera moves
+  useFrame(() => ++frames % 30 === 0 && sharpen()); // every 30 frames, requests the detail that the camera needs now
   return <primitive object={mesh} {...props} />;
 }
 

@@ -10,7 +10,7 @@ const camera = new PerspectiveCamera(35, innerWidth / innerHeight, 0.01, 1000);
 const scene = new Scene().add(camera.add(new DirectionalLight()));
 const controls = new OrbitControls(camera, renderer.domElement);
 
-setBudget({ triangles: 1_000_000, bytes: 50e6 }); // of all models together
+setBudget({ triangles: 1_000_000, bytes: 50e6 }); // limits for all models together
 const loader = new ProgressiveMeshLoader();
 const meshes = await Promise.all(["bust.pmesh", "skull.pmesh"].map((url) => loader.loadAsync(url)));
 meshes.forEach((mesh, i) => {
@@ -20,7 +20,7 @@ meshes.forEach((mesh, i) => {
 scene.add(...meshes);
 camera.position.z = 7;
 
-/** Each model to an error of one pixel, as far as the camera sees it. */
+/** Refines the parts of each model that the camera sees to an error of one pixel. */
 function sharpen() {
   const { width, height } = renderer.domElement;
   for (const mesh of meshes) mesh.refineFor(camera, width, height).catch((error) => console.warn(error.message));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "synthetic_scanner.h"
+#include "support/product_names.h"
 
 #include <cmath>
 #include <numbers>
@@ -12,7 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 }  // namespace
 
-Target SyntheticScanner::target() {
+CharucoTarget SyntheticScanner::target() {
   return {.squares_x = 9,
           .squares_y = 12,
           .square_mm = 8,
@@ -20,7 +21,7 @@ Target SyntheticScanner::target() {
           .dictionary = "DICT_4X4_100"};
 }
 
-Pixel SyntheticScanner::project(const cv::Vec3d& at) const {
+ImagePoint SyntheticScanner::project(const cv::Vec3d& at) const {
   std::vector<cv::Point2d> image;
   cv::projectPoints(std::vector<cv::Point3d>{cv::Point3d(at)}, cv::Vec3d(), cv::Vec3d(), matrix_,
                     distortion_, image);
@@ -54,26 +55,26 @@ cv::Affine3d SyntheticScanner::turned(double degrees) const {
   return cv::Affine3d(rotation.rotation(), on_axis_ - rotation.rotation() * on_axis_);
 }
 
-std::vector<Pixel> SyntheticScanner::corners(const cv::Affine3d& pose) const {
-  std::vector<Pixel> all;
-  const Target t = target();
+std::vector<ImagePoint> SyntheticScanner::corners(const cv::Affine3d& pose) const {
+  std::vector<ImagePoint> all;
+  const CharucoTarget t = target();
   for (int id = 0; id < (t.squares_x - 1) * (t.squares_y - 1); ++id) {
-    const Pixel on = corner_on(t, id);
-    all.push_back(project(pose * cv::Vec3d(on.u, on.v, 0)));
+    const TargetPoint on = corner_on(t, id);
+    all.push_back(project(pose * cv::Vec3d(on.x, on.y, 0)));
   }
   return all;
 }
 
-// Points of the line where laser and target meet.
-std::vector<Pixel> SyntheticScanner::stripe(const cv::Affine3d& pose) const {
+// Returns the image of the line in which the laser's plane meets the target.
+std::vector<ImagePoint> SyntheticScanner::stripe(const cv::Affine3d& pose) const {
   const cv::Vec3d face = pose.rotation() * cv::Vec3d(0, 0, 1), centre = pose.translation();
   const cv::Vec3d along = cv::normalize(face.cross(normal_));
-  cv::Vec3d on;  // both planes, and at the camera's height
+  cv::Vec3d on;  // a point in both planes, at the camera's height
   cv::solve(cv::Matx33d(face[0], face[1], face[2], normal_[0], normal_[1], normal_[2], 0, 1, 0),
             cv::Vec3d(face.dot(centre), normal_.dot(on_axis_) + beside_, 0), on);
-  std::vector<Pixel> all;
+  std::vector<ImagePoint> all;
   for (double t = -80; t < 80; t += 0.4) {
-    const Pixel p = project(on + t * along);
+    const ImagePoint p = project(on + t * along);
     if (p.u >= 0 && p.v >= 0 && p.u <= kWidth - 1 && p.v <= kHeight - 1) all.push_back(p);
   }
   return all;
@@ -83,10 +84,11 @@ CalibrationInput SyntheticScanner::pictures(int placements, int angles,
                                             const ScannerNoise& noise) const {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
-  const Target t = target();
+  const CharucoTarget t = target();
   CalibrationInput input{"CAM-1", {0, 0, kWidth, kHeight}, t, {}};
   for (int placement = 0; placement < placements; ++placement) {
-    // The target's middle is beside the axis, its x to the right, its y downwards or upwards.
+    // Places the target's centre beside the axis. Its x points to the right, its y downwards or
+    // upwards.
     const double beside = placements == 1 ? 10 : -20 + 40.0 * placement / (placements - 1);
     const cv::Affine3d shift(cv::Matx33d::eye(), {-4.0 * t.squares_x, -4.0 * t.squares_y, 0});
     const cv::Affine3d lean(
@@ -97,15 +99,15 @@ CalibrationInput SyntheticScanner::pictures(int placements, int angles,
       const double stood = angle + noise.table * normal(random);
       const cv::Affine3d pose = turned(stood) * stands * lean * shift;
       TargetPicture picture{.placement = placement, .angle = 100 + angle};
-      const std::vector<Pixel> all = corners(pose);
+      const std::vector<ImagePoint> all = corners(pose);
       for (int id = 0; id < static_cast<int>(all.size()); ++id) {
-        const Pixel p{all[id].u + noise.corner * normal(random),
-                      all[id].v + noise.corner * normal(random)};
+        const ImagePoint p{all[id].u + noise.corner * normal(random),
+                           all[id].v + noise.corner * normal(random)};
         if (p.u < 5 || p.v < 5 || p.u > kWidth - 6 || p.v > kHeight - 6) continue;
         picture.view.ids.push_back(id);
         picture.view.corners.push_back(p);
       }
-      for (Pixel p : stripe(pose)) {
+      for (ImagePoint p : stripe(pose)) {
         p.u += noise.stripe * normal(random);
         picture.stripe.push_back(p);
       }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "acquisition/calibration/calibrate.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
@@ -19,36 +20,36 @@ struct ScannerNoise {
 
 class SyntheticScanner {
  public:
-  explicit SyntheticScanner(bool clockwise = false) : sense_(clockwise ? -1 : 1) {}
+  explicit SyntheticScanner(bool is_clockwise = false) : sense_(is_clockwise ? -1 : 1) {}
 
   static constexpr int kWidth = 1300, kHeight = 1030;
-  static Target target();
+  static CharucoTarget target();
 
-  // `placements` of the target on the table, each seen at `angles` around the one that faces the
-  // camera.
+  // Returns pictures of `placements` placements of the target on the table. Each is shown at
+  // `angles` angles around the one at which it faces the camera.
   CalibrationInput pictures(int placements, int angles, const ScannerNoise& noise) const;
 
-  // Of the camera's frame, mm: where a pixel looks at the laser plane.
+  // Returns the point of the laser plane that a pixel sees, in mm in the camera's frame.
   cv::Vec3d seen(double u, double v) const;
-  // Where a point of the camera's frame is about the table's axis: distance, height along it above
-  // that of `from`, and the angle around it.
+  // Return the distance of a point from the table's axis and its height along the axis.
   double distance(const cv::Vec3d& at) const;
   double height(const cv::Vec3d& at) const;
-  // The direction, in degrees, of a point around the axis, as the table counts.
+  // Returns the angle of a point around the axis, in degrees, in the table's sense of rotation.
   double direction(const cv::Vec3d& at) const;
 
  private:
-  std::vector<Pixel> corners(const cv::Affine3d& pose) const;
-  std::vector<Pixel> stripe(const cv::Affine3d& pose) const;
+  std::vector<acquisition::ImagePoint> corners(const cv::Affine3d& pose) const;
+  std::vector<ImagePoint> stripe(const cv::Affine3d& pose) const;
   cv::Affine3d turned(double degrees) const;
-  Pixel project(const cv::Vec3d& at) const;
+  ImagePoint project(const cv::Vec3d& at) const;
 
   double sense_;
   cv::Matx33d matrix_{3020, 0, 660, 0, 3015, 505, 0, 0, 1};
   cv::Vec4d distortion_{-0.12, 0.15, 0.0006, -0.0004};
-  // The table's axis: upwards, a little inclined, 345 mm away.
+  // The table's axis points upwards, slightly inclined, 345 mm away.
   cv::Vec3d up_ = cv::normalize(cv::Vec3d(0.01, -1, 0.15)), on_axis_{1.5, 3, 345};
-  // The laser's plane passes 0.4 mm beside the axis, inclined to it, 28 degrees from the view.
+  // The laser's plane passes 0.4 mm beside the axis and is inclined to it. It is 28 degrees from
+  // the view.
   cv::Vec3d normal_ = cv::normalize(cv::Vec3d(0.88, 0.02, -0.47));
   double beside_ = 0.4;
 };

@@ -17,14 +17,14 @@
 #include "acquisition/rig/usb_rig.h"
 #include "support/temporary_folder.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using std::chrono::milliseconds;
 using test::UsbRig;
 
 BoardOptions quick() {
-  return {.patience = milliseconds(500), .guardian = VITRINE_BIN_DIR "/vitrine-guardian"};
+  return {.response_timeout = milliseconds(500), .guardian = VITRINE_BIN_DIR "/vitrine-guardian"};
 }
 
 BoardSelector selector_of(const std::string& dialect, const std::string& transport) {
@@ -35,15 +35,15 @@ BoardSelector selector_of(const std::string& dialect, const std::string& transpo
   return selector;
 }
 
-struct Kind {
+struct BoardKind {
   std::string dialect, transport;
 };
 
-void PrintTo(const Kind& kind, std::ostream* out) {
+void PrintTo(const BoardKind& kind, std::ostream* out) {
   *out << kind.dialect << ' ' << kind.transport;
 }
 
-class EveryBoard : public testing::TestWithParam<Kind> {
+class EveryBoard : public testing::TestWithParam<BoardKind> {
  protected:
   std::string name() const { return GetParam().dialect + ' ' + GetParam().transport; }
   Expected<std::unique_ptr<Board>> open() const {
@@ -57,9 +57,10 @@ class EveryBoard : public testing::TestWithParam<Kind> {
 };
 
 INSTANTIATE_TEST_SUITE_P(, EveryBoard,
-                         testing::Values(Kind{"horus", "cdc"}, Kind{"horus", "ftdi"},
-                                         Kind{"horus", "ch34x"}, Kind{"fabscan", "cdc"},
-                                         Kind{"fabscan", "ftdi"}, Kind{"fabscan", "ch34x"}),
+                         testing::Values(BoardKind{"horus", "cdc"}, BoardKind{"horus", "ftdi"},
+                                         BoardKind{"horus", "ch34x"}, BoardKind{"fabscan", "cdc"},
+                                         BoardKind{"fabscan", "ftdi"},
+                                         BoardKind{"fabscan", "ch34x"}),
                          [](const auto& one) {
                            return one.param.dialect + "_" + one.param.transport;
                          });
@@ -121,8 +122,10 @@ TEST_P(EveryBoard, StandsAsToldAfterSetPosition) {
 
 TEST_P(EveryBoard, GoesOnWithinHalfAMotorStepHoweverOftenItIsOpenedAnew) {
   ASSERT_EQ(rig_.ask("plug " + name()), "ok");
+  const double before = rig_.table();
   double at = 0;
-  for (const double next : {0.5, 1.0, 1.5}) {  // 4.4, 8.9 and 13.3 motor steps of a FabScan
+  for (const double next :
+       {0.5, 1.0, 1.5}) {  // these are 4.4, 8.9 and 13.3 motor steps of a FabScan
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     if (!*(*board)->position()) {
@@ -131,7 +134,7 @@ TEST_P(EveryBoard, GoesOnWithinHalfAMotorStepHoweverOftenItIsOpenedAnew) {
     ASSERT_TRUE((*board)->turn_to(next));
     at = next;
   }
-  EXPECT_NEAR(rig_.table(), at, 180.0 / 3200);
+  EXPECT_NEAR(rig_.table() - before, at, 180.0 / 3200);
 }
 
 TEST_P(EveryBoard, TellsItsFirmwareEachTimeItIsOpened) {
@@ -141,7 +144,7 @@ TEST_P(EveryBoard, TellsItsFirmwareEachTimeItIsOpened) {
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     EXPECT_EQ((*board)->identity().firmware, banner);
-    ASSERT_TRUE((*board)->set_position(0));  // a Horus is not restarted any more
+    ASSERT_TRUE((*board)->set_position(0));  // from here on the Horus is not restarted
   }
 }
 
@@ -207,7 +210,8 @@ TEST_P(EveryBoard, IsHaltedInTheMiddleOfAMotionByAnEmergencyStop) {
 TEST_P(EveryBoard, StaysOffWhenACallBeginsAsItIsStopped) {
   ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
   for (int i = 0; i < 10; ++i) {
-    auto board = open();  // once the guardian of the one before has switched it off
+    // Opens only after the previous board's guardian has switched the board off.
+    auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     std::thread turning([&] { (void)(*board)->turn_to(3600); });
     (*board)->emergency_stop();
@@ -333,7 +337,7 @@ TEST(Board, IsFoundBySerialNumberAndByPort) {
   EXPECT_TRUE(open_board(selector, quick()));
 }
 
-// A guardian that writes down what it is told: which board, and the word that dismisses it.
+// A guardian that logs its input: the board to guard, and the word that dismisses the guardian.
 class WritingGuardian {
  public:
   WritingGuardian() {
@@ -343,7 +347,7 @@ class WritingGuardian {
   }
   std::filesystem::path program() const { return folder_.path() / "guardian"; }
   std::string board() const { return text_of("guardian.board"); }
-  // Waits until it has been let go.
+  // Waits until the guardian has been dismissed, and returns the last word that it received.
   std::string last_word() const {
     while (!std::filesystem::exists(folder_.path() / "guardian.end"))
       std::this_thread::sleep_for(milliseconds(1));
@@ -422,4 +426,4 @@ TEST(Board, IsNotOpenedWithoutItsGuardian) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

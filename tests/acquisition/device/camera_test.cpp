@@ -13,10 +13,10 @@
 #include "acquisition/rig/cable.h"
 #include "acquisition/rig/private_network.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
-// A GigE Vision camera on loopback, whose n-th frame is filled with n.
+// A GigE Vision camera on loopback whose n-th frame is filled with n.
 class SimulatedCamera {
  public:
   explicit SimulatedCamera(const char* address)
@@ -43,7 +43,7 @@ class SimulatedCamera {
     ArvFakeCamera* fake = arv_gv_fake_camera_get_fake_camera(camera_);
     EXPECT_TRUE(arv_fake_camera_write_register(fake, static_cast<guint32>(address), value));
   }
-  // The same packets in each run; none is sent again.
+  // Loses the same packets in each run. No packet is sent again.
   void lose_packets(double part) {
     g_random_set_seed(1);
     g_object_set(camera_, "gvsp-lost-ratio", part, nullptr);
@@ -85,13 +85,13 @@ TEST_F(CameraTest, IsAskedAnewForFramesThatLostPackets) {
   auto camera = open_camera({.address = kAddress});
   ASSERT_TRUE(camera) << camera.error().message;
   ASSERT_TRUE((*camera)->configure({.exposure_us = 1000, .region = {0, 0, 320, 200}}));
-  simulated.lose_packets(0.005);  // of ten packets each: one frame in twenty
-  for (int asked_anew = 0; asked_anew < 4;) {
+  simulated.lose_packets(0.005);  // a frame has ten packets, so one frame in twenty is incomplete
+  for (int repeated = 0; repeated < 4;) {
     const int before = simulated.frames();
     ASSERT_LT(before, 250) << "no packets are lost";
     const auto frame = (*camera)->capture();
     ASSERT_TRUE(frame) << frame.error().message;
-    asked_anew += simulated.frames() - before - 1;
+    repeated += simulated.frames() - before - 1;
     const std::vector<std::uint8_t> latest(320u * 200u, simulated.frames());
     ASSERT_TRUE(frame->pixels == latest) << "frame " << int{simulated.frames()} << " is not whole";
   }
@@ -108,7 +108,8 @@ TEST_F(CameraTest, WhoseFramesAllLosePacketsIsAnError) {
       << frame.error().message;
 }
 
-// What others change at the camera meanwhile: as many bytes, which are no longer the picture.
+// Another client changes the camera's settings, so that a frame has as many bytes but another
+// shape.
 TEST_F(CameraTest, WhoseFramesHaveAnotherShapeOrFormatIsAnError) {
   SimulatedCamera simulated(kAddress);
   auto camera = open_camera({.address = kAddress});
@@ -171,7 +172,7 @@ TEST_F(CameraTest, ThatIsGoneIsAnErrorAndIsOpenedAnewWhenItIsBack) {
   EXPECT_TRUE((*camera)->capture());
 }
 
-// A trigger that is not acknowledged is repeated, and a camera that is back meanwhile obeys it.
+// A client repeats an unacknowledged trigger. A camera that comes back too early would execute it.
 TEST_F(CameraTest, ThatIsGoneIsTriggeredNoMoreOnceTheRigPutsItsCableBack) {
   auto simulated = std::make_unique<SimulatedCamera>(kAddress);
   auto camera = open_camera({.address = kAddress});
@@ -192,4 +193,4 @@ TEST_F(CameraTest, IsNamedByAddressOrSerialNumber) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boards that never stop talking.
+// Tests boards that never stop sending.
 #include <gmock/gmock.h>
 
 #include <utility>
 
 #include "acquisition/device/controller.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using testing::HasSubstr;
 
-// Echoes what it is told, and says a remark whenever it is listened to.
+// A port that echoes its input and sends a remark at each read.
 class ChatteringPort : public SerialPort {
  public:
   const std::string& name() const override { return name_; }
@@ -34,11 +34,11 @@ class ChatteringPort : public SerialPort {
   std::string unread_;
 };
 
-constexpr std::chrono::milliseconds kPatience{5};
+constexpr std::chrono::milliseconds kTimeout{5};
 
 TEST(ChatteringBoard, HorusDoesNotAnswerInTime) {
   ChatteringPort port;
-  const auto board = make_horus(port, kPatience);
+  const auto board = make_horus(port, kTimeout);
   EXPECT_THAT(board->laser(true).error().message, HasSubstr("does not answer 'M71T1' in time"));
   EXPECT_THAT(board->position().error().message, HasSubstr("does not answer '?' in time"));
 }
@@ -46,9 +46,9 @@ TEST(ChatteringBoard, HorusDoesNotAnswerInTime) {
 TEST(ChatteringBoard, FabScanDoesNotAnswerInTime) {
   ChatteringPort port;
   port.echoes = true;
-  const auto board = make_fabscan(port, kPatience, 3200);
+  const auto board = make_fabscan(port, kTimeout, 3200);
   EXPECT_THAT(board->laser(true).error().message, HasSubstr("does not answer 'M21' in time"));
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// drive_board VENDOR PRODUCT COMMAND…: opens a Horus board and obeys set:DEGREES, turn:DEGREES,
-// laser:on, laser:off, where, unplugged (turns until the board is gone) and die (as of kill -9).
-// Says what it has done, one line each.
+// drive_board VENDOR PRODUCT COMMAND…: opens a Horus board and executes the commands set:DEGREES,
+// turn:DEGREES, laser:on, laser:off, where, unplugged (turns until the board is gone) and die (like
+// kill -9). Prints one line for each completed command.
 #include <fmt/format.h>
 #include <signal.h>
 
@@ -14,8 +14,8 @@
 
 namespace {
 
-using vitrine::Board;
 using vitrine::Expected;
+using vitrine::acquisition::Board;
 
 std::string name;
 
@@ -61,10 +61,10 @@ Expected<void> obey(Board& board, const std::string& command) {
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
   name = fmt::format("{}:{}", argv[1], argv[2]);
-  const vitrine::BoardSelector selector{
+  const vitrine::acquisition::BoardSelector selector{
       .vendor = static_cast<std::uint16_t>(std::strtoul(argv[1], nullptr, 16)),
       .product = static_cast<std::uint16_t>(std::strtoul(argv[2], nullptr, 16))};
-  auto board = vitrine::open_board(selector);
+  auto board = vitrine::acquisition::open_board(selector);
   if (!board) return failed(board.error().message);
   say("opened " + (*board)->identity().firmware);
   for (int i = 3; i < argc; ++i) {

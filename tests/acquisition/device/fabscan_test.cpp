@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrine::fabscan {
+namespace vitrine::acquisition::fabscan {
 namespace {
 
 TEST(FabScan, SaysWhatTheFirmwareReads) {
@@ -18,4 +18,4 @@ TEST(FabScan, KnowsItsVersions) {
 }
 
 }  // namespace
-}  // namespace vitrine::fabscan
+}  // namespace vitrine::acquisition::fabscan

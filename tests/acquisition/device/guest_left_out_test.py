@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""guest_test.py where its kernel is missing: it says so, and deploy/test takes that for a failure."""
+"""guest_test.py without its kernel says so, and deploy/test counts that as a failure."""
 import os
 import subprocess
 import sys
@@ -13,7 +13,7 @@ SKIPPED, FAILED = 77, 1
 
 
 def run_without_kernel(**variables):
-    """The exit code, and what it printed."""
+    """Returns the exit code and the output."""
     environment = {name: value for name, value in os.environ.items() if name != "VITRINE_NO_SKIPS"}
     ended = subprocess.run([sys.executable, HERE / "guest_test.py", "/absent", "/absent", "/absent"], text=True,
                            capture_output=True, env=environment | variables, check=False)

@@ -28,7 +28,7 @@ PATIENCE = 240  # seconds, of a busy machine
 
 
 def missing():
-    """Why this cannot run here; nothing if it can."""
+    """The reason that this cannot run here; None if it can."""
     for tool in ("qemu-system-x86_64", "busybox", "cpio"):
         if not shutil.which(tool):
             return f"there is no {tool}"
@@ -36,19 +36,19 @@ def missing():
 
 
 def put(root, source, target):
-    """A copy of the file under the guest's root."""
+    """Copies the file to the guest's root."""
     (root / target).parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(source, root / target)
 
 
 def libraries(program):
-    """All that the loader maps, itself too."""
+    """All libraries that the loader maps, and the loader."""
     said = subprocess.run(["ldd", program], text=True, capture_output=True, check=True).stdout
     return re.findall(r"(/\S+) \(0x", said)
 
 
 def initramfs(folder):
-    """An archive of all that is in the guest."""
+    """Archives the guest's files."""
     root = folder / "root"
     put(root, shutil.which("busybox"), "bin/busybox")
     put(root, Path(__file__).with_name("guest_init"), "init")
@@ -68,7 +68,7 @@ def initramfs(folder):
 
 
 def boot(folder, line):
-    """The guest; its console is its standard output."""
+    """Starts the guest; its console is its standard output."""
     return subprocess.Popen(
         ["qemu-system-x86_64", "-M", "q35", "-accel", "tcg", "-m", "1024", "-nodefaults", "-no-reboot",
          "-display", "none", "-serial", "stdio", "-kernel", next(KERNEL.glob("boot/vmlinuz-*")),
@@ -78,7 +78,7 @@ def boot(folder, line):
 
 
 def serve(line):
-    """The firmware at the host's end of the line, once there is one."""
+    """The firmware at the host's end of the line, when it has started."""
     while not line.exists():
         time.sleep(0.01)
     return subprocess.Popen([TESTS / "serve_firmware", line], stdout=subprocess.PIPE, text=True)
@@ -103,14 +103,14 @@ def run():
 
 
 class Guest(unittest.TestCase):
-    """One boot, of which each test looks at a part."""
+    """One boot; each test checks a part of it."""
     @classmethod
     def setUpClass(cls):
         cls.console, cls.ftdi_board = run()
         print(cls.console)
 
     def assertInOrder(self, text, *lines):
-        """Each of them follows the one before."""
+        """Each line follows the preceding one."""
         at = 0
         for line in lines:
             found = text.find(line, at)

@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrine::horus {
+namespace vitrine::acquisition::horus {
 namespace {
-
-using Kind = Reply::Kind;
 
 TEST(Horus, SaysWhatTheFirmwareReads) {
   EXPECT_EQ(turn(12.5, kCountedSpeed), "G1 X12.5000 F200");
@@ -24,26 +22,26 @@ TEST(Horus, GrantsATurnToASlowTableAndNoHourToAHundredTurns) {
 }
 
 TEST(Horus, TellsRepliesApart) {
-  EXPECT_EQ(parse("ok").kind, Kind::kOk);
-  EXPECT_EQ(parse("error: Alarm lock").kind, Kind::kRefusal);
-  EXPECT_EQ(parse("ALARM: Abort during cycle").kind, Kind::kAlarm);
-  EXPECT_EQ(parse("['$H'|'$X' to unlock]").kind, Kind::kAlarm);
-  EXPECT_EQ(parse("[Caution: Unlocked]").kind, Kind::kRemark);
+  EXPECT_EQ(parse("ok").kind, ReplyKind::kOk);
+  EXPECT_EQ(parse("error: Alarm lock").kind, ReplyKind::kRefusal);
+  EXPECT_EQ(parse("ALARM: Abort during cycle").kind, ReplyKind::kAlarm);
+  EXPECT_EQ(parse("['$H'|'$X' to unlock]").kind, ReplyKind::kAlarm);
+  EXPECT_EQ(parse("[Caution: Unlocked]").kind, ReplyKind::kRemark);
   EXPECT_EQ(parse("Horus 0.2 ['$' for help]").text, "Horus 0.2");
   EXPECT_EQ(parse("Grbl 0.9j ['$' for help]").text, "Grbl 0.9j");
   EXPECT_EQ(parse("[G1 G54 T0 F12000.]").value, 12000);
-  EXPECT_EQ(parse("[0.2:]").kind, Kind::kVersion);
+  EXPECT_EQ(parse("[0.2:]").kind, ReplyKind::kVersion);
   EXPECT_EQ(parse("[0.9g.20140905:my board]").text, "0.9g.20140905");
   const Reply status = parse("<Run,MPos:-12.375,0.000>");
-  EXPECT_EQ(status.kind, Kind::kStatus);
+  EXPECT_EQ(status.kind, ReplyKind::kStatus);
   EXPECT_EQ(status.value, -12.375);
 }
 
 TEST(Horus, TakesNothingElseForAReply) {
   for (const char* line : {"", "okay", "o", "<Idle>", "<Idle,MPos:nan>", "<Idle,MPos:1e999>",
                            "<Idle,MPos:>", "M200", "\x1a"})
-    EXPECT_EQ(parse(line).kind, Kind::kUnknown) << line;
+    EXPECT_EQ(parse(line).kind, ReplyKind::kUnknown) << line;
 }
 
 }  // namespace
-}  // namespace vitrine::horus
+}  // namespace vitrine::acquisition::horus

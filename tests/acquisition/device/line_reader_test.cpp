@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 TEST(LineReader, CutsWhateverWayTheBytesArrive) {
@@ -44,4 +44,4 @@ TEST(LineReader, KeepsTheLatestOfTooManyLines) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

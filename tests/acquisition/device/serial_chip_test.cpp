@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 std::vector<std::uint8_t> payload(SerialChip chip, const std::vector<std::uint8_t>& transfer) {
@@ -18,7 +18,7 @@ TEST(SerialChip, IsKnownByItsNumbers) {
   EXPECT_EQ(chip_by_id(0x2341, 0x0043), std::nullopt);
 }
 
-// As the Linux drivers set these chips.
+// The expected values are those that the Linux drivers use for these chips.
 TEST(SerialChip, IsSetToTheBaudRatesOfTheDialects) {
   EXPECT_EQ(set_up(SerialChip::kFtdi, 115200, 0)[1], (ControlRequest{0x40, 3, 0x001a, 0}));
   EXPECT_EQ(set_up(SerialChip::kFtdi, 57600, 0)[1], (ControlRequest{0x40, 3, 0xc034, 0}));
@@ -37,4 +37,4 @@ TEST(SerialChip, OfFtdiPutsTwoBytesOfStatusAheadOfEachPacket) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// deploy/60-vitrine.rules lets its users have the very devices that the code speaks to.
+// Checks that deploy/60-vitrine.rules permits exactly the devices that the code supports.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,16 +13,16 @@
 #include "acquisition/device/serial_chip.h"
 #include "acquisition/device/udev_rule.h"
 #include "acquisition/device/usb_device.h"
-#include "acquisition/rig/usb_wire.h"
+#include "acquisition/rig_board/usb_wire.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using rig::UsbTransport;
 
 struct Rule {
   std::string text;
-  std::vector<int> vendor, products;  // none: any
+  std::vector<int> vendor, products;  // empty means any number
 
   bool allows(int of, int product) const {
     const auto names = [](const std::vector<int>& ids, int id) {
@@ -32,7 +32,7 @@ struct Rule {
   }
 };
 
-// Of a match like ATTR{key}=="6001|6015".
+// Returns the values of a match such as ATTR{key}=="6001|6015".
 std::vector<int> ids_in(const std::string& line, const std::string& key) {
   std::vector<int> ids;
   const std::string begin = "ATTR{" + key + "}==\"";
@@ -138,4 +138,4 @@ TEST(UdevRules, GiveTheSameRightsToAll) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -5,14 +5,15 @@
 
 #include <utility>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 using testing::HasSubstr;
 
 constexpr char kClosed[] = "may not be opened";
 
-// Devices with these serial numbers in this order; null: one that may not be opened.
+// Returns devices with these serial numbers, in this order. A null stands for a device that cannot
+// be opened.
 std::vector<Expected<UsbDevice>> devices(std::initializer_list<const char*> serials) {
   std::vector<Expected<UsbDevice>> all;
   for (const char* serial : serials) {
@@ -24,7 +25,7 @@ std::vector<Expected<UsbDevice>> devices(std::initializer_list<const char*> seri
   return all;
 }
 
-// The serial number of the one that is chosen, or why none is.
+// Returns the serial number of the chosen device, or the error's message.
 std::string chosen(std::initializer_list<const char*> serials, const std::string& wanted) {
   const auto device = choose(devices(serials), {.serial = wanted});
   return device ? device->serial : device.error().message;
@@ -45,8 +46,8 @@ TEST(UsbDevice, ThatMayNotBeOpenedIsTheFaultWhereItMayBeTheOneNamed) {
 TEST(UsbDevice, ThatIsNotTheOnlyOneIsNamed) {
   for (const auto& several :
        {std::pair("A", "B"), std::pair<const char*, const char*>("A", nullptr)})
-    EXPECT_THAT(chosen({several.first, several.second}, ""), HasSubstr("there are 2 of"));
-  EXPECT_THAT(chosen({"A", "A"}, "A"), HasSubstr("there are 2 of"));
+    EXPECT_THAT(chosen({several.first, several.second}, ""), HasSubstr("2 devices match"));
+  EXPECT_THAT(chosen({"A", "A"}, "A"), HasSubstr("2 devices match"));
 }
 
 TEST(UsbDevice, ThatIsNotThereIsTold) {
@@ -55,4 +56,4 @@ TEST(UsbDevice, ThatIsNotThereIsTold) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 namespace {
 
 double bell(double x, double sigma) {
@@ -40,4 +40,4 @@ FramePair render(const StripeImage& image) {
   return pair;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -7,17 +7,20 @@
 
 #include "acquisition/frame/frame.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 struct StripeImage {
-  int width = 320, height = 200;         // pixels
-  std::function<double(double)> centre;  // u over the row; NaN: no stripe there
-  double peak = 160, sigma = 2.5;        // grey levels; pixels
-  double speckle = 0;                    // contrast, of each pixel for itself
-  double noise = 0;                      // grey levels, of each picture
-  double ambient = 0;                    // grey levels at full albedo, in both pictures
-  std::function<double(double, double)> albedo = [](double, double) { return 1.; };  // of (u, v)
-  std::function<double(double)> second;  // another stripe's centre
+  int width = 320, height = 200;  // pixels of the picture
+  // Returns u for each row. NaN means no stripe in that row.
+  std::function<double(double)> centre;
+  double peak = 160, sigma = 2.5;  // grey levels at the stripe's peak; width in pixels
+  double speckle = 0;              // contrast, independent for each pixel
+  double noise = 0;                // grey levels, independent for each pixel of each picture
+  double ambient = 0;              // grey levels at full albedo, in both pictures
+  std::function<double(double, double)> albedo = [](double, double) {
+    return 1.;
+  };                                     // albedo at (u, v)
+  std::function<double(double)> second;  // centre of a second stripe
   double second_peak = 0;
   std::uint64_t seed = 1;
 };
@@ -28,4 +31,4 @@ struct FramePair {
 
 FramePair render(const StripeImage& image);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// vitrine at the simulated rig, whose calibration is known.
+// Runs vitrine with a simulated rig whose calibration is known.
 #pragma once
 
 #include <gmock/gmock.h>
 
 #include "acquisition/calibration/calibration_store.h"
-#include "server/cli/vitrine_command.h"
+#include "server/cli/commands/vitrine_command.h"
 #include "support/rig_calibration.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 
 class AtRig : public vitrine::test::VitrineCommand {
  protected:
@@ -17,7 +17,7 @@ class AtRig : public vitrine::test::VitrineCommand {
     EXPECT_TRUE(CalibrationStore(path("calibrations")).add(perfect_calibration(1)));
   }
 
-  // Runs the script in the folder of the test, where rig.json describes the scanner.
+  // Runs the script under vitrine-rig in the test's folder. rig.json there describes the scanner.
   vitrine::test::ProgramResult at_rig(const std::string& script, std::vector<std::string> options) {
     options.insert(options.begin(), {VITRINE_BIN_DIR "/vitrine-rig", "--private-network",
                                      "--write-config", path("rig.json")});
@@ -32,4 +32,4 @@ class AtRig : public vitrine::test::VitrineCommand {
   }
 };
 
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

@@ -10,9 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "acquisition/rig/fault.h"
-#include "acquisition/rig/operator_door.h"
-#include "support/rig_door.h"
-#include "support/run_program.h"
+#include "acquisition/rig/operator_socket.h"
+#include "support/process/run_program.h"
+#include "support/product_names.h"
+#include "support/rig_operator.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {
@@ -104,7 +105,7 @@ TEST(RigCommandLine, TermEndsTheCommandAndThenTheRig) {
     ::_exit(127);
   }
   pid_t command = 0;
-  std::ifstream(ready) >> command;  // waits for the command to be there
+  std::ifstream(ready) >> command;  // reads from the pipe until the command runs
   ASSERT_GT(command, 0);
   ::kill(child, SIGTERM);
   int status = 0;
@@ -149,7 +150,8 @@ TEST(RigCommandLine, AFileThatHoldsNoAngleOfATableIsNamed) {
     std::ofstream(table) << text;
     const ProgramResult result = rig_with("true", {"--table", table});
     EXPECT_EQ(result.exit_code, 1) << text;
-    EXPECT_THAT(result.errors, HasSubstr(table.string() + " holds no angle of a table; remove it"));
+    EXPECT_THAT(result.errors,
+                HasSubstr(table.string() + " does not contain the table's angle; remove it"));
     EXPECT_EQ(lines(result.errors), 1) << result.errors;
   }
   std::ofstream(table) << "-12.5\n";
@@ -186,13 +188,13 @@ TEST(RigCommandLine, TheTruthStandsOnTheTableAtItsHeight) {
   EXPECT_LT(seen, count);
 }
 
-TEST(OperatorDoor, CommandsChangeWhatIsOnTheTable) {
+TEST(OperatorSocket, CommandsChangeWhatIsOnTheTable) {
   const TemporaryFolder folder;
   const auto socket = folder.path() / "rig.sock";
   rig::Stage stage;
   {
-    const auto door = rig::open_door(socket, stage);
-    ASSERT_TRUE(door) << door.error().message;
+    const auto listener = rig::open_operator_socket(socket, stage);
+    ASSERT_TRUE(listener) << listener.error().message;
     EXPECT_EQ(said(socket, "poses\n"), "ok 30 1\n");
     EXPECT_EQ(said(socket, "target 30\n"), "ok\n");
     EXPECT_EQ(stage.now().target, 30);
@@ -202,17 +204,18 @@ TEST(OperatorDoor, CommandsChangeWhatIsOnTheTable) {
     EXPECT_EQ(stage.now().target, 30);
     EXPECT_EQ(said(socket, "object\n"), "ok\n");
     EXPECT_EQ(stage.now().target, std::nullopt);
-    EXPECT_EQ(said(socket, std::string(5000, 'x')), "");  // no line: hung up on
+    EXPECT_EQ(said(socket, std::string(5000, 'x')),
+              "");  // the line is too long, so the rig closes the connection
   }
   EXPECT_FALSE(std::filesystem::exists(socket));
 }
 
-TEST(OperatorDoor, WhoLooksSeesLaserMotorAndTable) {
+TEST(OperatorSocket, WhoLooksSeesLaserMotorAndTable) {
   const TemporaryFolder folder;
   const auto socket = folder.path() / "rig.sock";
   rig::Stage stage;
-  const auto door = rig::open_door(socket, stage);
-  ASSERT_TRUE(door) << door.error().message;
+  const auto listener = rig::open_operator_socket(socket, stage);
+  ASSERT_TRUE(listener) << listener.error().message;
   EXPECT_EQ(said(socket, "look\n"), "ok off off 0.000\n");
   stage.laser(true);
   stage.passes(12.5);
@@ -224,10 +227,10 @@ TEST(OperatorDoor, WhoLooksSeesLaserMotorAndTable) {
   EXPECT_EQ(stage.now().turns, 1) << "what the table passes is no turn";
 }
 
-TEST(OperatorDoor, ASocketThatCannotBeMadeIsAnError) {
+TEST(OperatorSocket, ASocketThatCannotBeMadeIsAnError) {
   rig::Stage stage;
-  EXPECT_FALSE(rig::open_door("/no/such/folder/rig.sock", stage));
-  EXPECT_FALSE(rig::open_door(std::string(200, 'x'), stage));
+  EXPECT_FALSE(rig::open_operator_socket("/no/such/folder/rig.sock", stage));
+  EXPECT_FALSE(rig::open_operator_socket(std::string(200, 'x'), stage));
 }
 
 }  // namespace

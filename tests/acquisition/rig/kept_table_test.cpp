@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "at_rig.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 namespace {
 
 using KeptTable = AtRig;
@@ -17,4 +17,4 @@ TEST_F(KeptTable, IsWhereTheMotionEndsAmidWhichTheRigIsKilled) {
 }
 
 }  // namespace
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

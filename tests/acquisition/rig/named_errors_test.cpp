@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scan cannot be made of: shown by the simulated rig, met by vitrine over the real
-// protocols, and told to the operator by name and with what to do.
+// Tests the errors that a scan reports if the simulated rig has a fault. Each error must name the
+// fault and say what the operator should do. The tests use the real protocols.
 #include "at_rig.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 namespace {
 
 using testing::AllOf;
@@ -29,7 +29,7 @@ TEST_F(NamedErrors, ALaserThatDoesNotLightIsNoStripe) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out"})));
 }
 
-// Its pictures with and without laser are equal, and no fault of the camera.
+// The pictures with and without laser are equal, although the camera has no fault.
 TEST_F(NamedErrors, BeforeAnIdealCameraItIsNoStripeEither) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out", "--ideal"})));
 }
@@ -40,7 +40,7 @@ TEST_F(NamedErrors, ALaserThatGoesOutIsALostStripe) {
                     HasSubstr("check that the laser is on"), HasSubstr("start a new scan")));
 }
 
-// On painted bone, where one of them is often weaker.
+// The object is painted bone, on which one of the two stripes is often weaker.
 TEST_F(NamedErrors, TheOtherLaserMakesTwoStripes) {
   EXPECT_THAT(error_of(at_rig(kScan, {"--mesh", VITRINE_SOURCE_DIR "/tests/models/skull.obj",
                                       "--fault", "second-stripe"})),
@@ -64,14 +64,15 @@ TEST_F(NamedErrors, ABarePlateIsAnEmptyTurntable) {
               AllOf(StartsWith("vitrine: empty turntable: "), HasSubstr("put an object on it")));
 }
 
-// Of a rig without a door the terminal asks the operator, who only presses Enter.
+// Without the "rig" member, the program asks the operator on the terminal, who here only presses
+// Enter.
 TEST_F(NamedErrors, ATargetThatWasNotPutThereIsNeverSeen) {
-  const std::string close_door = "sed -zi 's/,\\s*\"rig\": {[^}]*}//' rig.json; ";
-  EXPECT_THAT(error_of(with_object(close_door + "printf '\\ndone\\n' | \"$vitrine\" calibrate "
-                                                "--config rig.json")),
+  const std::string without_rig = "sed -zi 's/,\\s*\"rig\": {[^}]*}//' rig.json; ";
+  EXPECT_THAT(error_of(with_object(without_rig + "printf '\\ndone\\n' | \"$vitrine\" calibrate "
+                                                 "--config rig.json")),
               AllOf(HasSubstr("vitrine: target never seen: "), HasSubstr("light the target"),
                     HasSubstr("place it in view of the camera")));
 }
 
 }  // namespace
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

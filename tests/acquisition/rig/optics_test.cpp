@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/rig/optics.h"
+#include "acquisition/rig_optics/optics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(Optics, ARayIsTheWayBackOfAProjection) {
   const Lens lens = optics_of(1).camera;
-  for (const Pixel at : {Pixel{0, 0}, Pixel{1299, 1029}, Pixel{640.25, 900.5}, Pixel{1299, 0}}) {
+  for (const ImagePoint at :
+       {ImagePoint{0, 0}, ImagePoint{1299, 1029}, ImagePoint{640.25, 900.5}, ImagePoint{1299, 0}}) {
     const auto back = project(lens, lens.at + ray(lens, at) * 321);
     ASSERT_TRUE(back);
     EXPECT_NEAR(back->u, at.u, 1e-6);
@@ -72,10 +73,10 @@ TEST(Optics, AnotherSeedIsAnotherRig) {
   bool some_clockwise = false, all_clockwise = true;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Optics a = optics_of(seed), b = optics_of(seed + 1);
-    const Pixel p = *project(a.camera, {10, 0, 40}), q = *project(b.camera, {10, 0, 40});
+    const ImagePoint p = *project(a.camera, {10, 0, 40}), q = *project(b.camera, {10, 0, 40});
     EXPECT_GT(std::hypot(p.u - q.u, p.v - q.v), 0.5);
-    some_clockwise |= a.clockwise;
-    all_clockwise &= a.clockwise;
+    some_clockwise |= a.is_clockwise;
+    all_clockwise &= a.is_clockwise;
   }
   EXPECT_TRUE(some_clockwise && !all_clockwise);
 }
@@ -84,9 +85,9 @@ TEST(Optics, TheTableTurnsClockwiseOrNotAndBack) {
   Optics optics;
   EXPECT_NEAR(turned(optics, 90, {1, 0, 5}).y, 1, 1e-12);
   EXPECT_NEAR(turned_back(optics, 90, {0, 1, 5}).x, 1, 1e-12);
-  optics.clockwise = true;
+  optics.is_clockwise = true;
   EXPECT_NEAR(turned(optics, 90, {1, 0, 5}).y, -1, 1e-12);
 }
 
 }  // namespace
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

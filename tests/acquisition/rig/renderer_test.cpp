@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/rig/renderer.h"
+#include "acquisition/rig_optics/renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "support/rig_scenes.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 namespace {
 
 const Solid& pebble() {
@@ -25,7 +25,8 @@ TEST(Renderer, TheSameSettingGivesTheSamePictureWhateverCameBefore) {
   one.take({at(30, false)});
   one.take({at(12.5, true)});
   EXPECT_EQ(one.take({at(77.25, true)}), other.take({at(77.25, true)}));
-  EXPECT_EQ(one.take({at(-282.75, true)}), other.take({at(77.25, true)}));  // a turn away
+  EXPECT_EQ(one.take({at(-282.75, true)}),
+            other.take({at(77.25, true)}));  // the angles are one revolution apart
 }
 
 TEST(Renderer, TurnsDoNotShowButAngleLaserAndSeedDo) {
@@ -128,4 +129,4 @@ TEST(Renderer, TheMotorErrsByFiveHundredthsOfADegreeAndRepeats) {
 }
 
 }  // namespace
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

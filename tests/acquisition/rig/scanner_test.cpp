@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera as a GigE Vision client of another make sees it: Aravis itself.
-#include "acquisition/rig/scanner.h"
+// Tests the camera with an independent GigE Vision client: Aravis itself.
+#include "acquisition/rig/rig_scanner.h"
 
 #include <arv.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "acquisition/rig/private_network.h"
 #include "support/rig_scenes.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 namespace {
 
 struct Unref {
@@ -23,7 +23,7 @@ using BufferPtr = std::unique_ptr<ArvBuffer, Unref>;
 
 const std::string kAddress = "127.0.0.1";
 
-// Of its own, before there is a second thread: tests run side by side.
+// Enters a private network before a second thread exists, because tests run side by side.
 class PrivateNetwork final : public ::testing::Environment {
  public:
   void SetUp() override {
@@ -48,7 +48,7 @@ class Client {
     arv_camera_set_region(camera_.get(), region.x, region.y, region.width, region.height, nullptr);
   }
 
-  // Nothing where no frame comes or it is incomplete.
+  // Captures a frame. Returns nullopt if no frame arrives or the frame is incomplete.
   std::optional<Frame> capture() {
     if (!stream_) start();
     if (!stream_) return std::nullopt;
@@ -85,11 +85,11 @@ const Solid& pebble() {
   return solid;
 }
 
-std::unique_ptr<Scanner> started(std::vector<Fault> faults = {}) {
-  auto scanner = Scanner::start({.object = &pebble(),
-                                 .realism = {.seed = 4},
-                                 .faults = std::move(faults),
-                                 .camera_address = kAddress});
+std::unique_ptr<RigScanner> started(std::vector<RigFault> faults = {}) {
+  auto scanner = RigScanner::start({.object = &pebble(),
+                                    .realism = {.seed = 4},
+                                    .faults = std::move(faults),
+                                    .camera_address = kAddress});
   EXPECT_TRUE(scanner) << scanner.error().message;
   return std::move(*scanner);
 }
@@ -172,7 +172,7 @@ TEST(Scanner, AnUnpluggedCameraIsSilentAndComesBackAsItself) {
 }
 
 TEST(Scanner, DriftMovesTheStripeWithTheStepsAndNotBefore) {
-  const std::vector<Fault> drift{{FaultKind::kDrift, 10}};
+  const std::vector<RigFault> drift{{FaultKind::kDrift, 10}};
   EXPECT_EQ(crept(drift, 10), 0);
   EXPECT_NEAR(crept(drift, 110), 100 * kCreepMm, 1e-12);
   const auto scanner = started(drift);
@@ -187,12 +187,12 @@ TEST(Scanner, DriftMovesTheStripeWithTheStepsAndNotBefore) {
 
 TEST(Scanner, ASecondRigNeedsAnAddressOfItsOwn) {
   const auto scanner = started();
-  const auto second = Scanner::start({.camera_address = kAddress});
+  const auto second = RigScanner::start({.camera_address = kAddress});
   ASSERT_FALSE(second);
   EXPECT_NE(second.error().message.find("--address"), std::string::npos);
-  const auto nowhere = Scanner::start({.camera_address = "192.0.2.1"});
+  const auto nowhere = RigScanner::start({.camera_address = "192.0.2.1"});
   EXPECT_FALSE(nowhere);
 }
 
 }  // namespace
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// serve_firmware PATH: a Horus board's firmware behind a terminal or a Unix socket, until that is
-// hung up. Says what laser, motor and table do, one change a line.
+// serve_firmware PATH: serves a Horus board's firmware over a terminal or a Unix socket until the
+// client hangs up. Prints each change of laser, motor and table on one line.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -17,11 +17,11 @@
 #include <filesystem>
 #include <string>
 
-#include "acquisition/rig/firmware.h"
+#include "acquisition/rig_board/firmware.h"
 
 namespace {
 
-using vitrine::rig::Firmware;
+using vitrine::acquisition::rig::Firmware;
 
 int connect_to(const std::string& path) {
   sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}: {}\n", path, std::strerror(errno));
     return 1;
   }
-  const auto firmware = vitrine::rig::horus_firmware({});
+  const auto firmware = vitrine::acquisition::rig::horus_firmware({});
   Report report(path);
   serve(line, *firmware, report);
   fmt::print("{}: hung up\n", path);

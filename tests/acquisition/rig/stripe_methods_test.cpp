@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each way to find the stripe, in a scan at the simulated rig and afterwards in its kept pictures.
+// Tests each stripe method, in a scan with the simulated rig and in a reprocessing of its pictures.
 #include "at_rig.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 namespace {
 
 using StripeMethods = AtRig;
@@ -27,9 +27,10 @@ TEST_F(StripeMethods, AScanReprocessedByAnotherOneIsTheScanByThatOne) {
   EXPECT_FALSE(by_centre == usual || by_blais_rioux == usual || by_blais_rioux == by_centre);
   for (const char* mesh : {"usual.ply", "by_centre.ply", "blais-rioux.ply"}) {
     const auto distance = vitrine_json({"measure", path(mesh), path("truth.ply")});
-    EXPECT_LT(distance["a_to_b"]["rms"].get<double>(), 0.3) << mesh;  // so few steps
+    EXPECT_LT(distance["a_to_b"]["rms"].get<double>(), 0.3)
+        << mesh;  // the limit is wide, because there are so few steps
   }
 }
 
 }  // namespace
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

@@ -6,13 +6,14 @@
 #include <functional>
 #include <vector>
 
-#include "acquisition/rig/solid.h"
+#include "acquisition/rig_optics/solid.h"
 #include "support/rig_scenes.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 namespace {
 
-// Where the middle of the sheet is on a surface at height z, on the table at 0 degrees.
+// Returns the point at height z at which the middle of the sheet meets a surface, with the table at
+// 0 degrees.
 using Cut = std::function<std::optional<Vec3>(const LaserSheet&, double z)>;
 
 struct Deviation {
@@ -20,10 +21,10 @@ struct Deviation {
   int rows = 0;
 };
 
-// Of the centres of the stripe's rows from where the cut is projected to.
+// Returns the distances between the stripe's centres in the rows and the projected cut.
 Deviation deviation(const Optics& optics, const Subject& subject, const Cut& cut) {
   Renderer renderer(optics, &subject, ideal());
-  const Exposure bright{.us = 8000};  // to round less
+  const Exposure bright{.us = 8000};  // reduces rounding
   const Frame lit = renderer.take({at(0, true), bright});
   const Frame dark = renderer.take({at(0, false), bright});
   Deviation found;
@@ -31,7 +32,7 @@ Deviation deviation(const Optics& optics, const Subject& subject, const Cut& cut
     const auto point = cut(optics.laser, z);
     const auto pixel = point ? project(optics.camera, *point) : std::nullopt;
     if (!pixel) continue;
-    // The row's own centre, from the cut a little above and below.
+    // The expected centre in the row, interpolated between the cut at `z` and a little above.
     const int v = static_cast<int>(std::lround(pixel->v));
     const auto beside = project(optics.camera, *cut(optics.laser, z + 0.1));
     const double u = pixel->u + (v - pixel->v) * (beside->u - pixel->u) / (beside->v - pixel->v);
@@ -75,20 +76,20 @@ TEST(Stripe, OnABallItIsWhereTheSheetCutsTheBall) {
         const double y = sheet_y(laser, z);
         const double rest =
             kRadius * kRadius - std::pow(z - middle.z, 2) - std::pow(y - middle.y, 2);
-        if (rest < 200) return std::nullopt;  // near its poles a row sees much of it
+        if (rest < 200) return std::nullopt;  // near the poles, a row sees a long part of the cut
         return Vec3{middle.x + std::sqrt(rest), y, z};
       });
   EXPECT_GT(found.rows, 70);
   EXPECT_LT(found.worst, 0.05);
 }
 
-// Light that the laser adds around where `point` is seen.
+// Returns the light that the laser adds around the pixel that sees `point`.
 double light_at(const Optics& optics, const Subject& subject, const Vec3& point,
                 const Realism& realism = ideal(), Exposure exposure = {}) {
   Renderer renderer(optics, &subject, realism);
   const Frame lit = renderer.take({.setting = at(0, true), .exposure = exposure});
   const Frame dark = renderer.take({.setting = at(0, false), .exposure = exposure});
-  const Pixel pixel = *project(optics.camera, point);
+  const ImagePoint pixel = *project(optics.camera, point);
   double sum = 0;
   const int v = static_cast<int>(std::lround(pixel.v)), u = static_cast<int>(std::lround(pixel.u));
   for (int i = u - 8; i <= u + 8; ++i)
@@ -124,7 +125,7 @@ TEST(Stripe, WhatHidesAPointFromTheLaserLeavesItDark) {
 TEST(Stripe, ASurfaceLitFromBehindIsDark) {
   const Optics optics = optics_of(1);
   const Vec3 point{0, sheet_y(optics.laser, 40), 40};
-  // Its front is turned so far that the laser, not the camera, is behind it.
+  // The front of this wall faces the camera but not the laser.
   EXPECT_EQ(light_at(optics, matt(wall({0, 0, 40}, -100, 80)), point), 0);
 }
 
@@ -134,18 +135,18 @@ TEST(Stripe, GlossAddsLightWhereItMirrorsTheLaserIntoTheCamera) {
   const auto unit = [](const Vec3& v) { return v * (1 / length(v)); };
   const Vec3 half = unit(unit(optics.laser.source - point) + unit(optics.camera.at - point));
   const TriangleMesh mesh = facet(point, half, 60);
-  const Solid glossy(mesh, {.painted = false, .gloss = 0.25});
+  const Solid glossy(mesh, {.is_painted = false, .gloss = 0.25});
   EXPECT_GT(light_at(optics, glossy, point, ideal(), {.us = 1500}),
             1.1 * light_at(optics, matt(mesh), point, ideal(), {.us = 1500}));
 }
 
-// The stripe's light in each row of a wall that faces the camera at `x`.
+// Adds the stripe's light in each row of a wall at `x` that faces the camera.
 void add_rows(const Optics& optics, double x, std::vector<double>& rows) {
-  const Solid solid(wall({x, 0, 40}, -10, 80), {.painted = true, .gloss = 0});
+  const Solid solid(wall({x, 0, 40}, -10, 80), {.is_painted = true, .gloss = 0});
   Renderer renderer(optics, &solid, ideal());
   const Frame lit = renderer.take({at(0, true)}), dark = renderer.take({at(0, false)});
   for (double z = 10; z < 70; z += 0.25) {
-    const Pixel pixel = *project(optics.camera, {x, sheet_y(optics.laser, z), z});
+    const ImagePoint pixel = *project(optics.camera, {x, sheet_y(optics.laser, z), z});
     double sum = 0;
     const int u = static_cast<int>(std::lround(pixel.u));
     for (int i = u - 8; i <= u + 8; ++i) {
@@ -175,7 +176,7 @@ double spread_across(StripeShape shape) {
   realism.look.shape = shape;
   Renderer renderer(optics, &solid, realism);
   const Frame lit = renderer.take({at(0, true)}), dark = renderer.take({at(0, false)});
-  const Pixel pixel = *project(optics.camera, {0, sheet_y(optics.laser, 40), 40});
+  const ImagePoint pixel = *project(optics.camera, {0, sheet_y(optics.laser, 40), 40});
   const int v = static_cast<int>(std::lround(pixel.v));
   const double middle = *centre(lit, dark, v, pixel.u);
   double sum = 0, third = 0;
@@ -193,17 +194,18 @@ TEST(Stripe, OnlyTheSkewedProfileIsSkewed) {
   EXPECT_GT(std::abs(spread_across(StripeShape::kSkewed)), 0.25);
 }
 
-// Pixels of a wall that lies in the sheet's middle, all lit alike: speckle alone tells them apart.
+// The wall lies in the middle of the sheet and has the same light everywhere, so only speckle makes
+// its pixels differ.
 TEST(Stripe, SpeckleHasAtLeastItsContrastAndAGrainOfOneToTwoPixels) {
   class Bright final : public Subject {
    public:
-    std::optional<SurfacePoint> first_hit(const Vec3& from, const Vec3& direction) const override {
+    std::optional<RayHit> first_hit(const Vec3& from, const Vec3& direction) const override {
       const double t = -from.x / direction.x;
-      return SurfacePoint{from + direction * t, {1, 0, 0}, 0.8, 0};
+      return RayHit{from + direction * t, {1, 0, 0}, 0.8, 0};
     }
-    bool shadowed(const SurfacePoint&, const Vec3&) const override { return false; }
+    bool shadowed(const RayHit&, const Vec3&) const override { return false; }
     void near_plane(const Vec3&, double, double,
-                    const std::function<void(Corners)>& visit) const override {
+                    const std::function<void(ConvexPolygon)>& visit) const override {
       const Vec3 corners[] = {{0, -20, 20}, {0, 20, 20}, {0, 20, 60}, {0, -20, 60}};
       visit(corners);
     }
@@ -211,11 +213,11 @@ TEST(Stripe, SpeckleHasAtLeastItsContrastAndAGrainOfOneToTwoPixels) {
     double ambient_light() const override { return 0; }
   };
   Optics optics = optics_of(1);
-  optics.laser.sigma = 1000;  // as bright everywhere
-  const View view = seen_from({}, optics);
+  optics.laser.sigma = 1000;  // the sheet is equally bright everywhere
+  const LocalOptics view = optics_in({}, optics);
   const PixelRays rays(optics.camera);
   const auto light = stripe_light(view, rays, Bright(), {.speckle = 0.33}, 7);
-  const Pixel pixel = *project(optics.camera, {0, 0, 40});
+  const ImagePoint pixel = *project(optics.camera, {0, 0, 40});
   const auto from = [&](int u, int v) {
     return light[static_cast<std::size_t>(static_cast<int>(pixel.v) + v) * kSensorWidth +
                  static_cast<std::size_t>(static_cast<int>(pixel.u) + u)];
@@ -239,4 +241,4 @@ TEST(Stripe, SpeckleHasAtLeastItsContrastAndAGrainOfOneToTwoPixels) {
 }
 
 }  // namespace
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

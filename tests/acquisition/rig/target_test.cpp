@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "acquisition/rig/target.h"
+#include "acquisition/rig_optics/target.h"
 
 #include <gtest/gtest.h>
 
@@ -8,17 +8,17 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "acquisition/rig/renderer.h"
+#include "acquisition/rig_optics/renderer.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
 struct Corner {
   int id = 0;
-  Pixel at;
+  ImagePoint at;
 };
 
-// As OpenCV finds them in a picture, without help.
+// Returns the corners that OpenCV finds in a picture without further help.
 std::vector<Corner> detect(const Frame& frame) {
   const cv::Mat image(frame.height, frame.width, CV_8U,
                       const_cast<std::uint8_t*>(frame.pixels.data()));
@@ -41,7 +41,7 @@ std::vector<Corner> detect(const Frame& frame) {
   return found;
 }
 
-// The sheet's own coordinates of an inner corner: OpenCV counts them from the top left.
+// Returns an inner corner in the coordinates of the sheet. OpenCV counts corners from the top left.
 Vec3 on_sheet(int id) {
   const TargetSpec spec;
   const int column = id % (spec.squares_x - 1), row = id / (spec.squares_x - 1);
@@ -49,7 +49,7 @@ Vec3 on_sheet(int id) {
           (spec.squares_y / 2.0 - row - 1) * spec.square_mm, 0};
 }
 
-Vec3 in_world(const Placement& placement, const Vec3& p) {
+Vec3 in_world(const SubjectFrame& placement, const Vec3& p) {
   return placement.origin + placement.x * p.x + placement.y * p.y + placement.z * p.z;
 }
 
@@ -68,8 +68,8 @@ TEST(Target, OpenCvFindsEveryPoseWithItsCornersWhereTheyAre) {
     EXPECT_GE(corners.size(), 40U) << pose;
     double squares = 0, right = 0, down = 0;
     for (const Corner& corner : corners) {
-      const Pixel truth = *project(
-          camera, in_world(poses[static_cast<std::size_t>(pose)].placement, on_sheet(corner.id)));
+      const ImagePoint truth = *project(
+          camera, in_world(poses[static_cast<std::size_t>(pose)].frame, on_sheet(corner.id)));
       right += corner.at.u - truth.u;
       down += corner.at.v - truth.v;
       squares += std::pow(corner.at.u - truth.u, 2) + std::pow(corner.at.v - truth.v, 2);
@@ -83,12 +83,12 @@ TEST(Target, OpenCvFindsEveryPoseWithItsCornersWhereTheyAre) {
 TEST(Target, ThePoseOnTheTableTurnsWithItAndOthersDoNot) {
   const Optics optics = optics_of(2);
   const auto poses = target_poses(2);
-  const Placement turned = on_table(optics, 30, poses[kHeldPoses].placement);
+  const SubjectFrame turned = on_table(optics, 30, poses[kHeldPoses].frame);
   const auto corners = detect(dark_frame(2, kHeldPoses, 30));
   ASSERT_GE(corners.size(), 30U);
   for (const Corner& corner : corners) {
-    const Pixel truth = *project(optics.camera, in_world(turned, on_sheet(corner.id)));
-    EXPECT_NEAR(corner.at.u, truth.u, 3) << corner.id;  // the motor errs
+    const ImagePoint truth = *project(optics.camera, in_world(turned, on_sheet(corner.id)));
+    EXPECT_NEAR(corner.at.u, truth.u, 3) << corner.id;  // the motor has an error
     EXPECT_NEAR(corner.at.v, truth.v, 3) << corner.id;
   }
   const auto held = detect(dark_frame(2, 0, 0)), still = detect(dark_frame(2, 0, 30));
@@ -105,19 +105,20 @@ TEST(Target, ThePoseOnTheTableIsSeenAtThreeOrMoreOfTwelveAngles) {
   EXPECT_GE(seen, 3);
 }
 
-// Between them the poses have the stripe wherever an object of 80 mm may have it.
+// Together, the poses cover all places at which an object of 80 mm may show the stripe.
 TEST(Target, TheLaserCrossesEveryPoseAndTheyCoverTheVolume) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Optics optics = optics_of(seed);
     double nearest = 1e9, farthest = -1e9, lowest = 1e9, highest = -1e9;
     for (const TargetPose& pose : target_poses(seed)) {
-      if (pose.on_table) continue;
-      const LaserSheet laser = seen_from(pose.placement, optics).laser;
-      const Target target;
+      if (pose.stands_on_table) continue;
+      const LaserSheet laser = optics_in(pose.frame, optics).laser;
+      const PrintedTarget target;
       int lit = 0;
-      for (double y = -55; y <= 55; y += 5) {  // where the sheet cuts the target at that height
+      for (double y = -55; y <= 55;
+           y += 5) {  // the point where the sheet cuts the target at that height
         const double x = (laser.offset - laser.normal.y * y) / laser.normal.x;
-        const Vec3 at = in_world(pose.placement, {x, y, 0});
+        const Vec3 at = in_world(pose.frame, {x, y, 0});
         const auto pixel = project(optics.camera, at);
         if (std::abs(x) > 35 || !pixel || pixel->v < 0 || pixel->v > kSensorHeight - 1) continue;
         ++lit;
@@ -137,8 +138,8 @@ TEST(Target, TheLaserCrossesEveryPoseAndTheyCoverTheVolume) {
 
 TEST(Target, TheStripeOnItIsBrightAndRarelySaturated) {
   Renderer renderer(optics_of(1), nullptr, {.seed = 1});
-  const Frame lit = renderer.take({{.laser = true, .target = 12}});
-  const Frame dark = renderer.take({{.laser = false, .target = 12}});
+  const Frame lit = renderer.take({{.is_laser_on = true, .target = 12}});
+  const Frame dark = renderer.take({{.is_laser_on = false, .target = 12}});
   int bright = 0, saturated = 0;
   for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
     bright += lit.pixels[i] - dark.pixels[i] > 60;
@@ -149,4 +150,4 @@ TEST(Target, TheStripeOnItIsBrightAndRarelySaturated) {
 }
 
 }  // namespace
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

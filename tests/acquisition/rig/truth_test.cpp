@@ -9,7 +9,7 @@
 #include "codec/import/read_mesh.h"
 #include "support/rig_scenes.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 namespace {
 
 std::vector<std::uint8_t> seen_of(const TriangleMesh& mesh, std::uint64_t seed = 1) {
@@ -24,7 +24,7 @@ TEST(Truth, ABallOnTheAxisIsSeenButForItsCaps) {
     if (std::abs(z - 40) < 20) {
       EXPECT_TRUE(seen[v]) << z;
     } else if (z < 12) {
-      EXPECT_FALSE(seen[v]) << z;  // its lower cap faces the table
+      EXPECT_FALSE(seen[v]) << z;  // the sphere's lower cap faces the table
     }
   }
 }
@@ -43,12 +43,13 @@ TEST(Truth, WhatIsInsideIsNotSeen) {
 }
 
 TEST(Truth, WhatTheLaserAloneSeesDoesNotCount) {
-  // A groove: its bottom is lit, but the camera looks along 27 degrees and sees its side only.
+  // The bottom of the groove is lit, but the camera, 27 degrees off, sees only the side of the
+  // groove.
   TriangleMesh open = wall({20, 0, 40}, 0, 4), grooved = open;
   for (const double side : {-2.5, 2.5}) {
     add_quad(grooved, {20, side, 20}, {20, 0, 0}, {0, 0, 40});
   }
-  add_quad(grooved, {19, -10, 10}, {0, 20, 0}, {0, 0, 60});  // nor is it seen from behind
+  add_quad(grooved, {19, -10, 10}, {0, 20, 0}, {0, 0, 60});  // not visible from behind either
   EXPECT_EQ(seen_of(open), std::vector<std::uint8_t>(4, 1));
   const auto seen = seen_of(grooved);
   EXPECT_EQ(std::vector<std::uint8_t>(seen.begin(), seen.begin() + 4),
@@ -67,7 +68,7 @@ TEST(Truth, SeenIsWhatShowsLightInAPicture) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       const Vec3 p = turned(optics, degrees, mesh.positions[v]);
       if (std::abs(dot(optics.laser.normal, p) - optics.laser.offset) > 0.3) continue;
-      const Pixel pixel = *project(optics.camera, p);
+      const ImagePoint pixel = *project(optics.camera, p);
       const int row = static_cast<int>(std::lround(pixel.v)),
                 u = static_cast<int>(std::lround(pixel.u));
       for (int i = u - 1; i <= u + 1; ++i)
@@ -83,7 +84,7 @@ TEST(Truth, SeenIsWhatShowsLightInAPicture) {
   for (std::size_t v = 0; v < seen.size(); ++v)
     differing += seen[v] != lit[v];
   EXPECT_GT(std::count(seen.begin(), seen.end(), 1), 40);
-  EXPECT_LE(differing, 4);  // the poles, and where only one of the faces around a vertex is lit
+  EXPECT_LE(differing, 4);  // the poles, and vertices with only one lit face
 }
 
 TEST(Truth, ThePlyHasTheMeshInMillimetresAndTheFlag) {
@@ -102,4 +103,4 @@ TEST(Truth, ThePlyHasTheMeshInMillimetresAndTheFlag) {
 }
 
 }  // namespace
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

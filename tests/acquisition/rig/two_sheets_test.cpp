@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One sheet behind the other, both lit and seen in the same rows of the picture, from the pictures
-// to the mesh.
+// Tests two sheets, one behind the other, that are both lit and visible in the same picture rows.
+// The tests cover the way from the pictures to the mesh.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 #include "support/rig_calibration.h"
 #include "support/rig_scenes.h"
 
-namespace vitrine::rig::test {
+namespace vitrine::acquisition::rig::test {
 namespace {
 
-constexpr double kFront = 38, kBehind = 16;  // mm before the axis: the ends of the arc do not meet
-constexpr double kHeight = 40;               // mm, of the sheet behind; the other has half
-constexpr double kStep = .5;                 // degrees
+constexpr double kFront = 38, kBehind = 16;  // mm from the axis; the ends of the arc do not meet
+constexpr double kHeight = 40;  // mm: height of the rear sheet; the front sheet has half
+constexpr double kStep = .5;    // degrees
 constexpr int kSteps = 17;
 
 TriangleMesh two_sheets() {
@@ -26,7 +26,8 @@ TriangleMesh two_sheets() {
   return mesh;
 }
 
-// About the middle of the turn, where both sheets face the laser.
+// Returns the profiles at angles around the middle of the revolution, at which both sheets face the
+// laser.
 std::vector<Profile> profiles() {
   const Optics optics = optics_of(1);
   const Calibration calibration = perfect_calibration(1);
@@ -56,7 +57,7 @@ double area_on(const TriangleMesh& mesh, double sheet) {
   return sum;
 }
 
-// The height of a point of the sheet behind from where on the front one does not shade it.
+// Returns the height above which the front sheet does not shadow the rear sheet.
 double shade() {
   const Vec3 source = optics_of(1).laser.source;
   const double slope = (source.z - kHeight / 2) / (source.x - kFront);
@@ -89,4 +90,4 @@ TEST(TwoSheets, AreBothWholeInTheMesh) {
 }
 
 }  // namespace
-}  // namespace vitrine::rig::test
+}  // namespace vitrine::acquisition::rig::test

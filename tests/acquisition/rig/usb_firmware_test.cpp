@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "acquisition/rig/firmware.h"
+#include "acquisition/rig_board/firmware.h"
 
-namespace vitrine::rig {
+namespace vitrine::acquisition::rig {
 namespace {
 
 constexpr FirmwareSettings kSlow = {.degrees_per_second = 10, .steps_per_turn = 3600};
@@ -69,4 +69,4 @@ TEST(Firmware, ThatStallsNeverCompletesUntilItIsRestarted) {
 }
 
 }  // namespace
-}  // namespace vitrine::rig
+}  // namespace vitrine::acquisition::rig

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// usb_host PROGRAM ARGUMENT…: runs a program that sees a simulated USB board and commands it
-// through UsbRig (usb_rig.h): one line a command, one line an answer, on an inherited socket.
+// usb_host PROGRAM ARGUMENT…: runs a program that sees a simulated USB board. The program controls
+// the board through UsbRig (usb_rig.h), which sends commands and receives answers on an inherited
+// socket, each as one line.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -15,13 +16,13 @@
 #include <string>
 #include <thread>
 
-#include "acquisition/rig/usb_board.h"
+#include "acquisition/rig_board/usb_board.h"
 
 namespace {
 
-using vitrine::rig::UsbBoard;
-using vitrine::rig::UsbBoardSettings;
-using vitrine::rig::UsbTransport;
+using vitrine::acquisition::rig::UsbBoard;
+using vitrine::acquisition::rig::UsbBoardSettings;
+using vitrine::acquisition::rig::UsbTransport;
 
 UsbBoardSettings settings_from(std::istream& words) {
   const std::map<std::string, UsbTransport> transports = {{"cdc", UsbTransport::kCdcAcm},
@@ -30,13 +31,13 @@ UsbBoardSettings settings_from(std::istream& words) {
   std::string dialect, transport;
   UsbBoardSettings settings;
   words >> dialect >> transport >> settings.firmware.degrees_per_second;
-  settings.fabscan = dialect == "fabscan";
+  settings.is_fabscan = dialect == "fabscan";
   settings.transport = transports.at(transport);
-  if (settings.fabscan) settings.firmware.steps_per_turn = 3200;
+  if (settings.is_fabscan) settings.firmware.steps_per_turn = 3200;
   return settings;
 }
 
-std::string obey(UsbBoard& board, const std::string& line) {
+std::string obey(vitrine::acquisition::rig::UsbBoard& board, const std::string& line) {
   std::istringstream words(line);
   std::string command;
   words >> command;
@@ -53,7 +54,7 @@ std::string obey(UsbBoard& board, const std::string& line) {
   return "error: unknown command " + command;
 }
 
-void serve(UsbBoard& board, int socket) {
+void serve(vitrine::acquisition::rig::UsbBoard& board, int socket) {
   std::string line;
   char byte = 0;
   while (::read(socket, &byte, 1) == 1) {
@@ -87,10 +88,10 @@ int run(char** words, const std::vector<std::string>& environment, int socket) {
 
 int main(int argc, char** argv) {
   if (argc < 2) return 2;
-  vitrine::rig::enter_testbed(argv);
+  vitrine::acquisition::rig::enter_testbed(argv);
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return 1;
-  UsbBoard board({});
+  vitrine::acquisition::rig::UsbBoard board({});
   std::thread server([&] { serve(board, ends[0]); });
   const int code = run(argv + 1, board.environment(), ends[1]);
   ::shutdown(ends[0], SHUT_RDWR);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands to the simulated USB board that this test was started with (usb_host.cpp).
+// Controls the simulated USB board under which this test runs (usb_host.cpp).
 #pragma once
 
 #include <unistd.h>
@@ -14,7 +14,8 @@ class UsbRig {
  public:
   UsbRig() : socket_(std::atoi(std::getenv("VITRINE_USB_RIG"))) {}
 
-  // `plug DIALECT TRANSPORT [DEGREES A SECOND]`, unplug, stall, babble TEXT, table, laser, motor.
+  // Sends a command and returns the answer. Commands: `plug DIALECT TRANSPORT [DEGREES A SECOND]`,
+  // unplug, stall, babble TEXT, table, laser, motor.
   std::string ask(const std::string& command) const {
     const std::string line = command + '\n';
     if (::write(socket_, line.data(), line.size()) < 0) throw std::runtime_error("no rig");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fake_scanner.h"
+#include "support/product_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 namespace vitrine::test {
 namespace {
 
-// Counts a call; whether it finds its device.
+// Counts a call. Fails if the device is lost.
 Expected<void> call(FakeWorld& world, const std::string& name) {
   int count = 0;
   {
@@ -22,7 +23,8 @@ Expected<void> call(FakeWorld& world, const std::string& name) {
   return {};
 }
 
-// Depends on where and when alone, as that of the simulated rig.
+// Returns noise that is a function of position, laser and pixel only, so that equal captures are
+// equal.
 int noise(double degrees, bool laser, int pixel) {
   std::uint64_t x = static_cast<std::uint64_t>(std::lround(degrees * 1'000)) * 2 + laser;
   x = (x << 24) + static_cast<std::uint64_t>(pixel);
@@ -104,7 +106,7 @@ class FakeBoard : public Board {
     const std::lock_guard lock(world_.mutex);
     return world_.position_known ? std::optional(world_.degrees) : std::nullopt;
   }
-  // Where the table really stands is a test's to know: it must be told the same.
+  // Only the test knows the table's true angle. The caller must declare the same angle.
   Expected<void> set_position(double degrees) override {
     if (auto there = use("set position"); !there) return there;
     const std::lock_guard lock(world_.mutex);

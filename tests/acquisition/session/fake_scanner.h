@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner in memory: a board that turns a fluted column, and a camera that sees the laser on it
-// through a plane map that is known. What goes wrong is told by a function.
+// A scanner in memory. The board turns a fluted column, and the camera sees the laser on the column
+// through a known plane map. A function injects faults.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,14 @@
 
 #include "acquisition/calibration/calibration.h"
 #include "acquisition/session/scanner.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 
 inline constexpr int kFakeWidth = 160, kFakeHeight = 24;  // pixels
 inline constexpr double kFakePixel = 0.25;                // mm
-inline constexpr int kFakeOtherRow = 12;  // from here on kTwoSurfaces shows a surface behind
+inline constexpr int kFakeOtherRow =
+    12;  // first row in which kTwoSurfaces shows a second surface behind the first
 inline constexpr const char* kFakeSerial = "fake-1";
 
 enum class FakeObject {
@@ -29,19 +31,21 @@ enum class FakeObject {
   kOverExposed
 };
 
-// What the devices share. `fault` is asked at each call of a device ("open camera", "capture",
-// "turn", "laser on", …) with how often it has been made, from 1; true: the device is lost.
+// The state that the devices share. `fault` is called at each call of a device ("open camera",
+// "capture", "turn", "laser on", …) with the number of such calls so far. If it returns true, the
+// device is lost.
 struct FakeWorld {
   std::function<bool(const std::string& call, int count)> fault;
-  std::function<void(const std::string& call, int count)> meanwhile;  // another thread's doing
-  // Whether that capture delivers the frame before once more.
+  std::function<void(const std::string& call, int count)>
+      meanwhile;  // called at each call, to simulate another thread
+  // Returns whether that capture repeats the preceding frame.
   std::function<bool(int count)> repeats;
   std::string serial = kFakeSerial;
   FakeObject object = FakeObject::kColumn;
   bool is_ideal = false;          // the camera has no noise
-  bool forgets_position = false;  // a board that has been restarted when it is opened anew
+  bool forgets_position = false;  // the board restarts whenever it is opened again
 
-  mutable std::mutex mutex;  // of what follows
+  mutable std::mutex mutex;  // guards the members below
   std::map<std::string, int> calls;
   double degrees = 0;
   bool position_known = true;
@@ -51,9 +55,10 @@ struct FakeWorld {
 
 Scanner fake_scanner(FakeWorld& world, const std::filesystem::path& calibrations);
 
-double fake_radius(double degrees);  // of the column, mm, where the table shows it at that angle
+// Returns the column's radius, in mm, at that angle of the table.
+double fake_radius(double degrees);
 
-// Of the fake camera, not numbered yet.
+// Returns the calibration of the fake camera, without a number.
 Calibration fake_calibration();
 
 }  // namespace vitrine::test

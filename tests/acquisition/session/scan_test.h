@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan of the fake scanner in a folder of its own.
+// A scan with the fake scanner in a folder of its own.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -7,6 +7,7 @@
 #include "acquisition/calibration/calibration_store.h"
 #include "acquisition/session/scan.h"
 #include "fake_scanner.h"
+#include "support/product_names.h"
 #include "support/temporary_folder.h"
 
 namespace vitrine::test {
@@ -19,7 +20,7 @@ class ScanTest : public testing::Test {
   ScanTest() { EXPECT_TRUE(CalibrationStore(calibrations_).add(fake_calibration())); }
   ~ScanTest() override { expect_dark(world_); }
 
-  // Whatever happened: laser and motor off, devices closed.
+  // Expects laser and motor to be off and the devices to be closed.
   static void expect_dark(const FakeWorld& world) {
     const std::lock_guard lock(world.mutex);
     EXPECT_FALSE(world.laser);
@@ -30,8 +31,7 @@ class ScanTest : public testing::Test {
 
   static ScanRequest request() { return {.steps = kSteps}; }
   static ScanSettings impatient(int tries = 3) {
-    return {
-        .patience = {.tries = tries, .first_tries = 0, .between = std::chrono::milliseconds(0)}};
+    return {.retries = {.tries = tries, .first_tries = 0, .between = std::chrono::milliseconds(0)}};
   }
   Scanner scanner() { return fake_scanner(world_, calibrations_); }
   std::filesystem::path path(const std::string& name = "scan") const {
@@ -50,7 +50,7 @@ class ScanTest : public testing::Test {
     return std::move(*opened);
   }
 
-  // The state that it comes to rest in.
+  // Runs the scan and returns its final state.
   static ScanState run(Scan& scan) {
     const auto started = scan.resume();
     EXPECT_TRUE(started) << started.error().message;
@@ -67,7 +67,7 @@ class ScanTest : public testing::Test {
     add(surface->mesh.positions), add(surface->mesh.faces);
     return text;
   }
-  // Of a scan that nothing disturbs.
+  // Returns the mesh of an undisturbed scan.
   std::string undisturbed() {
     FakeWorld calm;
     auto made = Scan::create(fake_scanner(calm, calibrations_), request(), path("undisturbed"),

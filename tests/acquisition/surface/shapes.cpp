@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
 std::vector<Profile> scan_of(const Shape& shape, const Scanned& how) {
   std::mt19937_64 random(how.seed);
@@ -42,4 +42,4 @@ Shape box(double half) {
   };
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

@@ -9,23 +9,24 @@
 
 #include "acquisition/profile/profile.h"
 
-namespace vitrine {
+namespace vitrine::acquisition {
 
-// rho at an angle about the axis (radians) and a height (mm); nothing where there is no surface.
+// Returns rho, in mm, at an angle about the axis (radians) and a height (mm). Returns nullopt
+// beside the surface.
 using Shape = std::function<std::optional<double>(double angle, double z)>;
 
 struct Scanned {
   int profiles = 90, rows = 60;
-  double top = 30, bottom = 0;  // mm, of the first and last row
-  double noise = 0;             // mm, of rho
+  double top = 30, bottom = 0;  // mm: heights of the first and last row
+  double noise = 0;             // mm: noise of rho
   std::uint64_t seed = 1;
 };
 
 std::vector<Profile> scan_of(const Shape& shape, const Scanned& how = {});
 
 Shape cylinder(double radius);
-// About (0, 0, height).
+// A shape around (0, 0, height).
 Shape ellipsoid(double across, double up, double height);
 Shape box(double half);
 
-}  // namespace vitrine
+}  // namespace vitrine::acquisition

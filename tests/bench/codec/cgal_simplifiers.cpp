@@ -11,6 +11,7 @@
 
 #include "peer_simplifiers.h"
 #include "processor_time.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
@@ -31,7 +32,7 @@ Mesh to_cgal(const TriangleMesh& source) {
   return mesh;
 }
 
-// Of a mesh without gaps in its arrays.
+// Converts a CGAL mesh whose vertices and faces are numbered without gaps.
 TriangleMesh from_cgal(const Mesh& mesh) {
   TriangleMesh out;
   for (const auto vertex : mesh.vertices()) {
@@ -52,7 +53,8 @@ void collapse(Mesh& mesh, double share, const Cost& cost, const Placement& place
   policies::edge_collapse(mesh, stop, CGAL::parameters::get_cost(cost).get_placement(placement));
 }
 
-// `run` simplifies a mesh to a share of its edges, which on a closed mesh is that of its faces.
+// Simplifies with `run`, which gets a mesh and the share of its edges to keep. On a closed mesh,
+// the share of edges equals the share of faces.
 template <class Run>
 Simplified simplify(const TriangleMesh& source, std::size_t faces, const Run& run) {
   Simplified out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "close_up.h"
+#include "support/product_names.h"
 
 #include <algorithm>
 #include <cmath>

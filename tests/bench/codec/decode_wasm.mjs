@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the seconds that the browser's decoder takes for a whole file, once it is warm, and the
-// bytes of memory that it has in the end, the surface handed out:
+// Prints the seconds that the warmed-up browser decoder takes for a whole file, and the bytes of memory
+// that it holds after returning the surface:
 // node decode_wasm.mjs DECODER.wasm FILE.pmesh
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -27,14 +27,14 @@ const draco = await require("draco3d").createDecoderModule({});
 async function decode() {
   const decoder = await Decoder.create(module);
   const info = decoder.open(file.subarray(0, decoder.headerLength(file)));
-  decoder.start(decodeBase(draco, file.subarray(info.baseOffset, info.baseOffset + info.baseLength), info.levels[0]));
+  decoder.start(decodeBase(draco, file.subarray(info.baseOffset, info.baseOffset + info.baseLength), info));
   for (const [chunk, { offset, length }] of info.chunks.entries()) {
     decoder.apply(chunk, file.subarray(offset, offset + length));
   }
   return decoder;
 }
 
-// Of processor time, of the last run: by then the engine has compiled what it will compile.
+// Measures the processor time of the last run, after the engine has compiled the hot code.
 let seconds;
 for (let run = 0; run < 3; ++run) {
   const start = process.cpuUsage();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench-codec: size and rate-distortion, build and decode time against the codec's peers. Exit code
-// 0 only where every ratio keeps its threshold.
+// bench-codec: compares size, rate-distortion, build time and decode time with other libraries. The
+// exit code is 0 only if every ratio is within its threshold.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -8,20 +8,22 @@
 #include <limits>
 
 #include "sections.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
-constexpr std::size_t kSpeedFaces = 300'000;  // speed is judged on the largest model up to here
+constexpr std::size_t kSpeedFaces = 300'000;  // maximum faces of the model that the speed sections
+                                              // use
 constexpr std::size_t kQuickFaces = 50'000;
 
 int run(int argc, char** argv) {
-  bool json = false, quick = false;
+  bool json = false, is_quick = false;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--json") == 0) {
       json = true;
     } else if (std::strcmp(argv[i], "--quick") == 0) {
-      quick = true;
+      is_quick = true;
     } else {
       const bool help = std::strcmp(argv[i], "--help") == 0;
       std::fputs(
@@ -32,14 +34,14 @@ int run(int argc, char** argv) {
     }
   }
   Report report(json);
-  const auto models = read_models(quick ? kQuickFaces : std::numeric_limits<std::size_t>::max());
+  const auto models = read_models(is_quick ? kQuickFaces : std::numeric_limits<std::size_t>::max());
   sizes(report, models);
   rate_distortion(report, models);
-  for (const Model& model : models)
+  for (const BenchmarkModel& model : models)
     regions(report, model);
-  const auto large = std::ranges::find_if(models.rbegin(), models.rend(), [](const Model& model) {
-    return model.clean.faces.size() <= kSpeedFaces;
-  });
+  const auto large = std::ranges::find_if(
+      models.rbegin(), models.rend(),
+      [](const BenchmarkModel& model) { return model.clean.faces.size() <= kSpeedFaces; });
   if (large != models.rend()) {
     simplifiers(report, *large);
     speeds(report, *large);

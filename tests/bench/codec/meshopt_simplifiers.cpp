@@ -6,6 +6,7 @@
 #include "peer_simplifiers.h"
 #include "peers.h"
 #include "processor_time.h"
+#include "support/product_names.h"
 #include "temporary_file.h"
 
 namespace vitrine::bench {

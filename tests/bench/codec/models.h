@@ -5,24 +5,26 @@
 #include <vector>
 
 #include "peers.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
-struct Model {
+struct BenchmarkModel {
   std::string name;
   Bytes file;
   TriangleMesh clean;
 };
 
-// From here on a scan is held to more: its fine levels are finer than what most views ask for.
-inline bool is_large(const Model& model) {
+// Whether the scan is so large that stricter thresholds apply. Most views do not need the fine
+// levels of such a scan.
+inline bool is_large(const BenchmarkModel& model) {
   return model.clean.faces.size() >= 1'000'000;
 }
 
 Bytes read_file(const std::filesystem::path& path);
 
-// The mesh files of the folder VITRINE_MODELS (default: the ones that ship) with at most
+// Returns the mesh files in the folder VITRINE_MODELS (default: tests/models) with at most
 // `max_faces` triangles, smallest first.
-std::vector<Model> read_models(std::size_t max_faces);
+std::vector<BenchmarkModel> read_models(std::size_t max_faces);
 
 }  // namespace vitrine::bench

@@ -6,13 +6,15 @@
 
 #include "peer_simplifiers.h"
 #include "processor_time.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
-  // What the decimater has deleted is known after its end, too.
+  // The mesh must have these attributes itself, so that the marks of deleted faces survive the
+  // destruction of the decimater.
   VertexAttributes(OpenMesh::Attributes::Status);
   EdgeAttributes(OpenMesh::Attributes::Status);
   FaceAttributes(OpenMesh::Attributes::Status);

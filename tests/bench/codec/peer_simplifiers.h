@@ -10,22 +10,23 @@
 namespace vitrine::bench {
 
 struct Simplified {
-  TriangleMesh mesh;   // without colours; about as many faces as were asked for
-  double seconds = 0;  // of processor time, of the simplification alone
+  TriangleMesh mesh;   // without colours; about as many faces as requested
+  double seconds = 0;  // processor time of the simplification alone
 };
 
-// meshoptimizer's edge collapses onto vertices that there are.
+// Simplifies with meshoptimizer's edge collapses onto existing vertices.
 Simplified simplify_by_meshopt(const TriangleMesh& mesh, std::size_t faces);
 
-// meshoptimizer with updated positions, which only the npm package can: one mesh per number of
-// faces.
+// Simplifies with meshoptimizer and updated positions, which only its npm package supports. Returns
+// one mesh per number of faces.
 std::vector<Simplified> simplify_by_meshopt_update(const TriangleMesh& mesh,
                                                    const std::vector<std::size_t>& faces);
 
-// OpenMesh's decimater with ModQuadric alone.
+// Simplifies with OpenMesh's decimater and ModQuadric only.
 Simplified simplify_by_openmesh(const TriangleMesh& mesh, std::size_t faces);
 
-// CGAL's edge collapses, the policies as they are without options. Only where CMake found CGAL.
+// Both functions simplify with CGAL's edge collapses and default policies: the first by [GH97], the
+// second by [LT98]. They are defined only if CMake found CGAL.
 Simplified simplify_by_garland_heckbert(const TriangleMesh& mesh, std::size_t faces);
 Simplified simplify_by_lindstrom_turk(const TriangleMesh& mesh, std::size_t faces);
 

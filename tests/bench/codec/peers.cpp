@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "peers.h"
+#include "support/product_names.h"
 
 #include <draco/attributes/point_attribute.h>
 #include <draco/compression/decode.h>
@@ -41,10 +42,11 @@ std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& source) {
         {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
   }
   add_attribute(*mesh, draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, positions);
-  if (!source.colours.empty()) {
-    add_attribute(*mesh, draco::GeometryAttribute::COLOR, draco::DT_UINT8, source.colours);
+  if (!source.attributes.colours.empty()) {
+    add_attribute(*mesh, draco::GeometryAttribute::COLOR, draco::DT_UINT8,
+                  source.attributes.colours);
   }
-  // As draco_encoder's readers do.
+  // Merges equal values and equal points, as the mesh readers of draco_encoder do.
   mesh->DeduplicateAttributeValues();
   mesh->DeduplicatePointIds();
   return mesh;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The libraries that the codec is measured against, each behind one function.
+// Wraps each library that the codec is compared with in one function.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,25 @@ namespace vitrine::bench {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// What `draco_encoder -qp BITS -cl 10` writes for the mesh; colours travel where the mesh has any.
+// Returns the file that `draco_encoder -qp BITS -cl 10` writes for the mesh, with its colours if
+// any.
 Bytes draco_encode(const TriangleMesh& mesh, int bits);
 
-// Decodes in process; the number of faces.
+// Decodes in this process and returns the number of faces.
 std::uint32_t draco_decode(std::span<const std::uint8_t> bytes);
 
-// The mesh that a Draco file holds, without colours.
+// Returns the mesh of a Draco file, without colours.
 TriangleMesh draco_mesh(std::span<const std::uint8_t> bytes);
 
-// Flat arrays as meshoptimizer takes them, so that its time holds the simplification alone.
+// Flat arrays in meshoptimizer's layout, so that its measured time includes only the
+// simplification.
 struct MeshoptInput {
   std::vector<float> positions;
   std::vector<std::uint32_t> indices;
 };
 MeshoptInput meshopt_input(const TriangleMesh& mesh);
 
-// The indices that one meshopt_simplify to about `faces` triangles leaves.
+// Returns the indices that remain after one meshopt_simplify to about `faces` triangles.
 std::vector<std::uint32_t> meshopt_simplify_to(const MeshoptInput& mesh, std::size_t faces);
 
 }  // namespace vitrine::bench

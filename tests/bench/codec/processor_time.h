@@ -6,7 +6,8 @@
 
 namespace vitrine::bench {
 
-// Seconds of processor time: all that is compared runs on one thread, and machines are shared.
+// Returns the processor time of `work` in seconds. Wall time would depend on other users of the
+// machine. All compared work runs on one thread.
 inline double seconds(const std::function<void()>& work) {
   const std::clock_t start = std::clock();
   work();

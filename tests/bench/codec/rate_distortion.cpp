@@ -5,15 +5,17 @@
 #include "sections.h"
 #include "single_files.h"
 #include "subject.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
-constexpr double kMaxRate = 1.5;  // geometric mean of each model
+constexpr double kMaxRate = 1.5;  // limit of the geometric mean of each model's ratios
 constexpr std::size_t kFewestFaces = 50'000;
-constexpr double kCoarsest = 0.01, kFinest = 0.5;  // of the faces
+constexpr double kCoarsest = 0.01, kFinest = 0.5;  // range of the compared levels, as shares of the
+                                                   // faces
 
-void compare(Report& report, const Model& model, const RateCurve& peer) {
+void compare(Report& report, const BenchmarkModel& model, const RateCurve& peer) {
   const auto all = static_cast<double>(model.clean.faces.size());
   double log_sum = 0;
   int levels = 0;
@@ -35,9 +37,10 @@ void compare(Report& report, const Model& model, const RateCurve& peer) {
 
 }  // namespace
 
-void rate_distortion(Report& report, const std::vector<Model>& models) {
-  for (const Model& model : models) {
-    if (model.clean.faces.size() < kFewestFaces || !model.clean.colours.empty()) continue;
+void rate_distortion(Report& report, const std::vector<BenchmarkModel>& models) {
+  for (const BenchmarkModel& model : models) {
+    if (model.clean.faces.size() < kFewestFaces || !model.clean.attributes.colours.empty())
+      continue;
     compare(report, model, single_files(model.clean));
   }
 }

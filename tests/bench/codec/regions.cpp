@@ -5,24 +5,28 @@
 #include "close_up.h"
 #include "sections.h"
 #include "subject.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
-constexpr double kMaxRegions = 1.03;     // bytes, to a file of one region
-constexpr double kMaxCloseUp = 1.0 / 3;  // bytes, to the whole file of a large scan
+constexpr double kMaxRegions = 1.03;     // maximum size, as a multiple of a file of one region
+constexpr double kMaxCloseUp = 1.0 / 3;  // maximum bytes of a close-up, as a share of a large
+                                         // scan's file
 
 struct CloseUp {
   const char* name;
-  double share;  // of the diagonal, in the height of the viewport
+  double share;  // share of the diagonal that fills the height of the viewport
   double limit;
 };
-// Nearer, a pixel of 600 is little more than what rounding to the lattice moves a vertex by: all in
-// sight is asked for at full resolution, as it is of a scan whose last level alone is within one.
+// Closer views would need full resolution everywhere in sight, because a pixel would hardly exceed
+// the rounding of the lattice. A scan also needs full resolution if only its last level has an
+// error of at most one pixel.
 constexpr CloseUp kCloseUps[] = {{"close_up_quarter", 0.25, kMaxCloseUp},
                                  {"close_up_eighth", 0.125, kNoThreshold}};
 
-// Chunks of levels with several regions that are shorter than 8 KiB or longer than 64 KiB, and all.
+// Considers only chunks of levels with several regions. Returns how many of them are below 8 KiB or
+// above 64 KiB, and how many there are.
 std::pair<double, double> chunks_out_of_band(const Manifest& manifest) {
   double outside = 0, all = 0;
   for (const ChunkInfo& chunk : manifest.chunks) {
@@ -35,7 +39,7 @@ std::pair<double, double> chunks_out_of_band(const Manifest& manifest) {
 
 }  // namespace
 
-void regions(Report& report, const Model& model) {
+void regions(Report& report, const BenchmarkModel& model) {
   const Bytes file = build(model.file, kBits);
   const Manifest manifest = *parse_header(file);
   if (manifest.tree.leaves() < 4) return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report.h"
+#include "support/product_names.h"
 
 #include <cmath>
 #include <cstdio>
@@ -28,8 +29,8 @@ void Report::add(const Figure& f) {
   std::printf("%-44s %12s %12s %8.3f", (f.what + "." + f.key).c_str(), number(f.ours).c_str(),
               number(f.peer).c_str(), f.ratio);
   if (std::isfinite(f.threshold)) {
-    const char* verdict = f.is_within() ? "" : f.at_least ? "  too little" : "  too much";
-    std::printf(" %s %5g%s", f.at_least ? ">=" : "<=", f.threshold, verdict);
+    const char* verdict = f.is_within() ? "" : f.is_minimum ? "  too little" : "  too much";
+    std::printf(" %s %5g%s", f.is_minimum ? ">=" : "<=", f.threshold, verdict);
   }
   std::printf("\n");
   std::fflush(stdout);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table that the benchmark prints, or the JSON object in its place.
+// Prints the benchmark's results as a table or as one JSON object.
 #pragma once
 
 #include <limits>
@@ -12,10 +12,10 @@ inline constexpr double kNoThreshold = std::numeric_limits<double>::infinity();
 
 struct Figure {
   std::string what, key;
-  double ours, peer, ratio, threshold;  // ours and peer: 0 where there is none
-  bool at_least = false;                // the threshold is the least, not the most
+  double ours, peer, ratio, threshold;  // a value that does not exist is 0
+  bool is_minimum = false;              // whether the threshold is a minimum instead of a maximum
 
-  bool is_within() const { return at_least ? ratio >= threshold : ratio <= threshold; }
+  bool is_within() const { return is_minimum ? ratio >= threshold : ratio <= threshold; }
 };
 
 class Report {
@@ -23,7 +23,7 @@ class Report {
   explicit Report(bool json);
 
   void add(const Figure& figure);
-  // Prints what is left to print; true if every ratio keeps its threshold.
+  // Prints the summary or the JSON object. Returns true if every ratio is within its threshold.
   bool finish();
 
  private:

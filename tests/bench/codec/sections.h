@@ -1,39 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the benchmark compares, one section a file.
+// The sections of the benchmark, one source file each.
 #pragma once
 
 #include <vector>
 
 #include "models.h"
 #include "report.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
-inline constexpr int kBits = 12;  // of every comparison
+inline constexpr int kBits = 12;  // lattice bits per coordinate in every comparison
 
-// Bytes of whole files against Draco's.
-void sizes(Report& report, const std::vector<Model>& models);
+// Compares the sizes of whole files with Draco's.
+void sizes(Report& report, const std::vector<BenchmarkModel>& models);
 
-// Bytes of each level between 1 % and 50 % of the faces against the single file of equal error
-// (single_files.h), for the models without colours that are large enough to have such levels.
-void rate_distortion(Report& report, const std::vector<Model>& models);
+// Compares the bytes of each level between 1 % and 50 % of the faces with the single file of equal
+// error (single_files.h). Skips models with colours and models of fewer than 50,000 faces.
+void rate_distortion(Report& report, const std::vector<BenchmarkModel>& models);
 
-// The three other variants of pyramid or midpoint placement and heap or batch order against the
-// default: error at equal faces, at equal bytes, and total bytes.
-void variants(Report& report, const Model& model);
+// Compares the default variant (midpoint placement, batch order) with the three other combinations
+// of placement and order: error at equal faces, error at equal bytes, and total bytes.
+void variants(Report& report, const BenchmarkModel& model);
 
-// A tenth of the faces by other libraries' simplifiers, whose positions are not rounded: against
-// their rms that of our levels as displayed at the same number of faces, lattice included; against
-// their time that of one build, which makes every level and the file.
-void simplifiers(Report& report, const Model& model);
+// Simplifies with other libraries to a tenth of the faces, without rounded positions. Compares
+// their rms error with that of our displayed levels (lattice included) at the same number of faces.
+// Compares their time with that of one build, which makes every level and the file.
+void simplifiers(Report& report, const BenchmarkModel& model);
 
-// What regions cost, and what a close-up needs of the whole; of models with several of them.
-void regions(Report& report, const Model& model);
+// Measures the cost of regions, and the share of the file that a close-up needs. Skips models with
+// fewer than four regions.
+void regions(Report& report, const BenchmarkModel& model);
 
-// Decode time against Draco's, WebAssembly against native.
-void speeds(Report& report, const Model& model);
+// Compares decode time with Draco's, and WebAssembly with native code.
+void speeds(Report& report, const BenchmarkModel& model);
 
-// Build times against meshoptimizer's, and how time and memory grow up to the largest model.
-void builds(Report& report, const Model& model, const Model& largest);
+// Compares build times with meshoptimizer's. Measures how time and memory grow up to the largest
+// model.
+void builds(Report& report, const BenchmarkModel& model, const BenchmarkModel& largest);
 
 }  // namespace vitrine::bench

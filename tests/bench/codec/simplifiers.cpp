@@ -2,28 +2,29 @@
 #include <string>
 #include <utility>
 
-#include "level_errors.h"
+#include "error_curves.h"
 #include "peer_simplifiers.h"
 #include "processor_time.h"
 #include "sections.h"
 #include "single_files.h"
 #include "subject.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
-constexpr std::size_t kShare = 10;  // one face in so many is left
+constexpr std::size_t kShare = 10;  // the simplifiers keep one face in kShare
 
-// The last of three: by then the engine has compiled what it will compile.
+// Returns the last of three runs, after the engine has compiled the hot code.
 Simplified meshopt_update(const TriangleMesh& mesh, std::size_t faces) {
   return std::move(simplify_by_meshopt_update(mesh, {faces, faces, faces}).back());
 }
 
-struct Peer {
+struct PeerSimplifier {
   const char* name;
   Simplified (*simplify)(const TriangleMesh&, std::size_t faces);
 };
-constexpr Peer kPeers[] = {
+constexpr PeerSimplifier kPeers[] = {
     {"meshopt", simplify_by_meshopt},
     {"meshopt_update", meshopt_update},
     {"openmesh", simplify_by_openmesh},
@@ -35,12 +36,12 @@ constexpr Peer kPeers[] = {
 
 }  // namespace
 
-void simplifiers(Report& report, const Model& model) {
+void simplifiers(Report& report, const BenchmarkModel& model) {
   Bytes pmesh;
   const double own_time = seconds([&] { pmesh = build(model.file, kBits); });
-  const auto own_errors = level_errors(pmesh, model.clean).by_faces;
+  const auto own_errors = error_curves(pmesh, model.clean).by_faces;
   const std::string what = "simplify." + model.name;
-  for (const Peer& peer : kPeers) {
+  for (const PeerSimplifier& peer : kPeers) {
     const Simplified theirs = peer.simplify(model.clean, model.clean.faces.size() / kShare);
     const double error = rms_percent(theirs.mesh, model.clean);
     const double own = error_at(own_errors, static_cast<double>(theirs.mesh.faces.size()));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simplifies a mesh with meshoptimizer, positions updated (Debian's version cannot):
+// Simplifies a mesh with meshoptimizer and updated positions, which Debian's version of the library does not support:
 // node simplify.mjs MESH FACES...
-// MESH holds u32 vertices, u32 indices, f32 positions, u32 indices; the meshes go to the standard
-// output in the same form, one per number of faces, each after an f32: seconds of processor time.
+// MESH holds the number of vertices (u32), the number of indices (u32), positions (f32) and indices (u32). For each
+// number of faces, writes the seconds of processor time (f32) and then a mesh in the form of MESH to the standard
+// output.
 import { readFileSync, writeSync } from "node:fs";
 import { MeshoptSimplifier } from "meshoptimizer";
 

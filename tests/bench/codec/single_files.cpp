@@ -5,20 +5,22 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "codec/mesh/surface_distance.h"
+#include "codec/distance/surface_distance.h"
 #include "peer_simplifiers.h"
 #include "peers.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
 constexpr int kTargets = 14;
-constexpr double kFewest = 0.004, kMost = 0.65;  // of the faces
+constexpr double kFewest = 0.004, kMost = 0.65;  // range of targets, as shares of the faces
 constexpr int kFewestBits = 8, kMostBits = 12;
 constexpr std::size_t kSamples = 50'000;
-constexpr std::size_t kFewestPoints = 12;  // of a curve that others are held against
+constexpr std::size_t kFewestPoints = 12;  // minimum number of points of a curve used as reference
 
-// From kFewest to kMost of the faces, evenly on a logarithmic scale.
+// Returns numbers of faces from kFewest to kMost of the original's, evenly spaced on a logarithmic
+// scale.
 std::vector<std::size_t> targets(const TriangleMesh& original) {
   std::vector<std::size_t> out;
   for (int i = 0; i < kTargets; ++i) {
@@ -28,7 +30,7 @@ std::vector<std::size_t> targets(const TriangleMesh& original) {
   return out;
 }
 
-double interpolate(const RatePoint& a, const RatePoint& b, double error) {
+double interpolate(const CodedFile& a, const CodedFile& b, double error) {
   const double t = std::log(error / a.error) / std::log(b.error / a.error);
   return a.bytes * std::pow(b.bytes / a.bytes, t);
 }
@@ -41,9 +43,9 @@ double rms_percent(const TriangleMesh& mesh, const TriangleMesh& original) {
   return distance->rms_percent;
 }
 
-RateCurve::RateCurve(std::vector<RatePoint> points) {
-  std::ranges::sort(points, {}, &RatePoint::bytes);
-  for (const RatePoint& point : points) {
+RateCurve::RateCurve(std::vector<CodedFile> points) {
+  std::ranges::sort(points, {}, &CodedFile::bytes);
+  for (const CodedFile& point : points) {
     if (points_.empty() || point.error < points_.back().error) points_.push_back(point);
   }
   if (points_.size() < kFewestPoints) throw std::runtime_error("the single files are too alike");
@@ -58,7 +60,7 @@ std::optional<double> RateCurve::bytes_at(double error) const {
 }
 
 RateCurve single_files(const TriangleMesh& original) {
-  std::vector<RatePoint> points;
+  std::vector<CodedFile> points;
   for (const Simplified& level : simplify_by_meshopt_update(original, targets(original))) {
     for (int bits = kFewestBits; bits <= kMostBits; ++bits) {
       const Bytes file = draco_encode(level.mesh, bits);

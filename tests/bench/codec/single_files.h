@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The strongest rival of a prefix: for each number of faces one file of its own, simplified by
-// meshoptimizer with updated positions and coded by Draco at the best number of bits.
+// The strongest competitor of the prefixes of a `.pmesh`: a separate file for each number of faces,
+// simplified by meshoptimizer with updated positions and encoded by Draco with the best number of
+// bits.
 #pragma once
 
 #include <optional>
@@ -10,24 +11,25 @@
 
 namespace vitrine::bench {
 
-struct RatePoint {
+struct CodedFile {
   double bytes = 0;
-  double error = 0;  // rms in % of the diagonal, both ways (codec/mesh/surface_distance.h)
+  double error = 0;  // rms in % of the diagonal, both ways (codec/distance/surface_distance.h)
 };
 
-// The error of `mesh` against `original`.
+// Returns the rms distance between `mesh` and `original`, in % of the diagonal.
 double rms_percent(const TriangleMesh& mesh, const TriangleMesh& original);
 
 class RateCurve {
  public:
-  // Keeps the points that no other one beats in both figures; needs twelve of them.
-  explicit RateCurve(std::vector<RatePoint> points);
+  // Keeps the points that no other point beats in both bytes and error. Throws if fewer than twelve
+  // remain.
+  explicit RateCurve(std::vector<CodedFile> points);
 
-  // Bytes at `error`, log-log between two points; none beyond them.
+  // Returns the bytes at `error` by log-log interpolation; nullopt outside the curve.
   std::optional<double> bytes_at(double error) const;
 
  private:
-  std::vector<RatePoint> points_;  // bytes ascend, errors descend
+  std::vector<CodedFile> points_;  // in order of ascending bytes and descending errors
 };
 
 RateCurve single_files(const TriangleMesh& original);

@@ -2,19 +2,22 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "codec/progressive/manifest.h"
+#include "codec/format/manifest.h"
 #include "sections.h"
 #include "subject.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
 constexpr double kMaxSize = 1.27, kMaxMeanSize = 1.03;
-constexpr std::size_t kMeanModels = 5;  // fewer tell about themselves alone
-// Header and base mesh are the first request: at most so much for each million triangles begun.
+constexpr std::size_t kMeanModels = 5;  // minimum number of models for a mean; a mean of fewer says
+                                        // little
+// Maximum bytes of the header and the base mesh, which the first request fetches, per million
+// triangles. A part of a million counts as a million.
 constexpr double kMaxHead = 32 * 1024;
 
-void first_request(Report& report, const Model& model, const Bytes& pmesh) {
+void first_request(Report& report, const BenchmarkModel& model, const Bytes& pmesh) {
   const auto manifest = parse_header(pmesh);
   if (!manifest) throw std::runtime_error(manifest.error().message);
   const auto bytes = static_cast<double>(manifest->head_bytes());
@@ -25,9 +28,9 @@ void first_request(Report& report, const Model& model, const Bytes& pmesh) {
 
 }  // namespace
 
-void sizes(Report& report, const std::vector<Model>& models) {
+void sizes(Report& report, const std::vector<BenchmarkModel>& models) {
   double log_sum = 0;
-  for (const Model& model : models) {
+  for (const BenchmarkModel& model : models) {
     const Bytes pmesh = build(model.file, kBits);
     const auto ours = static_cast<double>(pmesh.size());
     const auto peer = static_cast<double>(draco_encode(model.clean, kBits).size());

@@ -11,28 +11,32 @@
 #include "processor_time.h"
 #include "sections.h"
 #include "subject.h"
+#include "support/product_names.h"
 #include "temporary_file.h"
 
 namespace vitrine::bench {
 namespace {
 
 constexpr int kRounds = 5;
-// On a smaller scan what is paid once weighs more than what is paid for each triangle.
+// Limits apply only from this size: for smaller scans, fixed costs outweigh the cost per triangle.
 constexpr std::size_t kJudgedVertices = 100'000;
-constexpr double kMaxBuild = 20;        // times one meshopt_simplify
-constexpr double kMaxLargeBuild = 15;   // the same, of the largest model, where that is large
-constexpr double kMaxDecode = 8;        // times Draco's decoder
-constexpr double kMaxWasm = 2;          // times the native decoder
-constexpr double kMaxBytes = 60;        // of the WebAssembly decoder's memory per triangle
-constexpr double kMaxBuildBytes = 250;  // of a build's memory per triangle
-constexpr double kMaxGrowth = 1.5;      // of a build's time per triangle, to a model of common size
+constexpr double kMaxBuild = 20;        // maximum build time, as a multiple of one meshopt_simplify
+constexpr double kMaxLargeBuild = 15;   // replaces kMaxBuild for at least a million faces
+constexpr double kMaxDecode = 8;        // maximum decode time, as a multiple of Draco's
+constexpr double kMaxWasm = 2;          // maximum time of the WebAssembly decoder, as a multiple of
+                                        // the native one's
+constexpr double kMaxBytes = 60;        // maximum bytes per triangle in the WebAssembly decoder
+constexpr double kMaxBuildBytes = 250;  // maximum bytes per triangle during a build
+constexpr double kMaxGrowth = 1.5;      // maximum ratio of the largest model's build time per
+                                        // triangle to that of a smaller one
 
-struct Medians {
+struct MedianPair {
   double ours, peer;
 };
 
-// Both take turns, so that a slow moment of the machine falls on both.
-Medians interleave(const std::function<double()>& ours, const std::function<double()>& peer) {
+// Runs the two functions alternately, so that a slow phase of the machine affects both. Returns the
+// median of each.
+MedianPair interleave(const std::function<double()>& ours, const std::function<double()>& peer) {
   std::vector<double> a, b;
   for (int round = 0; round < kRounds; ++round) {
     a.push_back(ours());
@@ -45,7 +49,7 @@ Medians interleave(const std::function<double()>& ours, const std::function<doub
   return {median(a), median(b)};
 }
 
-void compare(Report& report, const std::string& what, const char* key, const Medians& m,
+void compare(Report& report, const std::string& what, const char* key, const MedianPair& m,
              double limit) {
   report.add({what, key, m.ours, m.peer, m.ours / m.peer, limit});
 }
@@ -65,7 +69,7 @@ std::string output_of(const std::string& command) {
   return output;
 }
 
-// What the browser's decoder takes in Node for the same file: processor time and memory.
+// Decodes a file with the browser's decoder in Node. Returns processor time and memory.
 WasmDecode decode_in_wasm(const char* pmesh) {
   WasmDecode took;
   std::istringstream(output_of(std::string("node '" VITRINE_SOURCE_DIR
@@ -76,15 +80,15 @@ WasmDecode decode_in_wasm(const char* pmesh) {
   return took;
 }
 
-Medians build_and_simplify(const Model& model) {
+MedianPair build_and_simplify(const BenchmarkModel& model) {
   const MeshoptInput flat = meshopt_input(model.clean);
   const std::size_t one_percent = model.clean.faces.size() / 100;
   return interleave([&] { return seconds([&] { build(model.file, kBits); }); },
                     [&] { return seconds([&] { meshopt_simplify_to(flat, one_percent); }); });
 }
 
-// The most memory that `vitrine build` holds at a time, with a thread for each core.
-double peak_bytes(const Model& model, const std::string& placement) {
+// Returns the peak memory of `vitrine build` with one thread per core.
+double peak_bytes(const BenchmarkModel& model, const std::string& placement) {
   const TemporaryFile mesh(model.file), pmesh({}, ".pmesh");
   const std::string output = output_of(std::string("'" VITRINE_BIN_DIR "/vitrine' build '") +
                                        mesh.path() + "' -o '" + pmesh.path() + "' --bits " +
@@ -92,11 +96,11 @@ double peak_bytes(const Model& model, const std::string& placement) {
   return nlohmann::json::parse(output)["peak_rss_bytes"].get<double>();
 }
 
-double at_most(double limit, const Model& model) {
+double at_most(double limit, const BenchmarkModel& model) {
   return model.clean.positions.size() >= kJudgedVertices ? limit : kNoThreshold;
 }
 
-void memory_of_builds(Report& report, const Model& model) {
+void memory_of_builds(Report& report, const BenchmarkModel& model) {
   const auto triangles = static_cast<double>(model.clean.faces.size());
   for (const char* placement : {"midpoint", "pyramid"}) {
     const double bytes = peak_bytes(model, placement);
@@ -107,7 +111,7 @@ void memory_of_builds(Report& report, const Model& model) {
 
 }  // namespace
 
-void speeds(Report& report, const Model& model) {
+void speeds(Report& report, const BenchmarkModel& model) {
   const Bytes pmesh = build(model.file, kBits);
   const Bytes draco = draco_encode(model.clean, kBits);
   const auto faces = model.clean.faces.size();
@@ -127,12 +131,12 @@ void speeds(Report& report, const Model& model) {
               at_most(kMaxBytes, model)});
 }
 
-void builds(Report& report, const Model& model, const Model& largest) {
-  const Medians common = build_and_simplify(model);
+void builds(Report& report, const BenchmarkModel& model, const BenchmarkModel& largest) {
+  const MedianPair common = build_and_simplify(model);
   compare(report, "build", "ratio_to_meshopt_simplify", common, at_most(kMaxBuild, model));
   memory_of_builds(report, largest);
   if (&largest == &model) return;
-  const Medians large = build_and_simplify(largest);
+  const MedianPair large = build_and_simplify(largest);
   const std::string what = "build." + largest.name;
   compare(report, what, "ratio_to_meshopt_simplify", large,
           is_large(largest) ? kMaxLargeBuild : kNoThreshold);

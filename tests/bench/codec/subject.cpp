@@ -3,11 +3,12 @@
 
 #include <stdexcept>
 
+#include "codec/build/build_model.h"
+#include "codec/build/open_model.h"
+#include "codec/build/refine.h"
 #include "codec/import/read_mesh.h"
-#include "codec/import/repair.h"
-#include "codec/progressive/refine.h"
-#include "server/jobs/build_model.h"
-#include "server/jobs/open_model.h"
+#include "codec/repair/repair.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {

@@ -8,10 +8,11 @@
 #include <string>
 
 #include "peers.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
-// A file that goes with the object.
+// A file that the destructor removes.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const Bytes& bytes, const std::string& extension = {})

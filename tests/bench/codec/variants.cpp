@@ -4,14 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "level_errors.h"
+#include "error_curves.h"
 #include "sections.h"
 #include "subject.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
-constexpr double kSmallest = 0.01, kLargest = 0.5;  // of the default's faces
+constexpr double kSmallest = 0.01, kLargest = 0.5;  // range of faces or bytes, as shares of the
+                                                    // default's
 constexpr int kSteps = 8;
 
 struct Variant {
@@ -25,13 +27,14 @@ constexpr Variant kVariants[] = {
     {"pyramid-heap", Placement::kPyramid, CollapseOrder::kHeap},
 };
 
-LevelErrors measure_levels(const Model& model, Placement placement, CollapseOrder order) {
-  return level_errors(build(model.file, kBits, placement, order), model.clean);
+ErrorCurves measure_levels(const BenchmarkModel& model, Placement placement, CollapseOrder order) {
+  return error_curves(build(model.file, kBits, placement, order), model.clean);
 }
 
-// Geometric mean of the ratio of errors, evenly over the logarithm of faces or bytes, from where
-// both have a level on.
-double mean_ratio(const std::vector<LevelError>& levels, const std::vector<LevelError>& standard) {
+// Returns the geometric mean of the errors of `levels`, as multiples of the errors of `standard` at
+// equal faces or equal bytes. Takes samples evenly on a logarithmic scale, in the range in which
+// both curves have levels.
+double mean_ratio(const std::vector<ErrorPoint>& levels, const std::vector<ErrorPoint>& standard) {
   const double finest = standard.back().x * kLargest;
   const double coarsest =
       std::max({standard.back().x * kSmallest, standard.front().x, levels.front().x});
@@ -45,10 +48,10 @@ double mean_ratio(const std::vector<LevelError>& levels, const std::vector<Level
 
 }  // namespace
 
-void variants(Report& report, const Model& model) {
-  const LevelErrors standard = measure_levels(model, Placement::kMidpoint, CollapseOrder::kBatch);
+void variants(Report& report, const BenchmarkModel& model) {
+  const ErrorCurves standard = measure_levels(model, Placement::kMidpoint, CollapseOrder::kBatch);
   for (const Variant& variant : kVariants) {
-    const LevelErrors curves = measure_levels(model, variant.placement, variant.order);
+    const ErrorCurves curves = measure_levels(model, variant.placement, variant.order);
     const std::string what = "variant." + model.name + '.' + variant.name;
     const double faces = mean_ratio(curves.by_faces, standard.by_faces);
     const double bytes = mean_ratio(curves.by_bytes, standard.by_bytes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench-huge: builds a mesh of 20 million triangles, made out of a scan that ships, and prints its
-// time and what share of 2 GiB the largest of its processes held at most. Exit code 0 only where
-// that is no more than the whole and the file is proved lossless.
+// bench-huge: builds a mesh of 20 million triangles, made from a scan in the repository, and prints
+// the time and the peak memory of the largest process as a share of 2 GiB. The exit code is 0 only
+// if that share is at most 1 and the file is proven lossless.
 #include <sys/resource.h>
 
 #include <chrono>
@@ -19,8 +19,9 @@
 
 #include "../codec/report.h"
 #include "codec/import/read_mesh.h"
-#include "codec/import/repair.h"
+#include "codec/repair/repair.h"
 #include "subdivided_mesh.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
@@ -33,13 +34,13 @@ constexpr const char* kUsage =
     "usage: bench-huge [--json] [--triangles N] [--mesh OUT.ply]\n"
     "--mesh: only write the mesh\n";
 
-struct Options {
+struct HugeOptions {
   bool json = false;
   std::uint64_t triangles = kTriangles;
   std::string mesh;
 };
 
-bool parse(int argc, char** argv, Options& options) {
+bool parse(int argc, char** argv, HugeOptions& options) {
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
     if (name == "--json") {
@@ -72,7 +73,7 @@ std::uint64_t write_mesh(const fs::path& path, std::uint64_t triangles) {
   return written;
 }
 
-// A folder on the disk of the build that goes with the object.
+// A folder on the disk of the build tree, which the destructor removes.
 class WorkFolder {
  public:
   WorkFolder() {
@@ -92,14 +93,15 @@ void run_vitrine(const std::string& arguments) {
   if (std::system(command.c_str()) != 0) throw std::runtime_error("this failed: " + command);
 }
 
-// Of the largest process that has ended: vitrine itself or its child, which reads and builds.
+// Returns the peak memory of the largest process that has ended: vitrine or its child, which reads
+// and builds.
 double peak_bytes() {
   rusage children{};
   ::getrusage(RUSAGE_CHILDREN, &children);
   return 1024.0 * static_cast<double>(children.ru_maxrss);
 }
 
-int run(const Options& options) {
+int run(const HugeOptions& options) {
   if (!options.mesh.empty()) {
     std::printf("%llu triangles\n",
                 static_cast<unsigned long long>(write_mesh(options.mesh, options.triangles)));
@@ -112,7 +114,7 @@ int run(const Options& options) {
   run_vitrine("build '" + mesh + "' -o '" + pmesh + "'");
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const double bytes = peak_bytes();  // before the proof, which may take more
+  const double bytes = peak_bytes();  // before the verification, which may need more
   run_vitrine("verify '" + pmesh + "' --against '" + mesh + "'");
   Report report(options.json);
   report.add({"huge", "peak_bytes_to_2_GiB", bytes, kMostBytes, bytes / kMostBytes, 1});
@@ -126,7 +128,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace vitrine::bench;
-  Options options;
+  HugeOptions options;
   if (!parse(argc, argv, options)) return std::fputs(kUsage, stderr), 2;
   try {
     return run(options);

@@ -9,16 +9,17 @@
 #include <vector>
 
 #include "codec/core/bounds.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
-constexpr int kWaves = 6;              // each half as long as the one before
-constexpr double kLongest = 1.0 / 24;  // of the diagonal
-constexpr double kHeight = 1.0 / 40;   // of a wave, of its length
+constexpr int kWaves = 6;              // number of waves; each is half as long as the one before
+constexpr double kLongest = 1.0 / 24;  // length of the longest wave, as a share of the diagonal
+constexpr double kHeight = 1.0 / 40;   // height of a wave, as a share of its length
 
-// Unit length, or zero.
+// Returns unit normals; (0, 0, 0) for a vertex without one.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size());
   for (const auto& [a, b, c] : mesh.faces) {
@@ -37,10 +38,10 @@ void put(std::ostream& out, const T& value) {
   out.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Numbers the points of the grids over all faces as the faces come by.
+// Numbers the grid points of all faces, in the order of the faces.
 class Numbering {
  public:
-  // Each edge is cut into `n`.
+  // Cuts each edge into `n` parts.
   Numbering(const TriangleMesh& scan, std::uint32_t n) : scan_(scan), n_(n) {
     corner_.assign(scan.positions.size(), kNone);
     for (const Triangle& face : scan.faces) {
@@ -56,9 +57,10 @@ class Numbering {
 
   std::uint32_t count() const { return count_; }
 
-  // Row `row` begins on the edge from corner 0 to corner 2 and has n - row + 1 points.
+  // Returns the number of point `i` of row `row` in a face. A row begins on the edge from corner 0
+  // to corner 2 and has n - row + 1 points.
   std::uint32_t at(std::uint32_t face, std::uint32_t row, std::uint32_t i) const {
-    const std::uint32_t rest = n_ - row - i;  // towards corner 0
+    const std::uint32_t rest = n_ - row - i;  // steps from the edge opposite to corner 0
     const auto [a, b, c] = scan_.faces[face];
     if (row == 0) return on_edge(a, b, i);
     if (i == 0) return on_edge(a, c, row);
@@ -76,9 +78,11 @@ class Numbering {
 
   const TriangleMesh& scan_;
   std::uint32_t n_, count_ = 0;
-  std::vector<std::uint32_t> corner_;                                      // per vertex of the scan
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edge_;  // its first point
-  std::vector<std::uint32_t> inside_;  // per face: its first point
+  // the numbers of each vertex of the scan, of each edge's first inner point, and of each face's
+  // first inner point
+  std::vector<std::uint32_t> corner_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edge_;
+  std::vector<std::uint32_t> inside_;
 };
 
 class Writer {
@@ -102,7 +106,7 @@ class Writer {
   }
 
  private:
-  // Those that no face before has, in the order of their numbers.
+  // Writes the points of face `f` that no earlier face has, in the order of their numbers.
   void write_vertices(std::uint32_t f) {
     points_.clear();
     for (std::uint32_t row = 0; row <= n_; ++row) {
@@ -111,7 +115,7 @@ class Writer {
         if (number >= written_) points_.push_back({number, point(f, row, i)});
       }
     }
-    std::ranges::sort(points_, {}, &Point::number);
+    std::ranges::sort(points_, {}, &NumberedPoint::number);
     for (const auto& [number, p] : points_) {
       for (const double c : {p.x, p.y, p.z})
         put(out_, static_cast<float>(c));
@@ -151,7 +155,7 @@ class Writer {
     return kHeight * sum;
   }
 
-  struct Point {
+  struct NumberedPoint {
     std::uint32_t number;
     Vec3 place;
   };
@@ -163,7 +167,7 @@ class Writer {
   std::ostream& out_;
   double longest_;
   std::uint32_t written_ = 0;
-  std::vector<Point> points_;  // of the face at hand
+  std::vector<NumberedPoint> points_;  // points of the face that is being written
 };
 
 }  // namespace

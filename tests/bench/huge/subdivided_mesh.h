@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh of any size out of a small scan: each triangle is cut into n^2, and the new vertices are
-// moved along the scan's normals by waves of several lengths, so that the detail is new, too.
+// Makes a mesh of any size from a small scan. Cuts each triangle into n² triangles. Moves the new
+// vertices along the scan's normals by waves of several lengths, so that they add detail.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace vitrine::bench {
 
-// Writes at least `triangles` as a binary PLY. Holds what the scan needs, whatever the number: the
-// triangles are written as they come. Vertices are numbered as the scan's faces meet them. The scan
-// is a manifold (repair.h). Returns the number of triangles.
+// Writes at least `triangles` triangles as a binary PLY and returns their number. Triangles are
+// written one by one, so the memory depends only on the scan. Vertices are numbered in the order in
+// which the scan's faces use them. The scan must be a manifold (repair.h).
 std::uint64_t write_subdivided(const TriangleMesh& scan, std::uint64_t triangles,
                                std::ostream& out);
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/mesh/rigid_alignment.h"
-#include "codec/mesh/surface_sampler.h"
+#include "codec/distance/rigid_alignment.h"
+#include "codec/distance/surface_sampler.h"
 #include "codec/mesh/triangle_bvh.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
@@ -31,14 +32,15 @@ double top(const TriangleMesh& mesh) {
   return std::ranges::max_element(mesh.positions, {}, height)->z;
 }
 
-// How much higher the points are to be, as those closer than `reach` tell: where a surface is steep
-// its closest point says little of that, so each counts with the share of its normal along z.
+// Estimates the vertical offset of the points from the surface; ignores points at least `reach`
+// away. On a steep surface, the closest point says little about height, so each point is weighted
+// by its normal's z component.
 double rise(const std::vector<Vec3>& points, const TriangleBvh& surface, double reach) {
   double sum = 0, weight = 0;
   for (const Vec3& p : points) {
-    const SurfacePoint hit = surface.closest(p, {reach * reach, 0});
+    const ClosestTriangle hit = surface.closest(p, {reach * reach, 0});
     if (hit.squared >= reach * reach) continue;
-    const Corners corners = surface.triangle(hit.triangle);
+    const TrianglePoints corners = surface.triangle(hit.triangle);
     const Vec3 across = normal_of(corners);
     const double size = length(across);
     if (size == 0) continue;
@@ -65,7 +67,7 @@ Distances distances(const TriangleMesh& from, const TriangleMesh& to) {
   double sum = 0;
   std::uint32_t last = 0;
   for (const Vec3& p : points_on(from, kSamples)) {
-    const SurfacePoint hit =
+    const ClosestTriangle hit =
         surface.closest(p, {squared_distance(surface.triangle(last), p), last});
     last = hit.triangle;
     squared.push_back(hit.squared);

@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a scan is from the truth.
+// Measures the distance between a scan and the ground truth.
 #pragma once
 
+#include "support/product_names.h"
 #include "truth.h"
 
 namespace vitrine::bench {
 
 struct Distances {
   double rms = 0, p95 = 0;  // mm
-  double within = 0;        // share that is closer than kCovered
+  double within = 0;        // share of points closer than kCovered
 };
 inline constexpr double kCovered = 0.1;  // mm
 
 struct Accuracy {
-  Distances scan_to_truth;  // all of the scan
-  Distances truth_to_scan;  // of the truth, what is seen
-  double rms() const;       // the larger of the two; so is p95
+  Distances scan_to_truth;  // distances from all points of the scan
+  Distances truth_to_scan;  // distances from the visible part of the truth
+  double rms() const;       // rms() and p95() return the larger value of the two directions
   double p95() const;
 };
 
 Distances distances(const TriangleMesh& from, const TriangleMesh& to);
 Accuracy accuracy(const TriangleMesh& scan, const Truth& truth);
 
-// A scanner does not know how high its table is: the scan, moved along z alone onto the truth.
+// Moves the scan onto the truth along z only, because a scanner does not know the height of its
+// table.
 TriangleMesh at_height_of(const TriangleMesh& scan, const TriangleMesh& truth);
-// Moved rigidly, from where it is.
+// Moves the scan onto the truth by a rigid registration that starts at its present position.
 TriangleMesh aligned(const TriangleMesh& scan, const TriangleMesh& truth);
 
 }  // namespace vitrine::bench

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <random>
 
-#include "acquisition/rig/solid.h"
+#include "acquisition/rig_optics/solid.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
 std::vector<Profile> cast_profiles(const TriangleMesh& object, int steps, double row_mm) {
-  constexpr double kOutside = 200;  // mm, beyond all objects
+  constexpr double kOutside = 200;  // mm from the axis; beyond all objects
   const rig::Solid solid(object);
   const auto height = [](const Vec3& p) { return p.z; };
   const double top = std::ranges::max_element(object.positions, {}, height)->z;

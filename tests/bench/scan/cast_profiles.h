@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scanner without fault: profiles by casting rays from around the axis.
+// A simulated perfect scanner: makes profiles by casting rays from outside towards the axis.
 #pragma once
 
 #include <vector>
 
 #include "acquisition/profile/profile.h"
 #include "codec/mesh/triangle_mesh.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
-// `steps` profiles over one turn, a point every `row_mm` of height where the half plane from the
-// axis meets `object` first as seen from outside.
+// Makes `steps` profiles over one revolution. Each profile has a point every `row_mm` of height:
+// the outermost point of `object` in the profile's half plane.
 std::vector<Profile> cast_profiles(const TriangleMesh& object, int steps, double row_mm);
 
-// Moves every point in rho by normally distributed noise.
+// Adds normally distributed noise to rho of every point. `deviation` is the standard deviation in
+// mm.
 void add_noise(std::vector<Profile>& profiles, double deviation);
 
 }  // namespace vitrine::bench

@@ -10,8 +10,9 @@
 
 #include "rig_run.h"
 #include "sections.h"
-#include "support/http_client.h"
-#include "support/rig_door.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/rig_operator.h"
 
 namespace vitrine::bench {
 namespace {
@@ -20,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
 constexpr int kStops = 10;
-constexpr double kMostMs = 100;  // of the slowest
+constexpr double kMostMs = 100;  // limit for the slowest stop
 
 void wait_until(const std::function<bool()>& condition) {
   const auto end = Clock::now() + std::chrono::minutes(1);
@@ -30,7 +31,7 @@ void wait_until(const std::function<bool()>& condition) {
   }
 }
 
-// An operator's calls to the daemon of a folder.
+// Sends an operator's requests to the daemon that uses a data folder.
 class Operator {
  public:
   explicit Operator(const std::filesystem::path& folder)
@@ -51,11 +52,11 @@ class Operator {
   std::uint16_t port_ = 0;
 };
 
-// Milliseconds from the call, with the laser on and amid a turn of the table, until whoever stands
-// beside the scanner sees that laser and motor are off.
+// Lights the laser, turns the table and sends an emergency stop. Returns the milliseconds until
+// laser and motor are off.
 double stop_once(const Operator& caller, const std::filesystem::path& door) {
   if (caller.post("laser", R"({"on": true})") != 200)
-    throw std::runtime_error("the laser does not go on");
+    throw std::runtime_error("the laser does not light");
   const double before = test::look_at_rig(door).degrees;
   const std::jthread turning([&] { caller.post("jog", R"({"degrees": 360})"); });
   wait_until([&] {

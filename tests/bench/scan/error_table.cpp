@@ -2,17 +2,18 @@
 #include <fmt/format.h>
 
 #include "accuracy.h"
-#include "acquisition/rig/placed_mesh.h"
 #include "acquisition/rig/truth.h"
+#include "acquisition/rig_optics/object_file.h"
 #include "acquisition/session/processing.h"
 #include "sections.h"
 #include "simulated_scanner.h"
+#include "support/product_names.h"
 #include "value_of.h"
 
 namespace vitrine::bench {
 namespace {
 
-// One object under one rig after the other.
+// Reports the errors of scans of one object by several rigs.
 class Table {
  public:
   Table(Report& report, const Object& object, int steps)
@@ -22,7 +23,8 @@ class Table {
                                      rig::optics_of(rig::Realism{}.seed));
   }
 
-  // Half the steps from here on: what changes shows as well.
+  // over_speckle() and over_exposure() use half the steps, which are enough to show the
+  // differences.
   void over_speckle() {
     for (const double speckle : {0.33, 0.5, 0.7, 1.0}) {
       rig::Realism realism;
@@ -40,7 +42,7 @@ class Table {
       add(fmt::format("exposure_{:.0f}_us", us), scanner.scan(steps_ / 2, us), calibration);
   }
 
-  // Of one set of pictures: what is noise in one of them is so in all.
+  // Uses one set of pictures for all rows, so that they share the same noise.
   void over_steps_and_degree() {
     SimulatedScanner scanner(truth_.mesh, {});
     const CalibrationInput target = scanner.picture_target();
@@ -74,9 +76,9 @@ class Table {
 }  // namespace
 
 void error_table(Report& report, const Options& options, const Object& object) {
-  Table table(report, object, options.quick ? 90 : 720);
+  Table table(report, object, options.is_quick ? 90 : 720);
   table.over_steps_and_degree();
-  if (options.quick) return;
+  if (options.is_quick) return;
   table.over_speckle();
   table.over_exposure({1250, 2500, 10'000, 20'000});
 }

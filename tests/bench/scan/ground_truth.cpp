@@ -6,12 +6,14 @@
 #include "codec/import/read_mesh.h"
 #include "rig_run.h"
 #include "sections.h"
+#include "support/product_names.h"
 #include "value_of.h"
 
 namespace vitrine::bench {
 namespace {
 
-constexpr double kRms = 0.05, kP95 = 0.12, kUncovered = 0.03;  // mm, mm, share
+constexpr double kRms = 0.05, kP95 = 0.12, kUncovered = 0.03;  // limits: mm, mm, share of the
+                                                               // points
 constexpr int kSteps = 720, kQuickSteps = 90;
 
 void report_accuracy(Report& report, const std::string& what, const Accuracy& a, bool judged) {
@@ -41,7 +43,7 @@ void report_calibration(Report& report, const std::string& what, const RigFolder
 }  // namespace
 
 void ground_truth(Report& report, const Options& options, const std::vector<Object>& objects) {
-  const int steps = options.quick ? kQuickSteps : kSteps;
+  const int steps = options.is_quick ? kQuickSteps : kSteps;
   for (const Object& object : objects) {
     const RigFolder folder;
     scan_and_publish(folder, object, steps);
@@ -50,10 +52,10 @@ void ground_truth(Report& report, const Options& options, const std::vector<Obje
     const Truth truth = read_truth(folder / "truth.ply");
     const TriangleMesh scan =
         at_height_of(value_of(read_mesh(read_file(folder / "decoded.ply"))).mesh, truth.mesh);
-    report_accuracy(report, what + ".unaligned", accuracy(scan, truth), !options.quick);
+    report_accuracy(report, what + ".unaligned", accuracy(scan, truth), !options.is_quick);
     report_accuracy(report, what + ".aligned", accuracy(aligned(scan, truth.mesh), truth),
-                    !options.quick);
-    if (options.quick) break;
+                    !options.is_quick);
+    if (options.is_quick) break;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench-scan: accuracy, sampling, simplification and speed of scans at the simulated rig. Exit code
-// 0 only where every figure keeps its limit.
+// bench-scan: measures accuracy, sampling, simplification and speed of scans at the simulated rig.
+// The exit code is 0 only if every figure is within its limit.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "sections.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
@@ -24,7 +25,7 @@ constexpr const char* kUsage =
 struct CommandLine {
   bool json = false, help = false;
   Options options;
-  std::set<std::string> only;  // empty: all
+  std::set<std::string> only;  // the sections to run; empty: all
   fs::path bare_camera, emergency_stops;
   int steps = 0;
 
@@ -38,7 +39,7 @@ bool parse(int argc, char** argv, CommandLine& line) {
     if (word == "--json") {
       line.json = true;
     } else if (word == "--quick") {
-      line.options.quick = true;
+      line.options.is_quick = true;
     } else if (word == "--help") {
       line.help = true;
     } else if (word == "--pictures" && left >= 1) {
@@ -66,7 +67,7 @@ bool run_sections(const CommandLine& line) {
   if (line.wants("error_table")) error_table(report, options, head);
   if (line.wants("sampling")) {
     sampling(report, options, head);
-    if (!options.quick) sampling(report, options, skull);
+    if (!options.is_quick) sampling(report, options, skull);
   }
   if (line.wants("simplification")) simplification(report, options, skull, head);
   if (line.wants("speed")) speed(report, options, head);

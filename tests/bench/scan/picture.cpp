@@ -6,6 +6,7 @@
 
 #include "codec/render/png_file.h"
 #include "codec/render/render.h"
+#include "support/product_names.h"
 #include "value_of.h"
 
 namespace vitrine::bench {
@@ -13,7 +14,7 @@ namespace vitrine::bench {
 void show(const Options& options, const std::string& name, const TriangleMesh& mesh) {
   if (options.pictures.empty()) return;
   constexpr std::uint32_t kLongest = 800;  // pixels
-  TriangleMesh upright = mesh;             // a picture's y points upwards
+  TriangleMesh upright = mesh;             // in a picture, y points upwards
   for (Vec3& p : upright.positions)
     p = {p.x, p.z, -p.y};
   const auto png = value_of(write_png(render(upright, frame_around(upright, kLongest))));

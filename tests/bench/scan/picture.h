@@ -5,10 +5,11 @@
 
 #include "codec/mesh/triangle_mesh.h"
 #include "sections.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
-// Writes NAME.png of a mesh whose z points upwards, where pictures are asked for.
+// Writes a picture NAME.png of a mesh whose z axis points upwards, if the options request pictures.
 void show(const Options& options, const std::string& name, const TriangleMesh& mesh);
 
 }  // namespace vitrine::bench

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rig_run.h"
+#include "support/product_names.h"
 
 #include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp and system are POSIX's
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole scan by the programs that ship, at a rig of their own.
+// Runs a whole scan with the installed programs and a separate simulated rig.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 #include "sections.h"
+#include "support/product_names.h"
 #include "truth.h"
 
 namespace vitrine::bench {
 
-// A folder that goes with the object.
+// A folder that the destructor removes.
 class RigFolder {
  public:
   RigFolder();
@@ -24,14 +25,15 @@ class RigFolder {
   std::filesystem::path path_;
 };
 
-// Within double quotes of a shell.
+// Returns the path of the program `name` in double quotes, for the shell.
 std::string program(const char* name);
 
-// Runs a line of sh; throws where it fails.
+// Runs a line of sh. Throws if it fails.
 void shell(const std::string& line);
 
-// Runs `script`, a file of sh, at a rig of 80 mm of `object`; it finds "rig.json" in `folder`, and
-// afterwards "truth.ply" is there. `options` are more words for vitrine-rig.
+// Runs the shell script `script` while a simulated rig holds `object`, scaled to a height of 80 mm.
+// The script runs in `folder` and finds the scanner's configuration there, "rig.json". Also writes
+// the ground truth to "truth.ply" in `folder`. `options` are further arguments of vitrine-rig.
 void at_rig(const RigFolder& folder, const Object& object, int steps, const std::string& script,
             const std::string& options = "");
 

@@ -6,22 +6,23 @@
 #include <utility>
 
 #include "accuracy.h"
-#include "acquisition/rig/placed_mesh.h"
+#include "acquisition/rig_optics/object_file.h"
 #include "acquisition/surface/surface_of.h"
 #include "cast_profiles.h"
 #include "codec/export/write_mesh.h"
 #include "picture.h"
 #include "sections.h"
+#include "support/product_names.h"
 #include "value_of.h"
 
 namespace vitrine::bench {
 namespace {
 
 constexpr int kLengths[] = {5, 10, 15, 20};
-constexpr double kRow = 0.1;     // mm, from point to point of a profile at the rig
-constexpr double kNoise = 0.03;  // mm, of a stripe point at the rig
+constexpr double kRow = 0.1;     // mm between the points of a profile at the rig
+constexpr double kNoise = 0.03;  // mm, standard deviation of a stripe point at the rig
 
-// The paper's Table 1 as far as its ratios are known, of vertices after over before, at L = 5.
+// Ratios of vertices after sampling to before at L = 5, from the known part of [WLL] table 1.
 constexpr double kPaperSkull = 0.2046, kPaperHead = 0.2012;
 
 struct Sampled {
@@ -37,7 +38,7 @@ class Sampler {
   Sampled by(SamplingMethod method, int length) const {
     SurfaceOptions options;
     options.noise = noise_;
-    options.sampling = {method, length};  // as a scan does: what is sampled is smooth
+    options.sampling = {method, length};  // as in a scan, the points are smoothed first
     auto surface = value_of(surface_of(profiles_, options));
     return {std::move(surface.mesh), surface.report.sampled};
   }
@@ -62,7 +63,8 @@ void table_row(Report& report, const std::string& what, const Sampled& all, cons
   add("vrml_kb_ratio_to_all", kilobytes(few.mesh), kilobytes(all.mesh));
 }
 
-// Both ways: what the mesh shows of the object, and what of all that was measured it still shows.
+// Returns the larger of two rms distances: from the mesh to the object, and from `all` (the mesh of
+// all measured points) to the mesh.
 double error_of(const TriangleMesh& mesh, const TriangleMesh& object, const TriangleMesh& all) {
   return std::max(distances(mesh, object).rms, distances(all, mesh).rms);
 }
@@ -71,8 +73,9 @@ double vertices_of(const Sampled& sampled) {
   return static_cast<double>(sampled.mesh.positions.size());
 }
 
-// What adaptive sampling errs by at so many vertices: between the two lengths that give fewer and
-// more, each error taken as a power of the count.
+// Returns the error of adaptive sampling at the given number of vertices. Tries sampling lengths
+// from `length` downwards, and interpolates on a log-log scale between the lengths that give fewer
+// and more vertices.
 template <class Error>
 double error_at(double vertices, int length, const Sampler& sampler, const Error& error) {
   Sampled few = sampler.by(SamplingMethod::kAdaptive, length);
@@ -88,7 +91,8 @@ double error_at(double vertices, int length, const Sampler& sampler, const Error
   return error(few.mesh);
 }
 
-// `noisy` against `clean` profiles of one object.
+// Compares adaptive sampling with that of [WLL] on profiles of one object. `noisy` tells whether
+// the profiles have noise.
 void judge_errors(Report& report, const std::string& what, const Sampler& sampler,
                   const TriangleMesh& object, const TriangleMesh& all, bool noisy) {
   const auto error = [&](const TriangleMesh& mesh) { return error_of(mesh, object, all); };
@@ -135,7 +139,7 @@ void table_one(Report& report, const Options& options, const Sampler& sampler,
 
 void sampling(Report& report, const Options& options, const Object& object) {
   const TriangleMesh mesh = value_of(rig::load({.file = object.file}));
-  const int steps = options.quick ? 90 : 720;
+  const int steps = options.is_quick ? 90 : 720;
   std::vector<Profile> profiles = cast_profiles(mesh, steps, kRow);
   const Sampler clean(profiles, 0);
   add_noise(profiles, kNoise);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the benchmark measures, one section a file.
+// The sections of the benchmark, one file each.
 #pragma once
 
 #include <filesystem>
@@ -11,52 +11,57 @@
 namespace vitrine::bench {
 
 struct Options {
-  bool quick = false;
-  std::filesystem::path pictures;  // folder; empty: none
+  bool is_quick = false;
+  std::filesystem::path pictures;  // folder for pictures; empty: no pictures
 };
 
-// A mesh file that stands upright with its y axis.
+// A mesh file whose y axis points upwards.
 struct Object {
   std::string name;
   std::filesystem::path file;
 };
 
-// Of heads, busts and the like in the folder VITRINE_MODELS, default the two that ship.
+// Returns the heads, busts and similar objects in the folder VITRINE_MODELS; by default, the two in
+// tests/models.
 std::vector<Object> objects();
-// The one of that name or, where there is none, the first.
+// Returns the object with that name, or the first object if there is none.
 const Object& object_of(const std::vector<Object>& all, const std::string& name);
 
-// A figure with a limit of its own instead of a peer.
+// Reports a figure that has a fixed limit instead of a peer.
 inline void judge(Report& report, const std::string& what, const std::string& key, double value,
                   double limit = kNoThreshold) {
   report.add({what, key, 0, 0, value, limit});
 }
 
-// Scans by the programs themselves, over GigE Vision and USB: the published model, decoded, against
-// what stood on the table.
+// Scans with the installed programs over GigE Vision and USB. Compares the published, decoded model
+// with the object on the table.
 void ground_truth(Report& report, const Options& options, const std::vector<Object>& objects);
 
-// The same figures of one object over speckle, exposure, steps and the polynomial's degree.
+// Reports the accuracy for one object at different speckle, exposure, steps and degrees of the
+// polynomial.
 void error_table(Report& report, const Options& options, const Object& object);
 
-// The paper's Table 1, and what sampling costs in accuracy at equal numbers of vertices.
+// Repeats [WLL] table 1, and compares the accuracy of sampling methods at equal numbers of
+// vertices.
 void sampling(Report& report, const Options& options, const Object& object);
 
-// The paper's Table 2, of a scanned mesh.
+// Repeats [WLL] table 2 with a scanned mesh.
 void simplification(Report& report, const Options& options, const Object& skull,
                     const Object& head);
 
-// Frames, points and whole scans a second, and how soon an emergency stop is obeyed.
+// Measures frames, points and whole scans per second, and the delay of an emergency stop.
 void speed(Report& report, const Options& options, const Object& object);
 
-// How long a daemon takes to switch laser and motor off after the REST call, at worst.
+// Measures the longest time from a REST request for an emergency stop until the daemon has switched
+// off laser and motor.
 void emergency_stop(Report& report, const Object& object);
 
-// The calls of emergency_stop(), to the daemon of `folder`; prints the milliseconds of each.
+// Sends the requests of emergency_stop() to the daemon of `folder`, and prints for each the
+// milliseconds until laser and motor were off.
 int run_emergency_stops(const std::filesystem::path& folder);
 
-// The bare camera of speed(): turns and takes as many pictures as a scan of `steps`, and does
-// nothing with them; prints the seconds.
+// Measures the baseline of speed(): turns the table and takes as many pictures as a scan of
+// `steps`, without processing. Prints the seconds.
 int run_bare_camera(const std::filesystem::path& config, int steps);
 
 }  // namespace vitrine::bench

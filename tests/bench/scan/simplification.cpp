@@ -8,37 +8,39 @@
 
 #include "../codec/peers.h"
 #include "accuracy.h"
-#include "acquisition/rig/placed_mesh.h"
+#include "acquisition/rig_optics/object_file.h"
 #include "acquisition/session/processing.h"
 #include "codec/base/base_encoder.h"
+#include "codec/build/build_model.h"
+#include "codec/build/open_model.h"
+#include "codec/build/refine.h"
+#include "codec/distance/surface_distance.h"
 #include "codec/export/write_mesh.h"
-#include "codec/mesh/surface_distance.h"
-#include "codec/progressive/refine.h"
 #include "picture.h"
 #include "sections.h"
-#include "server/jobs/build_model.h"
-#include "server/jobs/open_model.h"
 #include "simulated_scanner.h"
+#include "support/product_names.h"
 #include "value_of.h"
 
 namespace vitrine::bench {
 namespace {
 
-using Polygons = std::array<std::uint64_t, 4>;  // a, b, c, d of the paper's Table 2, finest first
+using Polygons = std::array<std::uint64_t, 4>;  // a, b, c, d of [WLL] table 2, finest first
 constexpr Polygons kPortrait = {57'168, 31'951, 22'729, 15'964};
 constexpr Polygons kSkull = {100'182, 55'796, 39'934, 28'526};
 
-// The paper's, as shares of its finest level in VRML: what leads from b to a, its base with all
-// layers, and all levels as files of their own.
+// [WLL] table 2, as shares of the finest level in VRML: the layer from b to a, the base with all
+// layers, and all levels as separate files.
 constexpr double kPaperLayer = 0.81, kPaperLayered = 1.26, kPaperFiles = 1.96;
 
 struct State {
   TriangleMesh mesh;
   LatticeMesh lattice;
-  double bytes = 0;  // of the stream up to here
+  double bytes = 0;  // length of the stream that leads to this state
 };
 
-// Between two levels in proportion: a stream's chunks are larger than the steps of the table.
+// Returns the bytes that a model needs up to a given number of polygons. Interpolates between two
+// levels, because chunks are larger than the steps of the table.
 double bytes_of(const Manifest& manifest, double polygons) {
   std::size_t above = 1;
   while (above + 1 < manifest.levels.size() && manifest.levels[above].faces < polygons)
@@ -63,7 +65,7 @@ double vrml_bytes(const TriangleMesh& mesh) {
   return static_cast<double>(value_of(write_mesh(mesh, MeshFormat::kVrml, "mm")).size());
 }
 
-// As a mesh alone, in the encoding of our base meshes.
+// Returns the bytes of the mesh as a single file, in the encoding of base meshes.
 double alone(const LatticeMesh& mesh) {
   return static_cast<double>(value_of(encode_base({mesh.positions, mesh.faces, {}})).bytes.size());
 }
@@ -75,7 +77,8 @@ TriangleMesh scanned(const Object& object, int steps) {
   return value_of(mesh_of(profiles, calibration, {})).mesh;
 }
 
-// The finest level of the paper as a model of its own: base and layers beside that level alone.
+// Builds a model of [WLL]'s finest level, and compares the bytes of base and layers with those of
+// that level alone.
 void layers_over_finest(Report& report, const std::string& what, const Polygons& polygons,
                         const State& finest) {
   const auto file = value_of(write_mesh(finest.mesh, MeshFormat::kPly, "mm"));
@@ -93,7 +96,7 @@ void layers_over_finest(Report& report, const std::string& what, const Polygons&
 
 void table_two(Report& report, const Options& options, const Object& object,
                const Polygons& polygons) {
-  const TriangleMesh scan = scanned(object, options.quick ? 360 : 720);
+  const TriangleMesh scan = scanned(object, options.is_quick ? 360 : 720);
   const auto file = value_of(write_mesh(scan, MeshFormat::kPly, "mm"));
   const Bytes pmesh = value_of(build_model(file, {}, {})).file;
   const std::string name = "table_2." + object.name;
@@ -123,7 +126,7 @@ void table_two(Report& report, const Options& options, const Object& object,
 void simplification(Report& report, const Options& options, const Object& skull,
                     const Object& head) {
   table_two(report, options, head, kPortrait);
-  if (!options.quick) table_two(report, options, skull, kSkull);
+  if (!options.is_quick) table_two(report, options, skull, kSkull);
 }
 
 }  // namespace vitrine::bench

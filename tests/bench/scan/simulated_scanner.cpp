@@ -2,8 +2,9 @@
 #include "simulated_scanner.h"
 
 #include "acquisition/profile/profile_of.h"
-#include "acquisition/rig/target.h"
+#include "acquisition/rig_optics/target.h"
 #include "acquisition/session/target_pictures.h"
+#include "support/product_names.h"
 #include "value_of.h"
 
 namespace vitrine::bench {
@@ -50,7 +51,7 @@ class RigBoard final : public Board {
   rig::Stage& stage_;
 };
 
-Target target() {
+CharucoTarget target() {
   const rig::TargetSpec spec;
   return {spec.squares_x, spec.squares_y, spec.square_mm, spec.marker_mm, rig::kTargetDictionary};
 }
@@ -81,7 +82,7 @@ CalibrationInput SimulatedScanner::picture_target() {
     return stage_.place_target(number), true;
   };
   EmergencyStop stop;
-  auto input = value_of(vitrine::picture_target(scanner, target(), place, stop));
+  auto input = value_of(vitrine::acquisition::picture_target(scanner, target(), place, stop));
   stage_.place_object();
   return input;
 }
@@ -89,7 +90,7 @@ CalibrationInput SimulatedScanner::picture_target() {
 FramePair SimulatedScanner::pictures(double angle, double exposure_us) {
   const auto take = [&](bool laser) {
     return renderer_.take(
-        {.setting = {.degrees = angle, .laser = laser}, .exposure = {.us = exposure_us}});
+        {.setting = {.degrees = angle, .is_laser_on = laser}, .exposure = {.us = exposure_us}});
   };
   Frame dark = take(false);
   return {std::move(dark), take(true)};

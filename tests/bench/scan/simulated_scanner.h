@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated rig inside this process: the same pictures as by GigE Vision and USB, without
-// either, and what lies between pictures and mesh in reach.
+// Runs the simulated rig inside this process: makes the same pictures as over GigE Vision and USB,
+// and gives access to all intermediate results.
 #pragma once
 
 #include <memory>
@@ -9,26 +9,27 @@
 #include "acquisition/calibration/calibrate.h"
 #include "acquisition/profile/profile.h"
 #include "acquisition/profile/stripe.h"
-#include "acquisition/rig/renderer.h"
-#include "acquisition/rig/solid.h"
-#include "acquisition/rig/stage.h"
+#include "acquisition/rig_optics/renderer.h"
+#include "acquisition/rig_optics/solid.h"
+#include "acquisition/rig_optics/stage.h"
 #include "acquisition/session/live_scanner.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
 struct StripeAt {
-  double angle = 0;  // degrees, as the board was told
+  double angle = 0;  // degrees, as commanded to the board
   std::vector<StripePoint> points;
 };
 
-// Of calibrated points, a profile an angle; every `every`-th.
+// Makes one profile of calibrated points for each angle; uses only every `every`-th angle.
 std::vector<Profile> profiles_of(const std::vector<StripeAt>& stripes,
                                  const Calibration& calibration, int every = 1);
 
-// One at a time; faults throw.
+// A simulated rig with one object on its table. Not for concurrent use. Throws on errors.
 class SimulatedScanner {
  public:
-  // `object` in mm, on the table.
+  // Puts `object`, in mm, on the table.
   SimulatedScanner(const TriangleMesh& object, const rig::Realism& realism);
 
   CalibrationInput picture_target();

@@ -5,21 +5,23 @@
 #include <fstream>
 
 #include "../codec/processor_time.h"
-#include "acquisition/rig/placed_mesh.h"
+#include "acquisition/rig_optics/object_file.h"
 #include "acquisition/session/open_scanner.h"
 #include "acquisition/surface/surface_of.h"
 #include "cast_profiles.h"
 #include "rig_run.h"
 #include "sections.h"
 #include "simulated_scanner.h"
+#include "support/product_names.h"
 #include "value_of.h"
 
 namespace vitrine::bench {
 namespace {
 
-constexpr double kExtraction = 3, kSurface = 5;  // ms, s
-constexpr double kStripeNoise = 0.03;            // mm
-// A scan works on one pair of pictures while the camera takes the next, and ends with its mesh.
+constexpr double kExtraction = 3, kSurface = 5;  // limits: ms for a stripe, s for a surface
+constexpr double kStripeNoise = 0.03;            // mm, standard deviation
+// Limit of a scan's time relative to the camera's alone: a scan processes one pair of pictures
+// while the camera takes the next, and then makes the mesh.
 constexpr double kOverCamera = 1.25;
 
 double median(std::vector<double> values) {
@@ -57,9 +59,10 @@ double number_in(const std::filesystem::path& file) {
   return value;
 }
 
-// Both at one rig, so that its pictures cost the same.
+// Compares the time of a scan with that of the camera alone. Both use the same rig, so that
+// rendering costs the same.
 void whole_scan(Report& report, const Options& options, const Object& object) {
-  const int steps = options.quick ? 45 : 720;
+  const int steps = options.is_quick ? 45 : 720;
   const std::string count = std::to_string(steps);
   const RigFolder folder;
   at_rig(folder, object, steps,
@@ -70,7 +73,7 @@ void whole_scan(Report& report, const Options& options, const Object& object) {
   const double scan = number_in(folder / "ended") - number_in(folder / "begun");
   const double bare = number_in(folder / "bare");
   report.add({"speed.scan_of_" + count + "_steps", "ratio_to_camera", scan, bare, scan / bare,
-              options.quick ? kNoThreshold : kOverCamera});
+              options.is_quick ? kNoThreshold : kOverCamera});
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `vitrine-rig --write-truth` says of the object on its table.
+// Reads the ground truth that `vitrine-rig --write-truth` writes.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 namespace vitrine::bench {
 
 struct Truth {
-  TriangleMesh mesh;               // mm, the table's frame
-  std::vector<std::uint8_t> seen;  // a vertex: by laser and camera
+  TriangleMesh mesh;               // mm, in the table's coordinates
+  std::vector<std::uint8_t> seen;  // one flag per vertex: whether laser and camera see it
 };
 
-// Throws where it is not such a file.
+// Reads a ground-truth file. Throws if it is not a mesh or has no `seen` flags.
 Truth read_truth(const std::filesystem::path& path);
 
-// The faces all of whose vertices are seen.
+// Returns the faces whose vertices are all seen.
 TriangleMesh seen_part(const Truth& truth);
 
 }  // namespace vitrine::bench

@@ -7,7 +7,7 @@
 
 namespace vitrine::bench {
 
-// Faults throw: a benchmark of something broken has no figures.
+// Returns the value; throws the error, because a benchmark has no figures if a part of it fails.
 template <class T>
 T value_of(Expected<T> result) {
   if (!result) throw std::runtime_error(result.error().message);

@@ -4,15 +4,16 @@
 #include <memory>
 #include <optional>
 
-#include "../../server/app/served_folder.h"
+#include "detail_progress.h"
 #include "medians.h"
 #include "scans.h"
 #include "sections.h"
 #include "shaped_link.h"
 #include "side_view.h"
 #include "stream_peer.h"
-#include "support/daemon.h"
-#include "wish_course.h"
+#include "support/process/daemon.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::bench {
 namespace {
@@ -34,8 +35,8 @@ class Adaptation {
     link_.shape(rate);
     const auto peer = connect();
     const double start = StreamPeer::now();
-    peer->say(WantMessage{.wish = WantSeconds{kSeconds}});
-    WishCourse course(manifest_);
+    peer->say(WantMessage{.target = WantSeconds{kSeconds}});
+    DetailProgress course(manifest_);
     while (!course.is_done())
       course.take(peer->next());
     const double took = course.done() - start, bytes = static_cast<double>(course.received());
@@ -43,23 +44,24 @@ class Adaptation {
     const double off = is_whole && took < kSeconds ? 0 : std::abs(took / kSeconds - 1);
     const double could = rate * (is_whole ? took : kSeconds);
     figures_.add({name("seconds", rate), "off_target", took, kSeconds, off, 0.15});
-    figures_.add(
-        {name("seconds", rate), "link_used", bytes, could, bytes / could, 0.85, /*at_least=*/true});
+    figures_.add({name("seconds", rate), "link_used", bytes, could, bytes / could, 0.85,
+                  /*is_minimum=*/true});
     const double promised =
-        course.promises().empty() ? kNever : course.promises().back().promise.level;
+        course.forecasts().empty() ? kNever : course.forecasts().back().promise.level;
     figures_.add({name("seconds", rate), "levels_short", static_cast<double>(course.level()),
                   promised, std::max(0.0, promised - course.level()), 0});
     first_guess(course, rate);
   }
 
-  // How late promises after the drop come, and how they are kept.
+  // Measures how soon the server's forecasts reflect a drop of the link's rate, and whether the
+  // forecasts come true.
   void drop(double from, double to) {
     link_.shape(from);
     const auto peer = connect();
     const double start = StreamPeer::now();
     double dropped = kNever;
-    peer->say(WantMessage{.wish = WantSeconds{4}});
-    WishCourse course(manifest_);
+    peer->say(WantMessage{.target = WantSeconds{4}});
+    DetailProgress course(manifest_);
     while (!course.is_done()) {
       const auto event = peer->next();
       course.take(event);
@@ -69,9 +71,10 @@ class Adaptation {
       dropped = StreamPeer::now();
     }
     double noticed = kNever;
-    HeardPromise worst{.promise = {}, .at = 0};  // never kept: that none comes is a fault
+    ReceivedForecast worst{.promise = {}, .at = 0};  // counts as never kept, so a missing forecast
+                                                     // fails
     bool any = false;
-    for (const HeardPromise& heard : course.promises()) {
+    for (const ReceivedForecast& heard : course.forecasts()) {
       if (heard.at < dropped || heard.promise.bytes_per_second >= 2 * to) continue;
       noticed = std::min(noticed, heard.at);
       if (heard.promise.seconds < kShortest) continue;
@@ -85,22 +88,23 @@ class Adaptation {
                   any ? worst.ratio() : kNever, 1.5});
   }
 
-  // From a new view to its first slice. The answer to a model that is not there
-  // marks where it begins: what follows was chosen after it.
+  // Measures the time from a request for a new view to the first slice for that view. Right after
+  // the request, the client opens a model that does not exist. Slices that arrive after the
+  // response to this second request were chosen for the new view.
   void view_change(double rate) {
     link_.shape(rate);
     const auto peer = connect();
     const double trip = round_trip(*peer);
     const std::string what = name(late_ ? "view_change_late" : "view_change", rate);
-    peer->say(WantMessage{.turn = 1, .wish = Want(side_view(manifest_, 1))});
+    peer->say(WantMessage{.turn = 1, .target = Want(side_view(manifest_, 1))});
     const double start = StreamPeer::now(), enough = static_cast<double>(manifest_.file_bytes) / 4;
     for (double bytes = 0; StreamPeer::now() - start < 1.2 && bytes < enough;) {
       const auto event = peer->next();
       bytes += static_cast<double>(event.bytes);
       if (!event.message || !std::holds_alternative<DoneMessage>(*event.message)) continue;
-      return figures_.add({what, "seconds_queued", 0, 0, kNever, 0.15});  // too small to tell
+      return figures_.add({what, "seconds_queued", 0, 0, kNever, 0.15});  // the model is too small
     }
-    peer->say(WantMessage{.turn = 2, .wish = Want(side_view(manifest_, -1))});
+    peer->say(WantMessage{.turn = 2, .target = Want(side_view(manifest_, -1))});
     peer->say(OpenMessage{.model = 1, .id = "none"});
     const double asked = StreamPeer::now();
     bool is_new = false;
@@ -116,17 +120,17 @@ class Adaptation {
 
  private:
   static constexpr double kSeconds = 2;
-  static constexpr double kShortest = 0.1;  // promises for less than the tools take are not judged
+  static constexpr double kShortest = 0.1;  // seconds; shorter forecasts are not judged
 
   std::string name(const char* what, double rate) const {
     return scan_ + "." + what + "_" + std::to_string(static_cast<int>(rate / 1000));
   }
 
-  // What is promised before anything is measured says so, and is safe.
-  void first_guess(const WishCourse& course, double rate) {
-    HeardPromise first{.promise = {}, .at = 0};
-    if (!course.promises().empty() && !course.promises()[0].promise.measured)
-      first = course.promises()[0];
+  // The first forecast must be marked as not measured and must not be too optimistic.
+  void first_guess(const DetailProgress& course, double rate) {
+    ReceivedForecast first{.promise = {}, .at = 0};
+    if (!course.forecasts().empty() && !course.forecasts()[0].promise.measured)
+      first = course.forecasts()[0];
     figures_.add({name("seconds", rate), "first_guess_kept", first.kept - first.at,
                   first.promise.seconds, first.ratio(), 1});
   }
@@ -140,7 +144,7 @@ class Adaptation {
 
   static double round_trip(StreamPeer& peer) {
     const double asked = StreamPeer::now();
-    peer.say(WantMessage{.wish = Want(WantBytes{0})});
+    peer.say(WantMessage{.target = Want(WantBytes{0})});
     while (!peer.next().message) {
     }
     return StreamPeer::now() - asked;
@@ -159,11 +163,11 @@ class Adaptation {
 }  // namespace
 
 void adaptation(Report& report, const Effort& effort) {
-  const Scan& shown = scan(effort.quick ? "skull" : kLargeScan);
+  const Scan& shown = scan(effort.is_quick ? "skull" : kLargeScan);
   const std::vector<double> rates =
-      effort.quick ? std::vector{400'000.} : std::vector{100'000., 400'000., 800'000.};
+      effort.is_quick ? std::vector{400'000.} : std::vector{100'000., 400'000., 800'000.};
   Medians figures;
-  const int runs = effort.quick ? 1 : 5;
+  const int runs = effort.is_quick ? 1 : 5;
   {
     Adaptation near(figures, shown, {});
     for (int run = 0; run < runs; ++run) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which processor core runs what, and how long it did.
+// Assigns work to processor cores and measures their time.
 #pragma once
 
 #include <sched.h>
@@ -9,7 +9,8 @@ namespace vitrine::bench {
 
 inline constexpr int kServerCore = 0, kClientCore = 1;
 
-// Keeps this thread, and what it starts meanwhile, on one core. Throws where there is none.
+// Keeps this thread, and processes that it starts meanwhile, on one core. Throws if the core is not
+// available.
 class OnCore {
  public:
   explicit OnCore(int core);
@@ -21,7 +22,7 @@ class OnCore {
   cpu_set_t before_;
 };
 
-// Seconds of processor time that a process and its children have used so far.
+// Returns the processor time, in seconds, that a process and its children have used so far.
 double processor_seconds(pid_t process);
 
 }  // namespace vitrine::bench

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "delay_line.h"
+#include "support/product_names.h"
 
 #include <fcntl.h>
 #include <linux/if_tun.h>
@@ -46,7 +47,7 @@ void DelayLine::Way::take(Clock::time_point due) {
 void DelayLine::Way::give(Clock::time_point now) {
   for (; !packets.empty() && packets.front().due <= now; packets.pop_front()) {
     const std::vector<char>& bytes = packets.front().bytes;
-    // What does not fit in is lost, as on a cable.
+    // A packet that does not fit into the device's queue is lost, as in a real network.
     [[maybe_unused]] const ssize_t written = ::write(to, bytes.data(), bytes.size());
   }
 }
@@ -63,8 +64,8 @@ void DelayLine::run() {
   pollfd ends[] = {{a_.get(), POLLIN, 0}, {b_.get(), POLLIN, 0}, {end_.get(), POLLIN, 0}};
   while ((ends[2].revents & POLLIN) == 0) {
     const auto left = std::chrono::ceil<std::chrono::nanoseconds>(next_due() - Clock::now());
-    const timespec patience{0, std::clamp<long>(left.count(), 0, 999'999'999)};
-    ::ppoll(ends, 3, &patience, nullptr);
+    const timespec timeout{0, std::clamp<long>(left.count(), 0, 999'999'999)};
+    ::ppoll(ends, 3, &timeout, nullptr);
     const auto now = Clock::now();
     for (Way& way : ways_) {
       way.take(now + delay_);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What netem would do, where a kernel has none: a cable between two TUN devices, whose packets
-// arrive late.
+// A cable between two TUN devices that delays packets. Replaces netem, which some kernels lack.
 #pragma once
 
 #include <chrono>
@@ -13,13 +12,13 @@
 
 namespace vitrine::bench {
 
-// A new TUN device of this thread's network namespace; gone when it is closed. Throws where the
-// kernel refuses.
+// Creates a TUN device in this thread's network namespace. Closing the descriptor removes the
+// device. Throws if the kernel refuses.
 FileDescriptor tun_device(const std::string& name);
 
 class DelayLine {
  public:
-  // Carries packets both ways, in order; each is `delay` on its way.
+  // Carries packets both ways and in order. Each packet takes `delay`.
   DelayLine(FileDescriptor a, FileDescriptor b, std::chrono::microseconds delay);
   ~DelayLine();
   DelayLine(const DelayLine&) = delete;
@@ -35,8 +34,8 @@ class DelayLine {
     int from, to;
     std::deque<Packet> packets = {};
 
-    void take(Clock::time_point due);  // what is there
-    void give(Clock::time_point now);  // what is due
+    void take(Clock::time_point due);  // reads the packets that are available
+    void give(Clock::time_point now);  // writes the packets that are due
   };
 
   void run();

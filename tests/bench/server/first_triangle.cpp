@@ -3,19 +3,20 @@
 #include <stdexcept>
 #include <vector>
 
-#include "../../server/app/served_folder.h"
 #include "codec/base/base_decoder.h"
 #include "medians.h"
 #include "scans.h"
 #include "sections.h"
 #include "shaped_link.h"
 #include "stream_peer.h"
-#include "support/daemon.h"
+#include "support/process/daemon.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::bench {
 namespace {
 
-constexpr double kRate = 200'000;  // bytes a second: 1.6 Mbit/s
+constexpr double kRate = 200'000;  // bytes per second: 1.6 Mbit/s
 constexpr double kRoundTrip = std::chrono::duration<double>(kLongWay).count();
 
 struct Shown {
@@ -23,7 +24,7 @@ struct Shown {
   std::string id;
 };
 
-// A viewer that comes for the first time: no connection, nothing cached.
+// A visitor whose viewer has no connection and nothing cached.
 class ColdVisitor {
  public:
   ColdVisitor(Medians& figures, const std::vector<const Scan*>& scans)
@@ -43,14 +44,15 @@ class ColdVisitor {
 
  private:
   struct Times {
-    double start, first, end;  // first: byte of the answer
+    double start, first, end;  // first: when the first byte of the response arrived
   };
 
   void over_http(const Shown& shown) {
     Times times{.start = StreamPeer::now()};
     test::HttpClient client(daemon_->port(), ShapedLink::kServer);
     client.send("GET /api/v1/models/" + shown.id + "/head HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    if (client.is_closed()) throw std::runtime_error("no answer");  // waits for the first bytes
+    if (client.is_closed())
+      throw std::runtime_error("no answer");  // is_closed() waits for the first bytes
     times.first = StreamPeer::now();
     const std::string head = client.receive().body;
     times.end = StreamPeer::now();
@@ -68,7 +70,7 @@ class ColdVisitor {
     report("first_triangle_websocket", shown.scan, times, peer.head);
   }
 
-  // Two round trips are the connection and the question; a request more would be a third.
+  // The connection and the request take two round trips. A further request would take a third.
   void report(const char* way, const Scan& scan, const Times& times,
               const std::vector<std::uint8_t>& head) {
     check(head);
@@ -80,7 +82,8 @@ class ColdVisitor {
     figures_.add({what, "seconds", took, least, took / least, 1.5});
   }
 
-  // What came is all that the first picture takes.
+  // Throws unless the received bytes are exactly those that the first picture needs: header and
+  // base mesh.
   static void check(const std::vector<std::uint8_t>& head) {
     const auto manifest = parse_header(head);
     const bool is_whole = manifest && manifest->head_bytes() == head.size();
@@ -99,10 +102,10 @@ class ColdVisitor {
 
 void first_triangle(Report& report, const Effort& effort) {
   std::vector<const Scan*> scans = {&scan("demosthenes"), &scan("skull")};
-  if (!effort.quick) scans.push_back(&scan(kLargeScan));
+  if (!effort.is_quick) scans.push_back(&scan(kLargeScan));
   Medians figures;
   ColdVisitor visitor(figures, scans);
-  for (int run = 0; run < (effort.quick ? 1 : 5); ++run)
+  for (int run = 0; run < (effort.is_quick ? 1 : 5); ++run)
     visitor.look_at_all();
   figures.report(report);
 }

@@ -5,13 +5,14 @@
 #include <stdexcept>
 #include <vector>
 
-#include "../../server/app/served_folder.h"
 #include "sections.h"
-#include "support/daemon.h"
 #include "support/descriptor_limit.h"
-#include "support/http_client.h"
-#include "support/loopback.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/process/loopback.h"
+#include "support/product_names.h"
 #include "support/resident_memory.h"
+#include "support/served_folder.h"
 
 namespace vitrine::bench {
 namespace {
@@ -22,7 +23,7 @@ constexpr int kIdleTimeout = 20;  // seconds
 }  // namespace
 
 void half_open(Report& report, const Effort& effort) {
-  const std::size_t count = effort.quick ? 1'000 : 10'000;
+  const std::size_t count = effort.is_quick ? 1'000 : 10'000;
   test::raise_descriptor_limit();
   test::ServedFolder folder;
   const std::string model = "/api/v1/models/" + folder.publish("a model");
@@ -45,7 +46,7 @@ void half_open(Report& report, const Effort& effort) {
   report.add({"half_open", "bytes_each", each, 0, each, 20'000});
   for (const FileDescriptor& connection : held) {
     char byte;
-    ::recv(connection.get(), &byte, 1, 0);  // until it is cut
+    ::recv(connection.get(), &byte, 1, 0);  // waits until the daemon closes the connection
   }
   const double late = std::chrono::duration<double>(Clock::now() - opened).count() / kIdleTimeout;
   report.add({"half_open", "last_cut_ratio_to_deadline", late, 1, late, 1.25});

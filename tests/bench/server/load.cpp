@@ -12,7 +12,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "support/loopback.h"
+#include "support/process/loopback.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
@@ -44,7 +45,7 @@ class Visitor {
     }
   }
 
-  // Takes what has come; true once the answer is complete.
+  // Reads the available bytes; returns true once the response is complete.
   bool take(int status) {
     if (left_ == 0 && !take_head(status)) return false;
     while (left_ > 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visitors that ask for the next thing as soon as they have got the last.
+// Clients that send their next request as soon as the last response is complete.
 #pragma once
 
 #include <chrono>
@@ -11,20 +11,20 @@ namespace vitrine::bench {
 
 struct Load {
   std::uint16_t port;
-  std::vector<std::string> requests;  // asked for in turn, each with its whole header
-  int status;                         // of every answer
+  std::vector<std::string> requests;  // complete HTTP requests; sent in this order, repeatedly
+  int status;                         // expected status of every response
   std::size_t connections = 64;
   std::chrono::milliseconds time{1000};
 };
 
 struct Delivery {
   double requests_per_second = 0;
-  double p50 = 0, p99 = 0;  // seconds from a request to its last byte
+  double p50 = 0, p99 = 0;  // seconds from a request to the last byte of its response
   std::uint64_t answers = 0;
 };
 
-// On this thread. Bodies are discarded by the kernel, so that the client is not what is measured.
-// Throws where an answer is not as it should be.
+// Runs the clients on this thread. The kernel discards the bodies, so that the clients do not limit
+// the rate. Throws if a response is not as expected.
 Delivery deliver(const Load& load);
 
 }  // namespace vitrine::bench

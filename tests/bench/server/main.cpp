@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench-server: the daemon against its peers, on loopback. Exit code 0 only where every ratio keeps
-// its threshold.
+// bench-server: compares the daemon with its peers on the loopback interface. The exit code is 0
+// only if every ratio is within its threshold.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sections.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {
@@ -39,7 +40,7 @@ int run(const std::vector<std::string_view>& arguments) {
     if (argument == "--json") {
       json = true;
     } else if (argument == "--quick") {
-      effort.quick = true;
+      effort.is_quick = true;
     } else if (std::ranges::find(kSections, argument, &Section::name) != std::end(kSections)) {
       wanted.push_back(argument);
     } else {

@@ -14,7 +14,7 @@ inline double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// Figures of runs that are repeated: of each, the run with the median ratio is reported.
+// Collects figures of repeated runs. For each figure, reports the run with the median ratio.
 class Medians {
  public:
   void add(Figure figure) {

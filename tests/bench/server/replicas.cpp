@@ -5,15 +5,16 @@
 #include <list>
 #include <stdexcept>
 
-#include "../../server/app/elsewhere.h"
+#include "../../server/app/remote_installation.h"
 #include "load.h"
 #include "medians.h"
 #include "sections.h"
 #include "server/store/publish.h"
-#include "support/daemon.h"
 #include "support/descriptor_limit.h"
-#include "support/http_client.h"
-#include "support/nginx.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/process/nginx.h"
+#include "support/product_names.h"
 #include "support/resident_memory.h"
 #include "support/tiny_pmesh.h"
 #include "viewer.h"
@@ -22,9 +23,11 @@ namespace vitrine::bench {
 namespace {
 
 constexpr std::size_t kScans = 64, kPieceBytes = 16 * 1024, kReplicas = 3;
-constexpr const char *kOne = "one", *kThree = "three";  // hosts whom nginx is asked for
+constexpr const char *kOne = "one",
+                     *kThree = "three";  // names of the hosts that clients request from nginx
 
-// One bucket, one database and four daemons on them: one alone, and three side by side.
+// Runs four daemons on one bucket and one database: one behind its own host name, three behind
+// another.
 class Replicas {
  public:
   Replicas() : installation_(open_installation(elsewhere_.place()).value()) {
@@ -45,7 +48,7 @@ class Replicas {
     return test::http_get(daemons_.front().port(), target).field("etag");
   }
 
-  // What nginx knows them by.
+  // Returns the daemons' addresses for the configuration of nginx.
   std::string upstreams() const {
     std::string one, three;
     for (const test::Daemon& daemon : daemons_)
@@ -57,7 +60,7 @@ class Replicas {
         kOne, one, kThree, three);
   }
 
-  // Of all that answer for `host`.
+  // Returns the resident memory of all daemons behind `host`, in bytes.
   double resident(const std::string& host) const {
     double sum = 0;
     for (const test::Daemon& daemon : daemons_) {
@@ -80,14 +83,15 @@ class Replicas {
     chunks_.push_back("/api/v1/chunks/" + to_hex(pmesh.manifest.chunks[0].sha256));
   }
 
-  const test::Elsewhere elsewhere_;
+  const test::RemoteInstallation elsewhere_;
   const test::TemporaryFolder folder_;
   const Installation installation_;
   std::vector<std::string> models_, chunks_;
   std::list<test::Daemon> daemons_;
 };
 
-// Passes on whatever it is asked, for want of a cache all of it, to the daemons that are asked for.
+// Configuration of nginx that forwards every request to the daemons of the requested host, without
+// a cache.
 constexpr const char* kPassOn =
     "location / { proxy_pass http://$host; proxy_http_version 1.1; proxy_buffering off;\n"
     "proxy_read_timeout 1h; proxy_set_header Upgrade $http_upgrade;\n"
@@ -100,7 +104,7 @@ std::string request(const std::string& target, const std::string& host, const st
   return "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n" + more + "\r\n";
 }
 
-// Requests a second at three over those at one.
+// Measures requests per second with three daemons, divided by those with one.
 class Throughput {
  public:
   Throughput(const Replicas& replicas, std::uint16_t port, const Effort& effort)
@@ -125,12 +129,12 @@ class Throughput {
                  const Request& request_of) const {
     const auto rate = [&](const std::string& host) {
       Load load{.port = port_, .requests = {}, .status = status, .connections = 256};
-      load.time = std::chrono::milliseconds(effort_.quick ? 500 : 3000);
+      load.time = std::chrono::milliseconds(effort_.is_quick ? 500 : 3000);
       for (std::size_t i = 0; i < kScans; ++i)
         load.requests.push_back(request_of(i, host));
       return deliver(load).requests_per_second;
     };
-    rate(kThree);  // what each asks bucket and database for once
+    rate(kThree);  // fills each daemon's copies and caches
     std::vector<double> ones, threes, ratios;
     for (int run = 0; run < 5; ++run) {
       ones.push_back(rate(kOne));
@@ -146,7 +150,8 @@ class Throughput {
   const Effort effort_;
 };
 
-// Bytes of memory of the daemons behind `host` for each of `count` viewers that look on.
+// Returns the memory, in bytes per viewer, that `count` idle viewers need in the daemons behind
+// `host`.
 double bytes_per_viewer(const Replicas& replicas, std::uint16_t port, const std::string& host,
                         std::size_t count) {
   std::vector<Viewer> viewers;
@@ -156,7 +161,7 @@ double bytes_per_viewer(const Replicas& replicas, std::uint16_t port, const std:
       viewers.back().greet();
     }
   };
-  connect(10 * kReplicas);  // what the first ones cost, all share
+  connect(10 * kReplicas);  // the first viewers cause allocations that later ones share
   const double before = replicas.resident(host);
   connect(count);
   return (replicas.resident(host) - before) / static_cast<double>(count);
@@ -171,7 +176,7 @@ void replicas(Report& report, const Effort& effort) {
   const Throughput throughput(replicas, nginx.port(), effort);
   report.add(throughput.chunks());
   report.add(throughput.manifests());
-  const std::size_t viewers = effort.quick ? 300 : 1'500;
+  const std::size_t viewers = effort.is_quick ? 300 : 1'500;
   const double one = bytes_per_viewer(replicas, nginx.port(), kOne, viewers);
   const double three = bytes_per_viewer(replicas, nginx.port(), kThree, viewers);
   report.add({"replicas_viewer", "ratio_to_one_replica", three, one, three / one, kNoThreshold});

@@ -6,12 +6,13 @@
 #include <chrono>
 #include <vector>
 
-#include "../../server/app/served_folder.h"
 #include "medians.h"
 #include "sections.h"
-#include "support/daemon.h"
 #include "support/descriptor_limit.h"
+#include "support/process/daemon.h"
+#include "support/product_names.h"
 #include "support/resident_memory.h"
+#include "support/served_folder.h"
 #include "viewer.h"
 
 namespace vitrine::bench {
@@ -19,7 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kChunk = 64u << 20;  // more than anybody is sent meanwhile
+constexpr std::size_t kChunk = 64u << 20;  // bytes; more than any viewer receives during a
+                                           // measurement
 
 class Scale {
  public:
@@ -27,21 +29,22 @@ class Scale {
       : id_(folder_.publish("a scan", test::tiny_pmesh("a base mesh", std::string(kChunk, 'c')))),
         daemon_(folder_.path(), {"--max-connections", "13000", "--max-connections-per-address", "0",
                                  "--request-rate", "0", "--idle-timeout", "3600"}) {
-    connect(1);  // what the first one costs, all share
+    connect(1);  // the first viewer causes allocations that later ones share
     viewers_[0].say(R"({"type":"want","level":1})");
     while (viewers_[0].payload() == 0)
       viewers_[0].refine();
     viewers_.clear();
   }
 
-  // Resident bytes of the daemon for each of `count` more viewers that look on.
+  // Connects `count` more idle viewers. Returns the daemon's resident bytes per viewer.
   double idle(std::size_t count) {
     const double before = resident();
     connect(count);
     return (resident() - before) / static_cast<double>(count);
   }
 
-  // As many of them refine for that long: the slowest's bytes, and the median's.
+  // Lets `count` viewers refine for `time`. Returns the bytes that the slowest and the median
+  // viewer received.
   std::pair<double, double> refine(std::size_t count, std::chrono::milliseconds time) {
     const FileDescriptor events(::epoll_create1(EPOLL_CLOEXEC));
     std::vector<std::uint64_t> before;
@@ -64,8 +67,8 @@ class Scale {
     return {*std::ranges::min_element(bytes), median(bytes)};
   }
 
-  // Resident bytes for each of `count` viewers that want everything, grant it and read nothing,
-  // beyond what it is as long as they look on.
+  // Connects `count` viewers that request everything, acknowledge it and read nothing. Returns the
+  // daemon's resident bytes for each, beyond the memory of idle viewers.
   double never_reading(std::size_t count) {
     connect(count);
     const double before = resident();
@@ -74,7 +77,7 @@ class Scale {
       viewer.say(R"({"type":"want","level":1})");
     }
     double now = before, last = 0;
-    while (now > last) {  // buffers fill
+    while (now > last) {  // until the buffers are full
       last = now;
       ::poll(nullptr, 0, 2000);
       now = resident();
@@ -83,7 +86,7 @@ class Scale {
   }
 
  private:
-  // In rounds, so that no more wait to be accepted than the kernel queues.
+  // Connects in rounds, so that the kernel's queue of new connections does not overflow.
   void connect(std::size_t count) {
     constexpr std::size_t kRound = 100;
     while (count > 0) {
@@ -107,23 +110,23 @@ class Scale {
 }  // namespace
 
 void scale(Report& report, const Effort& effort) {
-  constexpr double kIdle = 20'000, kOneChunk = 64 * 1024;  // bytes each
+  constexpr double kIdle = 20'000, kOneChunk = 64 * 1024;  // bytes per viewer
   test::raise_descriptor_limit();
-  const std::size_t viewers = effort.quick ? 1'000 : 10'000, active = viewers / 5;
+  const std::size_t viewers = effort.is_quick ? 1'000 : 10'000, active = viewers / 5;
   {
     Scale scale;
     const double idle = scale.idle(viewers);
     report.add({"idle_viewer", "ratio_to_20_kb", idle, kIdle, idle / kIdle, 1});
     Medians figures;
-    for (int run = 0; run < (effort.quick ? 1 : 5); ++run) {
+    for (int run = 0; run < (effort.is_quick ? 1 : 5); ++run) {
       const auto [slowest, usual] =
-          scale.refine(active, std::chrono::seconds(effort.quick ? 2 : 5));
+          scale.refine(active, std::chrono::seconds(effort.is_quick ? 2 : 5));
       figures.add({"refining", "median_ratio_to_slowest", usual, slowest,
                    slowest > 0 ? usual / slowest : kNoThreshold, 2});
     }
     figures.report(report);
   }
-  // A daemon that never had other viewers, whose memory would serve these.
+  // Uses a new daemon: one with earlier viewers would reuse their memory.
   const double stuck = Scale().never_reading(viewers / 10);
   report.add({"never_reading", "ratio_to_a_chunk", stuck, kOneChunk, stuck / kOneChunk, 1});
 }

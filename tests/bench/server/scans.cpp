@@ -8,7 +8,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "server/jobs/build_model.h"
+#include "codec/build/build_model.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 namespace {

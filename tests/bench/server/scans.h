@@ -3,20 +3,22 @@
 
 #include <string>
 
+#include "support/product_names.h"
 #include "support/tiny_pmesh.h"
 
 namespace vitrine::bench {
 
 struct Scan {
-  std::string name;  // "skull"
+  std::string name;  // such as "skull"
   test::TinyPmesh pmesh;
 };
 
-// Of the folder VITRINE_MODELS, else of tests/models: NAME.pmesh as it is, or NAME.ply or NAME.obj,
-// built. Kept for the next section. Throws where there is none.
+// Returns the model `name` from the folder VITRINE_MODELS, or else from tests/models. Uses
+// NAME.pmesh, or builds it from NAME.ply or NAME.obj. Keeps the model for later calls. Throws if
+// there is no such file.
 const Scan& scan(const std::string& name);
 
-// What the figures of adaptation are about.
+// The model used for the adaptation figures.
 inline constexpr const char* kLargeScan = "ct-skull-2753k";
 
 }  // namespace vitrine::bench

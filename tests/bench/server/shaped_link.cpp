@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaped_link.h"
+#include "support/product_names.h"
 
 #include <fcntl.h>
 #include <sched.h>
@@ -19,7 +20,9 @@ void enter(const FileDescriptor& space) {
 }
 
 FileDescriptor here() {
-  return FileDescriptor(::open("/proc/thread-self/ns/net", O_RDONLY));  // the tools inherit it
+  return FileDescriptor(
+      ::open("/proc/thread-self/ns/net", O_RDONLY));  // without O_CLOEXEC, so that tools started
+                                                      // later inherit it
 }
 
 FileDescriptor fresh() {
@@ -30,7 +33,7 @@ FileDescriptor fresh() {
 
 }  // namespace
 
-// Each end has the device v0 (the client's) or v1.
+// The client's end of the link is the device v0, the server's end is v1.
 ShapedLink::ShapedLink(std::chrono::milliseconds round_trip)
     : before_(here()), server_(fresh()), client_(fresh()) {
   if (round_trip.count() == 0) {

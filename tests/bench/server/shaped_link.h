@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two network namespaces, the server's and the client's, joined by one link whose way to the client
-// is shaped. Needs the right to make namespaces (root), ip and tc.
+// Two network namespaces, one for the server and one for the client. A link with a limited rate to
+// the client joins them. Needs root, ip and tc.
 #pragma once
 
 #include <chrono>
@@ -9,15 +9,16 @@
 
 #include "codec/files/file_descriptor.h"
 #include "delay_line.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
-inline constexpr std::chrono::milliseconds kLongWay{150};  // there and back
+inline constexpr std::chrono::milliseconds kLongWay{150};  // round trip of a distant client
 
 class ShapedLink {
  public:
-  // `round_trip`: of a packet and its answer. This thread, and what it starts, is in the server's
-  // namespace until at_client(). Throws where the kernel or a tool refuses.
+  // `round_trip` is the time for a packet and its reply. This thread, and processes that it starts,
+  // are in the server's namespace until at_client(). Throws if the kernel or a tool refuses.
   explicit ShapedLink(std::chrono::milliseconds round_trip = {});
   ~ShapedLink();
   ShapedLink(const ShapedLink&) = delete;
@@ -25,7 +26,8 @@ class ShapedLink {
 
   void at_server() const;
   void at_client() const;
-  void shape(double bytes_per_second);  // ends at_client()
+  void shape(double bytes_per_second);  // limits the rate to the client; leaves this thread in the
+                                        // client's namespace
 
   static constexpr const char* kServer = "10.99.0.1";
 

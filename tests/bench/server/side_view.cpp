@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "side_view.h"
+#include "support/product_names.h"
 
 #include <cmath>
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "codec/progressive/manifest.h"
-#include "codec/progressive/planner.h"
+#include "codec/format/manifest.h"
+#include "codec/plan/planner.h"
 
 namespace vitrine::bench {
 
-// From beside the model, to the right (1) or left (-1), to a hundredth of a pixel.
+// Returns a view from the right side of the model (1) or the left (-1), with errors of at most a
+// hundredth of a pixel.
 View side_view(const Manifest& manifest, double side);
 
 }  // namespace vitrine::bench

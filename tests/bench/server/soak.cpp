@@ -8,14 +8,15 @@
 #include <thread>
 #include <vector>
 
-#include "../../server/app/served_folder.h"
 #include "scans.h"
 #include "sections.h"
 #include "side_view.h"
 #include "stream_peer.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
 #include "support/resident_memory.h"
+#include "support/served_folder.h"
 #include "support/wavy_sheet.h"
 
 namespace vitrine::bench {
@@ -25,15 +26,15 @@ using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// A day of a museum in ten minutes: each kind of visitor comes, does what it does, and goes, again
-// and again.
+// Puts the load of a museum's day on a daemon in ten minutes: visitors of each kind come, send
+// their requests and leave, repeatedly.
 class Soak {
  public:
   Soak()
       : scan_(scan("demosthenes")),
         id_(folder_.publish("a scan", scan_.pmesh)),
         bearer_("Authorization: Bearer " + folder_.token(Role::kOperator) + "\r\n"),
-        // Caches are full before the second half begins.
+        // With these settings, caches are full before the second half begins.
         daemon_(folder_.path(), {"--export-cache", "8000000", "--collect-after", "10"}) {}
 
   struct Sample {
@@ -62,7 +63,7 @@ class Soak {
 
   std::size_t visits() const { return visits_; }
 
-  // It ends well, and has found no fault with itself.
+  // Stops the daemon. Throws unless its exit code is 0 and its log has no error.
   void stop() {
     daemon_.signal(SIGTERM);
     const test::ProgramResult end = daemon_.wait();
@@ -71,23 +72,23 @@ class Soak {
   }
 
  private:
-  // After a breath, and one more visit.
+  // Waits for a short pause. Returns whether time is left for another visit.
   bool is_on(milliseconds breath) {
     std::this_thread::sleep_for(breath);
     return Clock::now() < end_;
   }
 
-  // Comes, refines, turns the model and goes without a word.
+  // Repeatedly connects, refines, turns the model and disconnects without a close frame.
   void look(unsigned seed) {
     std::mt19937 random(seed);
     for (; is_on(milliseconds(20)); ++visits_) {
       StreamPeer peer(daemon_.port(), id_, test::kLoopback, "?head=true");
-      peer.say(WantMessage{.turn = 1, .wish = Want(WantTriangles{1'000 + random() % 20'000})});
+      peer.say(WantMessage{.turn = 1, .target = Want(WantTriangles{1'000 + random() % 20'000})});
       follow(peer, random() % 20);
       peer.say(WantMessage{
-          .turn = 2, .wish = Want(side_view(scan_.pmesh.manifest, random() % 2 == 0 ? 1 : -1))});
+          .turn = 2, .target = Want(side_view(scan_.pmesh.manifest, random() % 2 == 0 ? 1 : -1))});
       follow(peer, random() % 20);
-      peer.say(WantMessage{.turn = 3, .wish = WantSeconds{0.2}});
+      peer.say(WantMessage{.turn = 3, .target = WantSeconds{0.2}});
       follow(peer, 20);
     }
   }
@@ -116,7 +117,7 @@ class Soak {
     }
   }
 
-  // Uploads a mesh, publishes it, exports it, takes it away.
+  // Repeatedly uploads a mesh, publishes it, exports it and deletes it.
   void publish() {
     const std::string mesh = test::wavy_sheet(30);
     for (int i = 0; is_on(milliseconds(200)); ++visits_, ++i) {
@@ -138,7 +139,7 @@ class Soak {
       const std::string model = "/api/v1/models/" + model_of(accepted.field("location"));
       expect(send("GET", model + "/export.ply"), 200);
       expect(send("DELETE", model), 204);
-      daemon_.wait_for_line("method=DELETE");  // else its log would fill the pipe
+      daemon_.wait_for_line("method=DELETE");  // otherwise the log would fill the pipe
     }
   }
   std::string model_of(const std::string& job) {
@@ -159,7 +160,7 @@ class Soak {
         {"GET /api/v1/models/none HTTP/1.1\r\nHost: a\r\n\r\n", 404},
         {"POST /api/v1/models HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n", 401},
         {"GET /api/v1/models/" + id_ + "/export.ply?triangles=x HTTP/1.1\r\nHost: a\r\n\r\n", 400},
-        {good.substr(0, 9), 0},  // leaves in the middle of it
+        {good.substr(0, 9), 0},  // an incomplete request
     };
     for (std::size_t i = 0; is_on(milliseconds(20)); ++visits_, ++i) {
       const auto& [request, status] = wrong[i % std::size(wrong)];
@@ -170,7 +171,7 @@ class Soak {
     }
   }
 
-  // Ten guesses a minute are answered, the others are told to wait.
+  // The server answers ten wrong tokens per minute and throttles the others.
   void guess_a_token() {
     test::HttpClient client(daemon_.port());
     client.send("GET /api/v1/jobs HTTP/1.1\r\nHost: a\r\nAuthorization: Bearer vtr_guess\r\n\r\n");
@@ -199,7 +200,7 @@ class Soak {
   std::atomic<std::size_t> visits_ = 0;
 };
 
-// Kilobytes a minute, by least squares.
+// Returns the slope in kilobytes per minute, by least squares.
 double slope(const std::vector<Soak::Sample>& samples, std::size_t first) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t i = first; i < samples.size(); ++i) {
@@ -213,10 +214,10 @@ double slope(const std::vector<Soak::Sample>& samples, std::size_t first) {
 }  // namespace
 
 void soak(Report& report, const Effort& effort) {
-  // Of some thousand visits a minute: less than 100 bytes of each. The least that one could leave
-  // behind, its session, has thousands.
+  // A few thousand visits per minute may leave less than 100 bytes each. A leaked session, the
+  // smallest object that a visit could leave behind, has thousands of bytes.
   constexpr double kFlat = 256;
-  const std::chrono::seconds time(effort.quick ? 60 : 600);
+  const std::chrono::seconds time(effort.is_quick ? 60 : 600);
   Soak soak;
   const auto samples = soak.run(time, milliseconds(200));
   soak.stop();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream_peer.h"
+#include "support/product_names.h"
 
 #include <stdexcept>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client of pmesh.v1 that acknowledges what it gets and looks at the clock.
+// A client of pmesh.v1 that acknowledges slices and records when they arrive.
 #pragma once
 
 #include <chrono>
@@ -10,13 +10,14 @@
 #include "server/stream/message.h"
 #include "server/stream/server_message.h"
 #include "server/stream/slice.h"
-#include "support/http_client.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
 class StreamPeer {
  public:
-  // Connects; the head is sent first where `query` asks for it.
+  // Connects to the stream of a model. The server sends the head first if `query` requests it.
   StreamPeer(std::uint16_t port, const std::string& model, const char* address,
              const std::string& query = "")
       : client_(port, "/api/v1/models/" + model + "/stream" + query, "pmesh.v1", "", address) {}
@@ -25,13 +26,13 @@ class StreamPeer {
 
   struct Event {
     std::optional<SliceHeader> slice = {};
-    std::size_t bytes = 0;  // of the slice's payload
+    std::size_t bytes = 0;  // length of the slice's payload
     std::optional<ServerMessage> message = {};
-    double at = 0;  // seconds
+    double at = 0;  // seconds, when the message or slice arrived
   };
   Event next();
 
-  std::vector<std::uint8_t> head;  // what has come of it
+  std::vector<std::uint8_t> head;  // bytes of the head received so far
   static double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();

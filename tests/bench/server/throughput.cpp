@@ -4,21 +4,22 @@
 #include <functional>
 #include <stdexcept>
 
-#include "../../server/app/served_folder.h"
 #include "cores.h"
 #include "load.h"
 #include "medians.h"
 #include "sections.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
-#include "support/nginx.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/process/nginx.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::bench {
 namespace {
 
 constexpr std::size_t kModels = 64, kChunkBytes = 16 * 1024;
 
-// Models of one chunk, and the same bytes as files for nginx.
+// Publishes models of one chunk each, and stores the same bytes as files for nginx.
 class Gallery {
  public:
   Gallery() {
@@ -39,7 +40,7 @@ class Gallery {
   const std::vector<std::string>& chunks() const { return chunks_; }
   const std::vector<std::string>& manifests() const { return manifests_; }
 
-  // Takes the models back, so that their chunks are for those with a token alone; where they are.
+  // Unpublishes the models, so that their chunks need a token. Returns the chunks' request targets.
   std::vector<std::string> close_to_public(std::uint16_t port, const std::string& bearer) const {
     std::vector<std::string> chunks;
     for (std::size_t i = 0; i < kModels; ++i) {
@@ -67,7 +68,8 @@ class Gallery {
   std::vector<std::string> models_, chunks_, manifests_;
 };
 
-// As one would set it up for this: the fields of caches, a log line for each request.
+// Returns a configuration of nginx for static files, with caching headers and a log line for each
+// request.
 std::string nginx_server(const std::filesystem::path& root) {
   return "root " + root.string() +
          ";\ndefault_type application/octet-stream;\n"
@@ -86,10 +88,10 @@ struct Peer {
   pid_t process;
 };
 
-// What one side did in one run.
+// The figures of one side in one run.
 struct Run {
   Delivery delivery;
-  double processor = 0;  // seconds of it for each answer
+  double processor = 0;  // processor seconds per response
 };
 
 Run measure(const Peer& peer, Load load) {
@@ -101,13 +103,13 @@ Run measure(const Peer& peer, Load load) {
   return run;
 }
 
-// Interleaved runs of both; every figure is the median of its runs' ratios.
+// Alternates runs of both sides. Each figure is the median of the ratios of all pairs of runs.
 class Comparison {
  public:
   Comparison(const Peer& ours, const Peer& nginx, const Effort& effort)
       : ours_(ours), nginx_(nginx), effort_(effort) {}
 
-  // `theirs` asks nginx for the same.
+  // Sends `load` to the daemon and `theirs` to nginx, alternately, five times each.
   void run(const Load& load, const Load& theirs) {
     const OnCore client(kClientCore);
     pairs_.clear();
@@ -116,7 +118,7 @@ class Comparison {
   }
 
   using Value = std::function<double(const Run&)>;
-  Figure figure(std::string what, const Value& value, double threshold, bool at_least) const {
+  Figure figure(std::string what, const Value& value, double threshold, bool is_minimum) const {
     std::vector<double> ours, nginx, ratios;
     for (const auto& [a, b] : pairs_) {
       ours.push_back(value(a));
@@ -124,12 +126,12 @@ class Comparison {
       ratios.push_back(value(a) / value(b));
     }
     return {std::move(what), "ratio_to_nginx", median(ours), median(nginx),
-            median(ratios),  threshold,        at_least};
+            median(ratios),  threshold,        is_minimum};
   }
 
  private:
   Load timed(Load load) const {
-    load.time = std::chrono::milliseconds(effort_.quick ? 500 : 3000);
+    load.time = std::chrono::milliseconds(effort_.is_quick ? 500 : 3000);
     return load;
   }
 
@@ -152,7 +154,8 @@ std::string request(const std::string& target, const std::string& fields = "") {
   return "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n";
 }
 
-// What both serve must be the same, and what is asked again must be known by its tag.
+// Returns the header field If-None-Match with the entity tag of a peer's response. Throws unless
+// the response has status 200, the body `body` and an entity tag.
 std::string checked_etag(const Peer& peer, const std::string& target, const std::string& body) {
   const test::HttpAnswer answer = test::http_get(peer.port, target);
   if (answer.status != 200 || answer.body != body || answer.field("etag").empty())

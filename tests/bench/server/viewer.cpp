@@ -6,8 +6,9 @@
 #include <stdexcept>
 
 #include "server/stream/slice.h"
-#include "support/http_client.h"
-#include "support/loopback.h"
+#include "support/process/http_client.h"
+#include "support/process/loopback.h"
+#include "support/product_names.h"
 
 namespace vitrine::bench {
 
@@ -54,8 +55,9 @@ void Viewer::receive(int flags) {
   if (count > 0) buffer_.append(bytes, static_cast<std::size_t>(count));
 }
 
-// The length of the whole frame that starts there; 0 where it is not whole. Slices are longer than
-// 125 bytes and shorter than 64 KiB: their header has 4 bytes; so all else is skipped.
+// Returns the length of the frame that starts at `at`, header included, or 0 if the frame is
+// incomplete. Slices are between 126 bytes and 64 KiB long, so the header of their frames has 4
+// bytes.
 std::size_t Viewer::frame_at(std::size_t at) const {
   if (buffer_.size() < at + 4) return 0;
   std::size_t length = static_cast<unsigned char>(buffer_[at + 1]), header = 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One WebSocket that does not block.
+// A WebSocket client with a non-blocking socket.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace vitrine::bench {
 
-// Throws where it is cut.
+// A viewer on one connection. Throws if the server closes the connection.
 class Viewer {
  public:
-  // Of the model of that id, at 127.0.0.1; `host` is whom it asks there.
+  // Connects to the model's stream at 127.0.0.1. `host` is the value of the Host header field.
   Viewer(std::uint16_t port, const std::string& model, const std::string& host = "localhost");
 
   int socket() const { return socket_.get(); }
   std::uint64_t payload() const { return payload_; }
 
   void say(const std::string& text);
-  void greet();   // waits for the greeting
-  void refine();  // takes what is there and acknowledges its slices
+  void greet();   // waits for the server's first message
+  void refine();  // reads the available frames and acknowledges their slices
 
  private:
   void send(const std::string& bytes);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GLB whose one mesh is a Draco buffer (KHR_draco_mesh_compression), as other viewers load it.
+// Makes a GLB whose only mesh is a Draco buffer (KHR_draco_mesh_compression), as other viewers load it.
 import { createRequire } from "node:module";
 
 const { createEncoderModule } = createRequire(new URL("../../../web/package.json", import.meta.url))("draco3d");
 
 const kBits = 12;
 
-/** From an uncompressed GLB of one mesh with positions and indices alone; at Draco's densest setting. */
+/** Converts an uncompressed GLB, whose only mesh has just positions and indices, with Draco's strongest compression. */
 export async function dracoGlb(glb) {
   const { json, binary } = parsed(glb);
   const { attributes, indices, material } = json.meshes[0].primitives[0];
@@ -27,7 +27,7 @@ export async function dracoGlb(glb) {
   }, buffer);
 }
 
-/** Of the box around the mesh. */
+/** Returns the diagonal of the mesh's bounding box. */
 export function diagonal(glb) {
   const { json } = parsed(glb);
   const { min, max } = json.accessors[json.meshes[0].primitives[0].attributes.POSITION];

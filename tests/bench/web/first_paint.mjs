@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// first_paint.mjs BIN_FOLDER MESH [RUNS]: how long a visitor on a line of 1.6 Mbit/s and 150 ms there and
-// back waits for the first picture, and for one with an error of 1 % of the diagonal, here and with
-// model-viewer and three.js' GLTFLoader, which get the same mesh as a Draco GLB. Everything comes from one
-// static host that compresses code; "cold" browsers have nothing, "warm" ones the code and not the model.
-// Prints medians, and why gltf-progressive is not among the peers; fails unless a warm first picture takes
+// first_paint.mjs BIN_FOLDER MESH [RUNS]: measures the time until the first picture, and until one with
+// an error of 1 % of the diagonal, on a line of 1.6 Mbit/s with a round trip of 150 ms. Compares Vitrine with
+// model-viewer and three.js' GLTFLoader, which load the same mesh as a Draco GLB. One static host that
+// compresses code serves everything. A "cold" browser has an empty cache, a "warm" one has the code but not the
+// model. Prints medians, and why gltf-progressive is not compared; fails unless a warm first picture takes
 // less than 1 s and at most 50 KB of the model, and a cold one less than either peer's.
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
@@ -20,7 +20,7 @@ const kWarm = 1000, kHead = 50_000; // ms, bytes
 const web = new URL("../../../web/", import.meta.url);
 const { build } = createRequire(new URL("package.json", web))("esbuild");
 
-/** Somebody's page with three.js. */
+/** The script of a page that uses only three.js. */
 const kGltf = `
 import { Box3, HemisphereLight, PerspectiveCamera, Scene, Sphere, WebGLRenderer } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -69,7 +69,7 @@ try {
   await rm(folder, { recursive: true });
 }
 
-/** Puts models, viewers and pages on the host; `fine` is how many triangles have an error of 1 % at most. */
+/** Publishes models, viewers and pages on the host. The result's `fine` is the number of triangles at which the error is at most 1 %. */
 async function published() {
   const vitrine = (...words) => execFileSync(join(bin, "vitrine"), words, { stdio: ["ignore", "pipe", "inherit"] });
   const file = join(folder, "model.pmesh"), plain = join(folder, "model.glb");
@@ -104,7 +104,7 @@ function page(body) {
   return `${line.url}/${name}`;
 }
 
-/** The figures of one visit by a browser that has nothing, or what showing `before` twice leaves it. */
+/** Measures one visit. The browser's cache is empty, or the browser has shown the page `before` twice. */
 async function visit(url, who, before, fine) {
   const context = await browser.newContext({ viewport: { width: 900, height: 700 } });
   await context.addInitScript(watch, fine);
@@ -128,7 +128,7 @@ async function shown(context, url) {
   return seen;
 }
 
-/** Runs in the page: when the first picture was there, and one with an error of 1 %; done is when all is there. */
+/** Runs in the page. Records when the first picture, a picture with an error of 1 %, and the complete model (`done`) appear. */
 function watch(fine) {
   const paint = (window.paint = { origin: performance.timeOrigin, task: 0 });
   new PerformanceObserver((list) => list.getEntries().forEach(({ duration }) => (paint.task = Math.max(paint.task, duration)))).observe({ type: "longtask", buffered: true });

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slow line: a relay on loopback that hands on what a server sends at a bounded rate, shared fairly
-// by all connections, and everything after a delay. A new connection costs a round trip, as TCP's does.
+// A slow line: a relay on loopback that delays bytes in both directions. The server's bytes arrive at a limited rate,
+// which all connections share fairly. A new connection costs a round trip, as with TCP.
 import { once } from "node:events";
 import { connect, createServer } from "node:net";
 
 const kPacket = 1448;
-/** Bytes of a connection that wait here before its server is told to wait. */
+/** Bytes of a connection that may be queued here before the server has to pause. */
 const kQueue = 65536;
 
 export class Line {
-  /** To a server at `port` on this machine; `rate` in bytes a second, `delay` in ms each way. */
+  /** Starts a line to a server at `port` on this machine. `rate`: bytes per second; `delay`: ms in each direction. */
   static async to(port, { rate, delay }) {
     const line = new Line(port, rate, delay);
     line.server.listen(0, "127.0.0.1");
@@ -19,7 +19,7 @@ export class Line {
   }
 
   #waiting = []; // { server, client, packets }, served in turn
-  #free = 0; // when the next packet may leave
+  #free = 0; // time in ms when the next packet may leave
   #timer;
 
   constructor(port, rate, delay) {
@@ -50,7 +50,7 @@ export class Line {
   #pump() {
     clearTimeout(this.#timer);
     const now = performance.now();
-    this.#free = Math.max(this.#free, now - 5); // a timer's lateness is caught up with, idle time is not
+    this.#free = Math.max(this.#free, now - 5); // makes up for late timers, not for idle time
     while (this.#waiting.length > 0 && this.#free <= now) {
       const one = this.#waiting.shift(), packet = one.packets.shift();
       this.#free += (1000 * packet.length) / this.rate;

@@ -5,7 +5,6 @@
 
 #include "codec/base/base_decoder.h"
 #include "codec/base/base_encoder.h"
-#include "codec/progressive/colour.h"
 #include "support/random_mesh.h"
 
 namespace vitrine {
@@ -13,10 +12,9 @@ namespace {
 
 BaseMesh random_base(std::uint64_t seed) {
   const LatticeMesh mesh = test::random_mesh(seed);
-  BaseMesh base{.positions = mesh.positions, .faces = mesh.faces, .colours = {}};
-  for (const Colour& c : mesh.colours)
-    base.colours.push_back(to_ycocg(c));
-  return base;
+  return {.positions = mesh.positions,
+          .faces = mesh.faces,
+          .attributes = lattice_attributes(mesh.attributes)};
 }
 
 std::vector<Triangle> canonical(std::vector<Triangle> faces) {
@@ -35,8 +33,9 @@ TEST(BaseMesh, RandomMeshesComeBackVertexByVertex) {
     ASSERT_EQ(encoded->original.size(), base.positions.size());
     for (std::size_t v = 0; v < base.positions.size(); ++v) {
       ASSERT_EQ(encoded->decoded.positions[v], base.positions[encoded->original[v]]);
-      if (!base.colours.empty()) {
-        ASSERT_EQ(encoded->decoded.colours[v], base.colours[encoded->original[v]]);
+      for (std::size_t i = 0; i < base.attributes.size(); ++i) {
+        ASSERT_EQ(encoded->decoded.attributes[i].values[v],
+                  base.attributes[i].values[encoded->original[v]]);
       }
     }
     std::vector<Triangle> faces = encoded->decoded.faces;
@@ -51,7 +50,7 @@ TEST(BaseMesh, DecodesToTheCountsOfTheHeaderOrNotAtAll) {
   const auto encoded = encode_base(base);
   ASSERT_TRUE(encoded);
   Manifest manifest;
-  manifest.coloured = !base.colours.empty();
+  manifest.attributes = semantics_of(base.attributes);
   manifest.levels = {{.vertices = static_cast<std::uint32_t>(base.positions.size()),
                       .faces = static_cast<std::uint32_t>(base.faces.size())}};
   const auto decoded = decode_base(encoded->bytes, manifest);
@@ -61,7 +60,8 @@ TEST(BaseMesh, DecodesToTheCountsOfTheHeaderOrNotAtAll) {
   ++manifest.levels[0].vertices;
   EXPECT_FALSE(decode_base(encoded->bytes, manifest));
   --manifest.levels[0].vertices;
-  manifest.coloured = !manifest.coloured;
+  const PerSemantic<Semantic> none, colour = {Semantic::kColour};
+  manifest.attributes = manifest.attributes.empty() ? colour : none;
   EXPECT_FALSE(decode_base(encoded->bytes, manifest));
 }
 
@@ -71,10 +71,10 @@ TEST(BaseMesh, RefusesWhatIsNoEdgebreakerMesh) {
   auto bytes = encode_base(random_base(7))->bytes;
   EXPECT_FALSE(decode_base({}, manifest));
   EXPECT_FALSE(decode_base(std::span(bytes).first(5), manifest));
-  bytes[8] = 0;  // the sequential method
+  bytes[8] = 0;  // selects Draco's sequential method
   EXPECT_FALSE(decode_base(bytes, manifest));
   bytes[8] = 1;
-  bytes[7] = 0;  // a point cloud
+  bytes[7] = 0;  // marks the data as a point cloud
   EXPECT_FALSE(decode_base(bytes, manifest));
 }
 

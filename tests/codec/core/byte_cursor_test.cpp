@@ -24,7 +24,7 @@ TEST(ByteCursor, EveryIntegerComesBack) {
     ASSERT_EQ(in.varint(), value);
     ASSERT_EQ(in.signed_varint(), negative);
     ASSERT_EQ(in.u64(), value);
-    ASSERT_TRUE(in.ok());
+    ASSERT_TRUE(in.is_ok());
     ASSERT_EQ(in.left(), 0u);
   }
 }
@@ -33,7 +33,7 @@ TEST(ByteCursor, ReadingBeyondTheEndFailsForGood) {
   const std::vector<std::uint8_t> bytes = {1, 2, 3};
   ByteReader in(bytes);
   EXPECT_EQ(in.u32(), 0u);
-  EXPECT_FALSE(in.ok());
+  EXPECT_FALSE(in.is_ok());
   EXPECT_EQ(in.u8(), 0u);
   EXPECT_TRUE(in.bytes(std::numeric_limits<std::size_t>::max()).empty());
 }
@@ -42,12 +42,12 @@ TEST(ByteCursor, AnOverlongVariableIntegerIsAnError) {
   const std::vector<std::uint8_t> most = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 1};
   ByteReader in(most);
   EXPECT_EQ(in.varint(), std::numeric_limits<std::uint64_t>::max());
-  EXPECT_TRUE(in.ok());
+  EXPECT_TRUE(in.is_ok());
   std::vector<std::uint8_t> more = most;
   more.back() = 2;
   ByteReader beyond(more);
   EXPECT_EQ(beyond.varint(), 0u);
-  EXPECT_FALSE(beyond.ok());
+  EXPECT_FALSE(beyond.is_ok());
 }
 
 }  // namespace

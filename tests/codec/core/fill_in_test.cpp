@@ -8,12 +8,12 @@
 namespace vitrine {
 namespace {
 
-TEST(FillIn, numbers_take_the_places_in_their_order) {
+TEST(FillIn, NumbersTakeThePlacesInTheirOrder) {
   EXPECT_EQ(fill_in("{} of {} bytes", {0, 1230}), "0 of 1230 bytes");
   EXPECT_EQ(fill_in("{}", {UINT64_MAX}), "18446744073709551615");
 }
 
-TEST(FillIn, a_place_without_a_number_stays) {
+TEST(FillIn, APlaceWithoutANumberStays) {
   EXPECT_EQ(fill_in("nothing", {}), "nothing");
   EXPECT_EQ(fill_in("{} and {}", {7}), "7 and {}");
 }

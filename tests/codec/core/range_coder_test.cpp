@@ -12,7 +12,7 @@ using test::Dice;
 
 struct Decision {
   std::uint32_t value;
-  int model;  // index of an adaptive bit, or minus the number of raw bits
+  int model;  // index of an adaptive bit; if negative, minus the number of raw bits
 };
 
 std::vector<std::uint8_t> encode(const std::vector<Decision>& decisions) {
@@ -58,8 +58,8 @@ TEST(RangeCoder, RandomDecisionsComeBack) {
   }
 }
 
-// Raw zero bits push `low` up to just below a carry: a long run of pending 0xFF bytes, which a last
-// decision either carries through or releases.
+// Raw zero bits push `low` up to just below a carry. The encoder then holds a long run of pending
+// 0xFF bytes. The last decision either carries through the run or releases it.
 TEST(RangeCoder, LongRunsOfPendingBytesCarryOrNot) {
   for (int run = 0; run < 300; ++run) {
     for (const std::uint32_t last : {0u, 1u}) {
@@ -97,7 +97,7 @@ TEST(AdaptiveBit, StaysInsideItsBoundsAndFollowsWhatItSees) {
   EXPECT_LT(zeros.one, 500);
 }
 
-// The values that FORMAT.md lists.
+// Expects the values that FORMAT.md lists.
 TEST(AdaptiveBit, MovesAsTheFormatSays) {
   AdaptiveBit bit;
   bit.update(1);

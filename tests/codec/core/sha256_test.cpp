@@ -12,7 +12,7 @@ std::string hash(std::string_view text) {
   return to_hex(sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
 }
 
-// FIPS 180-4's examples, and one of each padding.
+// The examples of FIPS 180-4, and one input for each kind of padding.
 TEST(Sha256, KnowsTheStandardVectors) {
   EXPECT_EQ(hash(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

@@ -24,7 +24,7 @@ using vitrine::testing::as_text;
 using vitrine::testing::coloured_tetrahedron;
 using vitrine::testing::grid;
 
-// A mesh whose positions take all 24 bits of single precision, in every colour.
+// Returns a mesh with many colours, whose positions need all 24 bits of single precision.
 TriangleMesh sample(bool coloured) {
   TriangleMesh mesh = grid(16);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -34,7 +34,8 @@ TriangleMesh sample(bool coloured) {
     mesh.positions[v] = {digits(7919) / 1024, digits(104729) * 64, digits(130363)};
     const auto byte = static_cast<std::uint8_t>(v);
     const auto reversed = static_cast<std::uint8_t>(255 - v);
-    if (coloured) mesh.colours.push_back({byte, reversed, static_cast<std::uint8_t>(v * 7)});
+    if (coloured)
+      mesh.attributes.colours.push_back({byte, reversed, static_cast<std::uint8_t>(v * 7)});
   }
   return mesh;
 }
@@ -55,7 +56,7 @@ TEST(WriteMesh, PlyAndGlbReadBackExactly) {
       const TriangleMesh back = read_back(mesh, format);
       EXPECT_EQ(back.positions, mesh.positions);
       EXPECT_EQ(back.faces, mesh.faces);
-      EXPECT_EQ(back.colours, mesh.colours);
+      EXPECT_EQ(back.attributes.colours, mesh.attributes.colours);
     }
   }
 }
@@ -65,7 +66,7 @@ TEST(WriteMesh, ObjReadsBackExactlyInSinglePrecision) {
     const TriangleMesh mesh = sample(coloured);
     const TriangleMesh back = read_back(mesh, MeshFormat::kObj);
     EXPECT_EQ(back.faces, mesh.faces);
-    EXPECT_EQ(back.colours, mesh.colours);
+    EXPECT_EQ(back.attributes.colours, mesh.attributes.colours);
     ASSERT_EQ(back.positions.size(), mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       EXPECT_EQ(static_cast<float>(back.positions[v].x), static_cast<float>(mesh.positions[v].x));
@@ -115,7 +116,7 @@ TEST(WriteMesh, VrmlHoldsTheSameMesh) {
   ASSERT_EQ(indices.size(), 16u);
   for (std::size_t v = 0; v < 4; ++v) {
     EXPECT_EQ(mesh.positions[v], (Vec3{points[3 * v], points[3 * v + 1], points[3 * v + 2]}));
-    EXPECT_NEAR(colours[3 * v + 1] * 255, mesh.colours[v][1], 1e-4);
+    EXPECT_NEAR(colours[3 * v + 1] * 255, mesh.attributes.colours[v][1], 1e-4);
   }
   for (std::size_t f = 0; f < 4; ++f) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -138,7 +139,7 @@ TEST(WriteMesh, DracoHoldsTheSameSurfaceWithin24Bits) {
   const auto* positions = back.GetNamedAttribute(draco::GeometryAttribute::POSITION);
   const auto* colours = back.GetNamedAttribute(draco::GeometryAttribute::COLOR);
   ASSERT_NE(colours, nullptr);
-  // Colours are exact and, but for the first and last vertices, name the vertex.
+  // Colours are exact. Except at the first and last vertices, a colour identifies its vertex.
   double widest = 0;
   for (const Vec3& p : mesh.positions)
     widest = std::max(widest, std::abs(p.y));
@@ -150,11 +151,11 @@ TEST(WriteMesh, DracoHoldsTheSameSurfaceWithin24Bits) {
     positions->GetMappedValue(point, position.data());
     const auto is_here = [&](std::size_t v) {
       const Vec3& p = mesh.positions[v];
-      return mesh.colours[v] == colour && std::abs(p.x - position[0]) <= step &&
+      return mesh.attributes.colours[v] == colour && std::abs(p.x - position[0]) <= step &&
              std::abs(p.y - position[1]) <= step && std::abs(p.z - position[2]) <= step;
     };
     bool found = false;
-    for (std::size_t v = 0; v < mesh.colours.size() && !found; ++v)
+    for (std::size_t v = 0; v < mesh.attributes.colours.size() && !found; ++v)
       found = is_here(v);
     EXPECT_TRUE(found) << "decoded point " << point.value();
   }

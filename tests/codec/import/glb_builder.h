@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary glTF put together part by part.
+// Builds a binary glTF file part by part.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace vitrine::testing {
 
-// The container around a document and its binary chunk.
+// Puts a document and its binary chunk into a GLB container.
 inline std::string glb(std::string json, std::string binary) {
   while (json.size() % 4 != 0)
     json += ' ';
@@ -29,13 +29,13 @@ class GlbBuilder {
 
   Json document = {{"asset", {{"version", "2.0"}}}};
 
-  // A view of `bytes`, with further members; returns its index.
+  // Adds a buffer view of `bytes`; `more` holds its other members. Returns the index of the view.
   std::size_t view(const std::string& bytes, Json more = Json::object()) {
     more.update(place(bytes));
     return append("bufferViews", std::move(more));
   }
 
-  // Where `bytes` are in the binary chunk.
+  // Appends `bytes` to the binary chunk. Returns their position in the chunk as members of a view.
   Json place(const std::string& bytes) {
     binary_.resize((binary_.size() + 3) / 4 * 4);
     const std::size_t offset = binary_.size();
@@ -53,7 +53,7 @@ class GlbBuilder {
     return accessor(type, 5126, count, {{"bufferView", view(bytes_of<float>(values))}});
   }
 
-  // Adds to the document's array `key`; returns the index.
+  // Appends `value` to the document's array `key`. Returns its index.
   std::size_t append(const char* key, Json value) {
     document[key].push_back(std::move(value));
     return document[key].size() - 1;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every file cut at every byte and with every byte flipped is an error or a sound mesh, and takes
-// memory within a multiple of its bytes.
+// Reads files that are cut off at every byte, or have any one byte changed. The result must be an
+// error or a valid mesh, and the memory must stay within a multiple of the file's size.
 #include "codec/export/write_mesh.h"
 #include "codec/import/reading.h"
-#include "codec/import/repair.h"
 #include "codec/mesh/connectivity.h"
+#include "codec/repair/repair.h"
 #include "support/counting_new.h"
 
 namespace vitrine {
@@ -13,10 +13,11 @@ namespace {
 using vitrine::testing::as_text;
 using vitrine::testing::coloured_tetrahedron;
 
-// For the messages of errors and repairs, whatever the size of the file.
+// Heap bytes allowed for the messages of errors and repairs, in addition to a multiple of the
+// file's size.
 constexpr std::size_t kHeapAlways = 512;
 
-struct Sample {
+struct IntactFile {
   std::string name, bytes;
   std::size_t heap_per_byte;
 };
@@ -25,7 +26,8 @@ std::string written(MeshFormat format) {
   return as_text(*write_mesh(coloured_tetrahedron(), format));
 }
 
-// One byte a number, and faces in no order on few vertices, which repair splits.
+// Returns a PLY with one byte for each number. Its faces join the vertices without order, so repair
+// must split many vertices.
 std::string densest_ply() {
   std::string ply =
       "ply\nformat binary_little_endian 1.0\nelement vertex 50\nproperty uchar x\n"
@@ -39,11 +41,12 @@ std::string densest_ply() {
   return ply;
 }
 
-// The multiples are measured and rounded up. GLB needs its own for the tree of its JSON, text PLY
-// for its header; the others for repair where a change makes edges of many faces, most so where
-// every number is a single byte: in memory it is a double or 32 bits, and corners become vertices.
-// Counts in text have leading zeros, so that one bit makes them millions.
-std::vector<Sample> samples() {
+// The multiples are measured and rounded up. GLB needs memory for the tree of its JSON, and text
+// PLY for its header. The other formats need memory for repair if a change gives an edge many
+// faces. They need the most memory per byte if every number in the file is a single byte, because
+// numbers in memory are doubles or have 32 bits, and repair turns corners into vertices. Counts in
+// text have leading zeros, so that one changed bit makes them millions.
+std::vector<IntactFile> intact_files() {
   return {
       {"PLY", written(MeshFormat::kPly), 4},
       {"OBJ", written(MeshFormat::kObj), 7},
@@ -65,19 +68,20 @@ std::vector<Sample> samples() {
 
 Expected<RepairedMesh> read_and_repair(std::span<const std::uint8_t> bytes) {
   auto read = read_mesh(bytes);
-  if (!read) return Unexpected(read.error());
+  if (!read) return tl::unexpected(read.error());
   return repair(*std::move(read));
 }
 
-// Reads a copy of exactly this size: the address sanitizer sees a read past the end.
-void expect_error_or_sound_mesh(const Sample& sample, const std::string& bytes,
+// Expects an error or a valid mesh. Reads a copy of exactly the right size, so that the address
+// sanitizer detects a read past the end.
+void expect_error_or_sound_mesh(const IntactFile& file, const std::string& bytes,
                                 const std::string& change) {
-  SCOPED_TRACE(sample.name + change);
+  SCOPED_TRACE(file.name + change);
   const std::vector<std::uint8_t> copy(bytes.begin(), bytes.end());
   test::start_peak();
   const std::size_t before = test::heap_bytes();
   const auto repaired = read_and_repair(copy);
-  EXPECT_LE(test::peak_heap_bytes() - before, kHeapAlways + sample.heap_per_byte * copy.size());
+  EXPECT_LE(test::peak_heap_bytes() - before, kHeapAlways + file.heap_per_byte * copy.size());
   if (!repaired) {
     EXPECT_FALSE(repaired.error().message.empty());
     EXPECT_EQ(repaired.error().message.find('\n'), std::string::npos);
@@ -88,31 +92,31 @@ void expect_error_or_sound_mesh(const Sample& sample, const std::string& bytes,
 }
 
 TEST(HostileFiles, CutAtEveryByte) {
-  for (const Sample& sample : samples()) {
-    for (std::size_t size = 0; size < sample.bytes.size(); ++size) {
-      expect_error_or_sound_mesh(sample, sample.bytes.substr(0, size),
+  for (const IntactFile& file : intact_files()) {
+    for (std::size_t size = 0; size < file.bytes.size(); ++size) {
+      expect_error_or_sound_mesh(file, file.bytes.substr(0, size),
                                  " cut at " + std::to_string(size));
     }
   }
 }
 
 TEST(HostileFiles, EveryBitFlipped) {
-  for (const Sample& sample : samples()) {
-    for (std::size_t bit = 0; bit < 8 * sample.bytes.size(); ++bit) {
-      std::string bytes = sample.bytes;
+  for (const IntactFile& file : intact_files()) {
+    for (std::size_t bit = 0; bit < 8 * file.bytes.size(); ++bit) {
+      std::string bytes = file.bytes;
       bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << bit % 8));
-      expect_error_or_sound_mesh(sample, bytes, " bit " + std::to_string(bit));
+      expect_error_or_sound_mesh(file, bytes, " bit " + std::to_string(bit));
     }
   }
 }
 
 TEST(HostileFiles, EveryByteReplaced) {
-  for (const Sample& sample : samples()) {
-    for (std::size_t at = 0; at < sample.bytes.size(); ++at) {
+  for (const IntactFile& file : intact_files()) {
+    for (std::size_t at = 0; at < file.bytes.size(); ++at) {
       for (const char value : {'\0', '\xFF', '9', '-', '\n', 'e'}) {
-        std::string bytes = sample.bytes;
+        std::string bytes = file.bytes;
         bytes[at] = value;
-        expect_error_or_sound_mesh(sample, bytes, " byte " + std::to_string(at));
+        expect_error_or_sound_mesh(file, bytes, " byte " + std::to_string(at));
       }
     }
   }

@@ -68,7 +68,7 @@ TEST(Image, IsSampledBetweenPixelCentresInLinearLight) {
   };
   EXPECT_EQ(at(0.25), (Colour{255, 0, 0}));
   EXPECT_EQ(at(0.75), (Colour{0, 0, 255}));
-  EXPECT_EQ(at(0.5), (Colour{188, 0, 188}));  // half the light of each
+  EXPECT_EQ(at(0.5), (Colour{188, 0, 188}));  // sRGB value of half the light of each colour
   EXPECT_EQ(at(1.25), (Colour{255, 0, 0}));
   EXPECT_EQ(at(-0.25), (Colour{0, 0, 255}));
   EXPECT_EQ(at(1.25, Wrap::kClamp), (Colour{0, 0, 255}));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small named meshes for the tests of import and export.
+// Small meshes for the tests of import and export.
 #pragma once
 
 #include <string_view>
 
 #include "codec/import/read_mesh.h"
-#include "codec/import/repair.h"
+#include "codec/repair/repair.h"
 
 namespace vitrine::testing {
 
@@ -25,11 +25,11 @@ inline TriangleMesh tetrahedron() {
 
 inline TriangleMesh coloured_tetrahedron() {
   TriangleMesh mesh = tetrahedron();
-  mesh.colours = {{0, 1, 2}, {100, 128, 200}, {255, 254, 253}, {7, 77, 177}};
+  mesh.attributes.colours = {{0, 1, 2}, {100, 128, 200}, {255, 254, 253}, {7, 77, 177}};
   return mesh;
 }
 
-// A flat grid of n x n squares in the plane z = 0, facing up.
+// Returns a flat grid of n x n squares in the plane z = 0, facing up.
 inline TriangleMesh grid(std::uint32_t n) {
   TriangleMesh mesh;
   for (std::uint32_t y = 0; y <= n; ++y) {

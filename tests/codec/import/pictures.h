@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures, coded by the libraries that decode them.
+// Small pictures, encoded by the libraries that decode them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 
 namespace vitrine::testing {
 
-// The pixels of red_and_blue(), and what is halfway between them in light.
+// The pixels of red_and_blue(), and the colour halfway between them in linear light.
 inline constexpr Colour kRed{255, 0, 0}, kBlue{0, 0, 255}, kBetween{188, 0, 188};
 
-// `pixels` are RGB, rows from the top.
+// Returns a PNG. `pixels` are RGB, in rows from the top.
 inline std::string png_of(const std::vector<std::uint8_t>& pixels, std::uint32_t width) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
@@ -45,7 +45,7 @@ inline std::string jpeg_of(const std::vector<std::uint8_t>& pixels, int width) {
   return out;
 }
 
-// One pixel of red beside one of blue.
+// Returns a PNG of a red pixel beside a blue one.
 inline std::string red_and_blue() {
   return png_of({255, 0, 0, 0, 0, 255}, 2);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLB with KHR_draco_mesh_compression, the primitives coded by Draco itself.
+// GLB files with KHR_draco_mesh_compression. Draco itself encodes the primitives.
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
 
@@ -29,7 +29,7 @@ int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco:
   return id;
 }
 
-// The grid in Draco's terms, its vertices grey by their number.
+// Returns grid(n) as a Draco mesh. The colours of its vertices alternate between magenta and blue.
 std::unique_ptr<draco::Mesh> draco_grid(std::uint32_t n) {
   const TriangleMesh source = grid(n);
   auto mesh = std::make_unique<draco::Mesh>();
@@ -55,7 +55,7 @@ std::string coded(const std::unique_ptr<draco::Mesh>& mesh, int method) {
   return {buffer.data(), buffer.size()};
 }
 
-// A GLB of one primitive whose Draco data is `data`, as the Draco exporters write it.
+// Returns a GLB of one primitive with the Draco data `data`, as Draco's exporters write it.
 GlbBuilder around(const std::string& data, std::uint32_t n) {
   GlbBuilder builder;
   builder.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
@@ -97,11 +97,11 @@ TEST(ReadDracoGlb, BothMethods) {
 TEST(ReadDracoGlb, ColoursStayWithTheirVertices) {
   const auto result =
       read_text(around(coded(draco_grid(4), draco::MESH_EDGEBREAKER_ENCODING), 4).file());
-  ASSERT_EQ(result.mesh.colours.size(), 25u);
+  ASSERT_EQ(result.mesh.attributes.colours.size(), 25u);
   for (std::size_t v = 0; v < 25; ++v) {
     const Vec3& p = result.mesh.positions[v];
     const std::uint8_t red = static_cast<int>(p.y * 5 + p.x) % 2 == 0 ? 255 : 0;
-    EXPECT_EQ(result.mesh.colours[v], (Colour{red, 0, 255})) << v;
+    EXPECT_EQ(result.mesh.attributes.colours[v], (Colour{red, 0, 255})) << v;
   }
 }
 

@@ -17,7 +17,7 @@ using vitrine::testing::kNotFinite;
 using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 
-// Three corners of a triangle at byte 0, then whatever a test adds at byte 36.
+// Three corners of a triangle at byte 0. Each test adds its own data at byte 36.
 const std::string kCorners = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
 constexpr char kViews[] =
     R"("buffers":[{"byteLength":99}],"bufferViews":[{"buffer":0,"byteLength":36},)";
@@ -90,7 +90,7 @@ TEST(ReadGlb, ColoursAreLinearLightInAnyTypeAndStride) {
           R"(,{"bufferView":1,"componentType":5121,"normalized":true,"type":"VEC4","count":3}],)"
           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}]})",
       kCorners + colours));
-  EXPECT_THAT(result.mesh.colours,
+  EXPECT_THAT(result.mesh.attributes.colours,
               ElementsAre(Colour{0, 0, 0}, Colour{255, 128, 0}, Colour{0, 0, 255}));
 }
 

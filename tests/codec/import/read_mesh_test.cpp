@@ -16,8 +16,9 @@ TEST(ReadMesh, RefusesAnEmptyFile) {
 TEST(ReadMesh, RefusesOtherContentWhateverTheNameOfTheFile) {
   for (const char* text :
        {"Dear museum,\nhere is the scan.", "<html>", "\x89PNG\r\n\x1a\n", "\n\n"}) {
-    EXPECT_THAT(refusal(text),
-                HasSubstr("not a mesh file Vitrine reads (PLY, OBJ, STL, OFF, GLB)"));
+    EXPECT_THAT(
+        refusal(text),
+        HasSubstr("not a mesh file that Vitrine reads; convert it to PLY, GLB, STL, OFF or OBJ"));
   }
 }
 

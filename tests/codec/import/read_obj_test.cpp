@@ -58,15 +58,16 @@ TEST(ReadObj, LinesMayEndInAnyWayAndFaultsKeepTheirLine) {
 
 TEST(ReadObj, Colours) {
   const auto result = read_text("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
-  EXPECT_THAT(result.mesh.colours,
+  EXPECT_THAT(result.mesh.attributes.colours,
               ElementsAre(Colour{255, 128, 0}, Colour{255, 255, 255}, Colour{0, 0, 255}));
   const auto bytes = read_text("v 0 0 0 255 128 7\nv 1 0 0 0 1 2\nv 0 1 0 3 4 5\nf 1 2 3\n");
-  EXPECT_THAT(bytes.mesh.colours,
+  EXPECT_THAT(bytes.mesh.attributes.colours,
               ElementsAre(Colour{255, 128, 7}, Colour{0, 1, 2}, Colour{3, 4, 5}));
 }
 
 TEST(ReadObj, AWeightIsNoColour) {
-  EXPECT_THAT(read_text("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").mesh.colours, IsEmpty());
+  EXPECT_THAT(read_text("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").mesh.attributes.colours,
+              IsEmpty());
 }
 
 TEST(ReadObj, SaysThatATextureIsNotCarried) {

@@ -27,11 +27,11 @@ TEST(ReadOff, CountsOnTheHeadersLineAndWithoutEdges) {
 TEST(ReadOff, VertexColoursAndNormals) {
   const auto coloured =
       read_text("COFF\n3 1 0\n0 0 0 255 128 0 255\n1 0 0 0 1 2 255\n0 1 0 3 4 5 255\n3 0 1 2\n");
-  EXPECT_THAT(coloured.mesh.colours,
+  EXPECT_THAT(coloured.mesh.attributes.colours,
               ElementsAre(Colour{255, 128, 0}, Colour{0, 1, 2}, Colour{3, 4, 5}));
   const auto both = read_text(
       "CNOFF\n3 1 0\n0 0 0 0 0 1 1 0.5 0\n1 0 0 0 0 1 0 0 0\n0 1 0 0 0 1 0 0 1\n3 0 1 2\n");
-  EXPECT_THAT(both.mesh.colours,
+  EXPECT_THAT(both.mesh.attributes.colours,
               ElementsAre(Colour{255, 128, 0}, Colour{0, 0, 0}, Colour{0, 0, 255}));
   EXPECT_EQ(
       read_text("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n").mesh.positions[1],

@@ -83,7 +83,7 @@ TEST(ReadPly, StepsOverUnknownElementsAndPropertiesAndListsAnywhere) {
              "property list uchar float weights\nproperty double z\n"
              "element face 1\nproperty short material\nproperty list int uint vertex_index\n"
              "property list uchar uchar flags\nelement edge 0\nproperty int vertex1\n") +
-      bytes_of<double>({60}) + bytes_of<std::uint16_t>({2, 7, 7}) +                 // camera
+      bytes_of<double>({60}) + bytes_of<std::uint16_t>({2, 7, 7}) +  // the camera element
       "q" + bytes_of<double>({0, 0}) + std::string(1, 0) + bytes_of<double>({0}) +  //
       "q" + bytes_of<double>({1.5, 0}) + "\x01" + bytes_of<float>({9}) + bytes_of<double>({0}) +
       "q" + bytes_of<double>({0, -2.25}) + std::string(1, 0) + bytes_of<double>({0}) +
@@ -104,18 +104,19 @@ TEST(ReadPly, ColoursAsBytesAndAsFractions) {
                           "property uchar alpha\n" +
                           face) +
       "0 0 0 1 2 3 255\n1 0 0 255 0 9 255\n0 1 0 4 5 6 0\n3 0 1 2\n");
-  EXPECT_THAT(bytes.mesh.colours, ElementsAre(Colour{1, 2, 3}, Colour{255, 0, 9}, Colour{4, 5, 6}));
+  EXPECT_THAT(bytes.mesh.attributes.colours,
+              ElementsAre(Colour{1, 2, 3}, Colour{255, 0, 9}, Colour{4, 5, 6}));
   const auto integers = read_text(
       header("ascii", "element vertex 3\n" + position +
                           "property int red\nproperty int green\nproperty int blue\n" + face) +
       "0 0 0 1 2 3\n1 0 0 255 0 9\n0 1 0 4 5 6\n3 0 1 2\n");
-  EXPECT_EQ(integers.mesh.colours, bytes.mesh.colours);
+  EXPECT_EQ(integers.mesh.attributes.colours, bytes.mesh.attributes.colours);
   const auto fractions = read_text(
       header("ascii", "element vertex 3\n" + position +
                           "property float red\nproperty float green\nproperty float blue\n" +
                           face) +
       "0 0 0 1 0 0.5\n1 0 0 2 -1 nan\n0 1 0 0 0 0\n3 0 1 2\n");
-  EXPECT_THAT(fractions.mesh.colours,
+  EXPECT_THAT(fractions.mesh.attributes.colours,
               ElementsAre(Colour{255, 0, 128}, Colour{255, 0, 0}, Colour{0, 0, 0}));
 }
 

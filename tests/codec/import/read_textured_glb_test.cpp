@@ -19,7 +19,7 @@ using vitrine::testing::red_and_blue;
 using vitrine::testing::refusal;
 using Json = nlohmann::json;
 
-// One triangle whose corners are at u = 0.25, 0.75 and 1.25 of `picture`.
+// Returns one triangle whose corners are at u = 0.25, 0.75 and 1.25 of `picture`.
 GlbBuilder textured(const std::string& picture) {
   GlbBuilder builder;
   const std::size_t points = builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
@@ -38,21 +38,21 @@ Json& surface(GlbBuilder& builder) {
 
 TEST(ReadTexturedGlb, TheTextureIsBakedAndThatIsSaid) {
   const auto result = read_text(textured(red_and_blue()).file());
-  EXPECT_THAT(result.mesh.colours, ElementsAre(kRed, kBlue, kRed));
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kBlue, kRed));
   EXPECT_THAT(result.repairs, ElementsAre("1 texture map baked into vertex colours"));
 }
 
 TEST(ReadTexturedGlb, TheSamplerSaysHowThePictureGoesOn) {
   GlbBuilder builder = textured(red_and_blue());
   builder.document["samplers"][0] = {{"wrapS", 33071}};
-  EXPECT_THAT(read_text(builder.file()).mesh.colours, ElementsAre(kRed, kBlue, kBlue));
+  EXPECT_THAT(read_text(builder.file()).mesh.attributes.colours, ElementsAre(kRed, kBlue, kBlue));
 }
 
 TEST(ReadTexturedGlb, TheTransformMovesThePicture) {
   GlbBuilder builder = textured(red_and_blue());
   surface(builder)["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
       {"offset", {0.5, 0}}};
-  EXPECT_THAT(read_text(builder.file()).mesh.colours, ElementsAre(kBlue, kRed, kBlue));
+  EXPECT_THAT(read_text(builder.file()).mesh.attributes.colours, ElementsAre(kBlue, kRed, kBlue));
 }
 
 TEST(ReadTexturedGlb, FactorAndVertexColoursAreMultipliedInLinearLight) {
@@ -60,7 +60,7 @@ TEST(ReadTexturedGlb, FactorAndVertexColoursAreMultipliedInLinearLight) {
   surface(builder)["baseColorFactor"] = {0.5, 1, 0.5, 1};
   const std::size_t colours = builder.floats("VEC3", {1, 1, 1, 0, 0, 0, 0.5, 1, 1}, 3);
   builder.document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colours;
-  EXPECT_THAT(read_text(builder.file()).mesh.colours,
+  EXPECT_THAT(read_text(builder.file()).mesh.attributes.colours,
               ElementsAre(Colour{188, 0, 0}, Colour{0, 0, 0}, Colour{137, 0, 0}));
 }
 
@@ -71,7 +71,7 @@ TEST(ReadTexturedGlb, AFactorAloneIsBakedToo) {
   builder.mesh({{"attributes", {{"POSITION", points}}}, {"material", 0}});
   const auto result = read_text(builder.file());
   const Colour orange{255, 188, 0};
-  EXPECT_THAT(result.mesh.colours, ElementsAre(orange, orange, orange));
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(orange, orange, orange));
   EXPECT_THAT(result.repairs, ElementsAre("material colours baked into vertex colours"));
 }
 
@@ -84,20 +84,20 @@ TEST(ReadTexturedGlb, VerticesOnASeamAreWeldedToTheMeanOfTheirColours) {
   builder.document["meshes"][0]["primitives"][0]["attributes"] = {{"POSITION", points},
                                                                   {"TEXCOORD_0", places}};
   const auto result = read_text(builder.file());
-  EXPECT_THAT(result.mesh.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}));
   EXPECT_THAT(result.repairs, Contains(HasSubstr("2 repeated vertices welded")));
 }
 
 TEST(ReadTexturedGlb, AJpegIsRead) {
   const std::string picture = jpeg_of(std::vector<std::uint8_t>(192, 100), 8);
-  EXPECT_NEAR(read_text(textured(picture).file()).mesh.colours.at(0)[0], 100, 3);
+  EXPECT_NEAR(read_text(textured(picture).file()).mesh.attributes.colours.at(0)[0], 100, 3);
 }
 
-// What is said of the only picture of a file.
+// Returns the fault that the reader reports for the only picture of a file.
 std::string fault_of(const GlbBuilder& builder) {
   const auto result = read_text(builder.file());
-  EXPECT_THAT(result.mesh.colours, ElementsAre());
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre());
   EXPECT_EQ(result.mesh.faces.size(), 1u);
   EXPECT_THAT(result.repairs, SizeIs(1));
   return result.repairs.empty() ? "" : result.repairs.front();
@@ -128,7 +128,7 @@ TEST(ReadTexturedGlb, APictureOfAnExtensionIsToldByItsFormat) {
 TEST(ReadTexturedGlb, ThePlainPictureGoesBeforeThatOfAnExtension) {
   GlbBuilder builder = textured(red_and_blue());
   builder.document["textures"][0]["extensions"]["EXT_texture_webp"] = {{"source", 7}};
-  EXPECT_THAT(read_text(builder.file()).mesh.colours, ElementsAre(kRed, kBlue, kRed));
+  EXPECT_THAT(read_text(builder.file()).mesh.attributes.colours, ElementsAre(kRed, kBlue, kRed));
 }
 
 // red_and_blue() in base64.
@@ -139,7 +139,7 @@ const std::string kUri =
 TEST(ReadTexturedGlb, APictureInADataUriIsRead) {
   GlbBuilder builder = textured("");
   builder.document["images"][0] = {{"uri", kUri}};
-  EXPECT_THAT(read_text(builder.file()).mesh.colours, ElementsAre(kRed, kBlue, kRed));
+  EXPECT_THAT(read_text(builder.file()).mesh.attributes.colours, ElementsAre(kRed, kBlue, kRed));
 }
 
 TEST(ReadTexturedGlb, ADataUriThatCannotBeReadIsNamedAndTheMeshStays) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OBJ and PLY with pictures beside them.
+// OBJ and PLY files with pictures beside them.
 #include "codec/import/pictures.h"
 #include "codec/import/reading.h"
 
@@ -37,20 +37,20 @@ const std::string kObj =
 
 TEST(ReadTexturedObj, ThePictureOfTheMaterialIsBaked) {
   const auto result = read_with(kObj, {{"bust.mtl", kLibrary}, {"skin.png", kPicture}});
-  EXPECT_THAT(result.mesh.colours, ElementsAre(kRed, kRed, kRed, Colour{255, 255, 255}));
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kRed, kRed, Colour{255, 255, 255}));
   EXPECT_THAT(result.repairs, ElementsAre("1 texture map baked into vertex colours"));
 }
 
 TEST(ReadTexturedObj, AVertexOnASeamTakesTheMeanOfItsCorners) {
   const auto result =
       read_with(kObj + "f 3/-1 2/-1 4/-1\n", {{"bust.mtl", kLibrary}, {"skin.png", kPicture}});
-  EXPECT_THAT(result.mesh.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
 }
 
 TEST(ReadTexturedObj, AMaterialWithoutPictureGivesItsColour) {
   const auto result =
       read_with(kObj + "usemtl plain\nf 4 2 3\n", {{"bust.mtl", kLibrary}, {"skin.png", kPicture}});
-  EXPECT_EQ(result.mesh.colours[3], (Colour{51, 102, 153}));
+  EXPECT_EQ(result.mesh.attributes.colours[3], (Colour{51, 102, 153}));
   EXPECT_THAT(result.repairs, Contains("material colours baked into vertex colours"));
 }
 
@@ -60,21 +60,21 @@ TEST(ReadTexturedObj, MaterialsThatMeetAlongASeamAreWeldedToTheMeanOfTheirColour
       "usemtl red\nf 1 2 3\nusemtl blue\nf 4 5 6\n",
       {{"a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n"}});
   EXPECT_THAT(result.mesh.faces, ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}));
-  EXPECT_THAT(result.mesh.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
   EXPECT_THAT(result.repairs, Contains(HasSubstr("2 repeated vertices welded")));
 }
 
 TEST(ReadTexturedObj, WhatIsMissingIsNamed) {
   const auto result = read_with(kObj, {{"bust.mtl", kLibrary}});
   EXPECT_THAT(result.repairs, Contains(HasSubstr("Skin.PNG' not carried: it is not beside")));
-  EXPECT_THAT(read_with(kObj, {}).mesh.colours, ElementsAre());
+  EXPECT_THAT(read_with(kObj, {}).mesh.attributes.colours, ElementsAre());
 }
 
 TEST(ReadTexturedObj, ColoursOfTheVerticesGoFirst) {
   std::string text = kObj;
   text.replace(text.find("v 0 0 0\n"), 8, "v 0 0 0 0 1 0\n");
   const auto result = read_with(text, {{"bust.mtl", kLibrary}, {"skin.png", kPicture}});
-  EXPECT_EQ(result.mesh.colours[0], (Colour{0, 255, 0}));
+  EXPECT_EQ(result.mesh.attributes.colours[0], (Colour{0, 255, 0}));
   EXPECT_THAT(result.repairs, Contains(HasSubstr("the vertices have colours of their own")));
 }
 
@@ -90,7 +90,7 @@ TEST(ReadTexturedPly, CoordinatesOfVertices) {
       read_with(ply("property float s\nproperty float t\n", "",
                     "0 0 0 0.25 0\n1 0 0 0.25 1\n0 1 0 0.75 0\n1 1 0 0.5 0\n3 0 1 2\n3 2 1 3\n"),
                 {{"my skin.png", kPicture}});
-  EXPECT_THAT(result.mesh.colours, ElementsAre(kRed, kRed, kBlue, kBetween));
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kRed, kBlue, kBetween));
   EXPECT_THAT(result.repairs, ElementsAre("1 texture map baked into vertex colours"));
 }
 
@@ -100,7 +100,7 @@ TEST(ReadTexturedPly, CoordinatesOfCorners) {
                                     "3 0 1 2 6 0.25 0 0.25 0 0.25 0\n"
                                     "3 2 1 3 6 0.75 0 0.75 0 0.75 0\n"),
                                 {{"my skin.png", kPicture}});
-  EXPECT_THAT(result.mesh.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
+  EXPECT_THAT(result.mesh.attributes.colours, ElementsAre(kRed, kBetween, kBetween, kBlue));
 }
 
 TEST(ReadTexturedPly, VerticesRepeatedAlongASeamAreWeldedAndAnOpenBorderStays) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Short forms for the tests of the readers.
+// Helpers for the tests of the readers.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -21,14 +21,14 @@ inline ImportedMesh read_text(std::string_view text) {
   return result ? *std::move(result) : ImportedMesh{};
 }
 
-// The message with which the reader refuses the text.
+// Returns the message with which the reader refuses the text.
 inline std::string refusal(std::string_view text) {
   const auto result = read_mesh(as_bytes(text));
   EXPECT_FALSE(result.has_value());
   return result ? "" : result.error().message;
 }
 
-// What scanners and converters write where they know no number, as text and as what it reads as.
+// A word that scanners and converters write for an unknown number, and its value as a float.
 struct NotFinite {
   const char* text;
   float value;
@@ -37,7 +37,8 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr NotFinite kNotFinite[] = {
     {"nan", std::numeric_limits<float>::quiet_NaN()}, {"inf", kInfinity}, {"-inf", -kInfinity}};
 
-// Of four vertices the faces use all but the first, which alone is not finite.
+// Expects that the reader has dropped the first of four vertices. No face uses that vertex, and its
+// coordinates are not finite.
 inline void expect_first_dropped(const ImportedMesh& imported) {
   EXPECT_EQ(imported.mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_THAT(imported.mesh.faces, ::testing::ElementsAre(Triangle{0, 1, 2}));
@@ -46,7 +47,8 @@ inline void expect_first_dropped(const ImportedMesh& imported) {
       ::testing::Contains(::testing::HasSubstr("1 point without finite coordinates dropped")));
 }
 
-// The faces use the first vertex, too.
+// Expects that the reader refuses the file and names its first vertex. That vertex is not finite,
+// and faces use it.
 inline void expect_first_named(std::string_view file) {
   EXPECT_THAT(refusal(file), ::testing::HasSubstr(
                                  "vertex 0 (counted from 0) has a coordinate that is not a finite "

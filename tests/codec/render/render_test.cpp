@@ -13,14 +13,14 @@ namespace {
 
 constexpr Colour kRed = {200, 20, 20}, kGreen = {20, 200, 20};
 
-// A square across the z axis, seen from +z.
+// Adds a square that is centred on the z axis, perpendicular to it, and visible from +z.
 void add_square(TriangleMesh& mesh, double half, double z, const Colour& colour) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vec3& p : {Vec3{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}})
     mesh.positions.push_back(p);
   mesh.faces.push_back({first, first + 1, first + 2});
   mesh.faces.push_back({first, first + 2, first + 3});
-  mesh.colours.insert(mesh.colours.end(), 4, colour);
+  mesh.attributes.colours.insert(mesh.attributes.colours.end(), 4, colour);
 }
 
 TriangleMesh square() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Against distances between the meshes before and after each collapse of a bumpy sheet.
+// Compares keeps_near() with the distances between a bumpy sheet before and after each collapse.
 #include "codec/simplify/closeness.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 namespace vitrine::test {
 namespace {
 
-constexpr double kReach = 12.3;  // lattice units; no distance is exactly that
+constexpr double kReach = 12.3;  // lattice units; no distance has exactly this value
 
-// `height`: of the bumps, edges.
+// Returns a sheet with bumps. `height` is their height in edge lengths.
 Surface bumpy_sheet(double height) {
   constexpr std::uint32_t kSide = 24;
   TriangleMesh sheet = test::sheet(kSide, kSide);
@@ -31,14 +31,15 @@ Surface bumpy_sheet(double height) {
   return surface;
 }
 
-// The faces at the edge, or what becomes of them, and the middles of their edges at the ends.
-struct Around {
+// The faces around an edge, before or after its collapse. `edges` holds the midpoints of the edges
+// that leave the ends of that edge, and `faces` the centroids of the faces.
+struct EdgeFaces {
   TriangleMesh mesh;
   std::vector<Vec3> edges, faces;
 };
 
-Around around(const Surface& surface, const EdgeStar& edge, const Vec3* target) {
-  Around out;
+EdgeFaces around(const Surface& surface, const EdgeStar& edge, const Vec3* target) {
+  EdgeFaces out;
   std::set<std::uint32_t> done;
   for (const Star* star : {&edge.star1, &edge.star2}) {
     for (std::uint32_t i = 0; i < star->valence; ++i) {
@@ -79,19 +80,19 @@ double farthest(const std::vector<Vec3>& points, const TriangleBvh& from) {
   return most;
 }
 
-struct Count {
+struct DistanceCounts {
   std::size_t near = 0, far_ends = 0, far_middles = 0;
 };
 
-Count compare_all(const Surface& surface) {
-  Count count;
+DistanceCounts compare_all(const Surface& surface) {
+  DistanceCounts count;
   for (Corner c = 0; c < 3 * surface.mesh.face_count(); ++c) {
     if (is_virtual(surface.mesh.vertex(c)) || is_virtual(surface.mesh.vertex(next(c)))) continue;
     const EdgeStar edge(surface.mesh, c);
     if (!keeps_manifold(surface.mesh, edge)) continue;
     const Vec3i target = merged_position(surface, edge, Placement::kMidpoint, 0);
     const Vec3 to = surface.middle(target);
-    const Around before = around(surface, edge, nullptr), after = around(surface, edge, &to);
+    const EdgeFaces before = around(surface, edge, nullptr), after = around(surface, edge, &to);
     const TriangleBvh old_faces(before.mesh), new_faces(after.mesh);
     const double ends = farthest({surface.point(edge.v1), surface.point(edge.v2)}, new_faces);
     const double middles =
@@ -106,15 +107,15 @@ Count compare_all(const Surface& surface) {
 }
 
 TEST(Closeness, ComparesTheSurfacesBeforeAndAfter) {
-  const Count count = compare_all(bumpy_sheet(0.8));
+  const DistanceCounts count = compare_all(bumpy_sheet(0.8));
   EXPECT_GT(count.near, 100u);
   EXPECT_GT(count.far_ends, 100u);
   EXPECT_GT(count.far_middles, 10u);
 }
 
-// Bumps about as high as the reach: a slab holds some patches whole and others not.
+// The bumps are about as high as the reach, so some patches fit into a slab and others do not.
 TEST(Closeness, ComparesFlatSurfacesToo) {
-  const Count count = compare_all(bumpy_sheet(0.3));
+  const DistanceCounts count = compare_all(bumpy_sheet(0.3));
   EXPECT_GT(count.near, 100u);
   EXPECT_GT(count.far_ends, 10u);
 }

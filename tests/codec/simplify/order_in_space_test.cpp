@@ -14,7 +14,7 @@
 namespace vitrine::test {
 namespace {
 
-// The same mesh with its vertices and faces in any order.
+// Returns the same mesh with its vertices and faces in a random order.
 TriangleMesh shuffled(const TriangleMesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::uint32_t> name(mesh.positions.size());
@@ -23,7 +23,8 @@ TriangleMesh shuffled(const TriangleMesh& mesh, unsigned seed) {
   TriangleMesh out = mesh;
   for (std::size_t v = 0; v < name.size(); ++v) {
     out.positions[name[v]] = mesh.positions[v];
-    if (!mesh.colours.empty()) out.colours[name[v]] = mesh.colours[v];
+    if (!mesh.attributes.colours.empty())
+      out.attributes.colours[name[v]] = mesh.attributes.colours[v];
   }
   for (Triangle& f : out.faces)
     f = {name[f[0]], name[f[1]], name[f[2]]};
@@ -31,14 +32,16 @@ TriangleMesh shuffled(const TriangleMesh& mesh, unsigned seed) {
   return out;
 }
 
-// What does not depend on the order: the corners of each face, the smallest first, with colours.
+// Returns the faces of the mesh in sorted order: the corners of each face with their colours, from
+// the smallest corner on.
 std::vector<std::array<double, 12>> content(const TriangleMesh& mesh) {
   std::vector<std::array<double, 12>> faces;
   for (const Triangle& f : mesh.faces) {
     std::array<std::array<double, 4>, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& p = mesh.positions[f[k]];
-      corners[k] = {p.x, p.y, p.z, mesh.colours.empty() ? 0.0 : mesh.colours[f[k]][0]};
+      corners[k] = {p.x, p.y, p.z,
+                    mesh.attributes.colours.empty() ? 0.0 : mesh.attributes.colours[f[k]][0]};
     }
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     std::array<double, 12>& face = faces.emplace_back();
@@ -59,7 +62,7 @@ double mean_step(const TriangleMesh& mesh) {
 TEST(OrderInSpace, KeepsFacesTheirSidesAndColours) {
   TriangleMesh mesh = sheet(30, 40);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    mesh.colours.push_back({static_cast<std::uint8_t>(v % 251), 0, 0});
+    mesh.attributes.colours.push_back({static_cast<std::uint8_t>(v % 251), 0, 0});
   TriangleMesh ordered = shuffled(mesh, 1);
   order_in_space(ordered);
   EXPECT_EQ(content(ordered), content(mesh));

@@ -20,7 +20,7 @@ std::vector<Vec3i> random_points(std::size_t count) {
   return points;
 }
 
-// Goes down the tree as a reader of the planes does.
+// Returns the leaf that contains a point. Descends the tree by its planes, as a decoder does.
 std::uint32_t leaf_of(const Vec3i& p, const RegionTree& tree) {
   std::uint32_t node = 0;
   while (tree.nodes[node].fork != 0)

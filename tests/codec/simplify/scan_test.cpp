@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan of a bust, simplified, and how true its error is.
+// Simplifies a scan of a bust and checks the stated error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,11 +7,11 @@
 #include <iterator>
 #include <span>
 
-#include "codec/mesh/surface_distance.h"
-#include "hierarchies.h"
+#include "codec/distance/surface_distance.h"
+#include "support/hierarchies.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
-#include "tight_bound.h"
+#include "support/tight_bound.h"
 
 namespace vitrine::test {
 namespace {
@@ -69,11 +69,11 @@ TEST(SmallComponents, TenThousandSpecksDoNotGrowTheBase) {
     ASSERT_TRUE(hierarchy.has_value());
     EXPECT_GE(hierarchy->base.positions.size(), 150u);
     EXPECT_LE(hierarchy->base.positions.size(), 375u);
-    std::size_t vertices = hierarchy->base.positions.size() + born_whole(*hierarchy);
+    std::size_t vertices = hierarchy->base.positions.size() + inserted_vertices(*hierarchy);
     for (const CollapseLevel& level : hierarchy->levels)
       vertices += level.size();
     EXPECT_EQ(vertices, scan.positions.size());
-    EXPECT_GT(born_whole(*hierarchy), (scan.positions.size() - without) / 2);
+    EXPECT_GT(inserted_vertices(*hierarchy), (scan.positions.size() - without) / 2);
   }
 }
 
@@ -87,7 +87,8 @@ TEST(ErrorMeter, BoundIsTrueAndTightOnAScan) {
 
 TEST(Simplify, FollowsTheSurfaceAsItWasBeforeRounding) {
   const TriangleMesh scan = shipped_model("demosthenes.obj");
-  const LatticeMesh fine = quantise(scan, fit_lattice(scan.positions, 8));  // edges of a few steps
+  // edges are a few lattice steps long
+  const LatticeMesh fine = quantise(scan, fit_lattice(scan.positions, 8));
   const auto half = static_cast<std::uint32_t>(fine.positions.size() / 2);
   const auto rms = [&](std::span<const Vec3> original) {
     const auto hierarchy = simplify(fine, {.target_vertices = half}, original);
@@ -110,10 +111,10 @@ TEST(ErrorMeter, BoundIsTrueAndTightForMovedVerticesOfKnownOrigin) {
   }
 }
 
-// The faces with a corner in a region.
+// Returns the faces that have a corner in the region `which`.
 TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::uint16_t>& regions,
                      std::uint16_t which) {
-  TriangleMesh part{.positions = mesh.positions, .faces = {}, .colours = {}};
+  TriangleMesh part{.positions = mesh.positions, .faces = {}, .attributes = {}};
   const auto is_in = [&](VertexId v) { return regions[v] == which; };
   std::ranges::copy_if(mesh.faces, std::back_inserter(part.faces),
                        [&](const Triangle& f) { return std::ranges::any_of(f, is_in); });

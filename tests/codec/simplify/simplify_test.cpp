@@ -8,12 +8,12 @@
 #include <map>
 #include <set>
 
-#include "codec/progressive/cell.h"
-#include "codec/progressive/colour.h"
-#include "codec/progressive/placement.h"
+#include "codec/format/cell.h"
+#include "codec/format/lattice_attributes.h"
+#include "codec/format/placement.h"
 #include "codec/simplify/collapse_rules.h"
 #include "codec/simplify/surface.h"
-#include "hierarchies.h"
+#include "support/hierarchies.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 #include "support/validate.h"
@@ -21,7 +21,7 @@
 namespace vitrine::test {
 namespace {
 
-// Performs the recorded collapses on plain face lists, without the code under test.
+// Performs the recorded collapses on plain lists of faces, without the code under test.
 class Replay {
  public:
   Replay(const LatticeMesh& fine, const Hierarchy& hierarchy)
@@ -32,11 +32,11 @@ class Replay {
     link();
   }
 
-  // `level` counts from 1 (coarsest) as in Hierarchy.
+  // Performs the collapses of a level. `level` counts from 1 (coarsest), as in Hierarchy.
   void collapse_level(std::uint32_t level) {
     std::set<VertexId> ends;
     const Vec3i* last = nullptr;
-    for (const Component& c : hierarchy_.births[level - 1])
+    for (const Component& c : hierarchy_.insertions[level - 1])
       ASSERT_NO_FATAL_FAILURE(take_out(c, level));
     for (const Collapse& c : hierarchy_.levels[level - 1]) {
       ASSERT_TRUE(ends.insert(c.v1).second && ends.insert(c.v2).second) << "a shared end point";
@@ -50,7 +50,8 @@ class Replay {
     ASSERT_NO_FATAL_FAILURE(coarsen_lattice(level));
   }
 
-  // The closed mesh of the level must be a manifold with all of its boundary loops.
+  // Expects that the level's mesh is a manifold once it is closed, and has the expected number of
+  // boundary loops.
   void check_manifold() const {
     std::map<VertexId, std::uint32_t> index;
     std::vector<Triangle> faces;
@@ -82,7 +83,8 @@ class Replay {
     }
   }
 
-  // A component is recorded as it is, and whole.
+  // Removes an inserted component. The record must contain the whole component in its present
+  // state.
   void take_out(const Component& component, std::uint32_t level) {
     const std::set<VertexId> ids(component.ids.begin(), component.ids.end());
     std::vector<Triangle> recorded, found;
@@ -107,7 +109,8 @@ class Replay {
     link();
   }
 
-  // What is cut off must be on record, for every vertex that is left.
+  // Moves the vertices to a coarser lattice. For every remaining vertex, the record must hold the
+  // bits that are removed.
   void coarsen_lattice(std::uint32_t level) {
     const std::uint32_t bits = hierarchy_.shift[level - 1] - hierarchy_.shift[level];
     const auto& refined = hierarchy_.refined[level - 1];
@@ -122,7 +125,7 @@ class Replay {
     }
   }
 
-  // Per vertex.
+  // Returns the region of each vertex at `level`.
   std::vector<std::uint32_t> regions_at(std::uint32_t level) const {
     std::vector<std::uint32_t> of_leaf(hierarchy_.tree.leaves());
     for (const std::uint32_t node : hierarchy_.tree.regions_at(level)) {
@@ -165,7 +168,8 @@ class Replay {
     return merge(c.p1, c.p2, pyramid_term(opposite, others, parity));
   }
 
-  // The third vertex of the face with the directed edge, or a virtual one.
+  // Returns the third vertex of the face that has the directed edge, or a virtual vertex if there
+  // is no such face.
   VertexId apex(VertexId from, VertexId to) const {
     for (std::size_t f : faces_at_[from]) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -195,18 +199,18 @@ class Replay {
   std::vector<Vec3i> positions_;
   std::vector<std::set<VertexId>> neighbours_;
   std::vector<std::vector<std::size_t>> faces_at_;
-  std::uint32_t loops_;  // of the components that are left
+  std::uint32_t loops_;  // number of boundary loops of the remaining components
 };
 
-struct Case {
+struct SimplifyCase {
   const char* name;
   TriangleMesh mesh;
   SimplifyOptions options;
   std::uint32_t specks = 0;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<SimplifyCase> cases() {
+  std::vector<SimplifyCase> all;
   for (const Placement placement : {Placement::kMidpoint, Placement::kPyramid}) {
     for (const std::uint32_t region_vertices : {0u, 130u}) {
       const SimplifyOptions options{
@@ -224,7 +228,7 @@ std::vector<Case> cases() {
 }
 
 TEST(Simplify, EveryLevelIsAManifoldThatObeysTheRulesDownToTheBase) {
-  for (const Case& c : cases()) {
+  for (const SimplifyCase& c : cases()) {
     SCOPED_TRACE(std::string(c.name) + " pyramid " +
                  std::to_string(c.options.placement == Placement::kPyramid) + " regions " +
                  std::to_string(c.options.region_vertices));
@@ -233,7 +237,7 @@ TEST(Simplify, EveryLevelIsAManifoldThatObeysTheRulesDownToTheBase) {
     const auto hierarchy = simplify(fine, c.options);
     ASSERT_TRUE(hierarchy.has_value());
     ASSERT_GE(hierarchy->levels.size(), 3u);
-    EXPECT_EQ(c.specks > 0, std::ranges::any_of(hierarchy->births, [](const auto& components) {
+    EXPECT_EQ(c.specks > 0, std::ranges::any_of(hierarchy->insertions, [](const auto& components) {
                 return !components.empty();
               }));
     Replay replay(fine, *hierarchy);
@@ -257,24 +261,24 @@ TEST(Simplify, EveryLevelIsAManifoldThatObeysTheRulesDownToTheBase) {
 TEST(Simplify, ColoursMergeAndStayExactInTheRecord) {
   TriangleMesh mesh = sheet(20, 16);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    mesh.colours.push_back({static_cast<std::uint8_t>(i * 7), static_cast<std::uint8_t>(i * 13),
-                            static_cast<std::uint8_t>(i * 29)});
+    mesh.attributes.colours.push_back({static_cast<std::uint8_t>(i * 7),
+                                       static_cast<std::uint8_t>(i * 13),
+                                       static_cast<std::uint8_t>(i * 29)});
   }
   const auto hierarchy = simplify(on_lattice(mesh), {.target_vertices = 40});
   ASSERT_TRUE(hierarchy.has_value());
-  std::vector<Vec3i> colour;
-  for (const Colour& c : mesh.colours)
-    colour.push_back(to_ycocg(c));
+  std::vector<Vec3i> colour = lattice_attributes(mesh.attributes)[0].values;
   for (auto level = hierarchy->levels.rbegin(); level != hierarchy->levels.rend(); ++level) {
     for (const Collapse& c : *level) {
-      ASSERT_EQ(c.c1, colour[c.v1]);
-      ASSERT_EQ(c.c2, colour[c.v2]);
-      colour[c.v1] = merge_colours(c.c1, c.c2);
+      ASSERT_EQ(c.a1[0], colour[c.v1]);
+      ASSERT_EQ(c.a2[0], colour[c.v2]);
+      colour[c.v1] = merge_values(c.a1[0], c.a2[0]);
     }
   }
-  ASSERT_EQ(hierarchy->base_colours.size(), hierarchy->base.positions.size());
+  const std::vector<Vec3i>& base_colours = hierarchy->base_attributes[0].values;
+  ASSERT_EQ(base_colours.size(), hierarchy->base.positions.size());
   for (std::size_t i = 0; i < hierarchy->base_ids.size(); ++i) {
-    EXPECT_EQ(hierarchy->base_colours[i], colour[hierarchy->base_ids[i]]);
+    EXPECT_EQ(base_colours[i], colour[hierarchy->base_ids[i]]);
   }
 }
 
@@ -303,7 +307,7 @@ TEST(Simplify, RimsKeepTheirPlace) {
   EXPECT_GE(middle_of(*high, shift).z, 4095 - tolerance);
 }
 
-// The rms height of vertices above the plane 3 z = x + y, lattice units.
+// Returns the rms height of the vertices above the plane 3 z = x + y, in lattice units.
 double off_plane(const LatticeMesh& mesh) {
   double sum = 0;
   for (const Vec3i& p : mesh.positions)
@@ -316,7 +320,8 @@ TEST(Simplify, TakesMidpointsThatRoundOntoTheSurface) {
   for (Vec3& p : plane.positions)
     p = {p.x * 7.3, p.y * 7.7, (p.x * 7.3 + p.y * 7.7) / 3};
   const LatticeMesh fine = quantise(plane, {.origin = {}, .step = 1, .bits = 12});
-  for (const std::uint32_t vertices : {1800u, 1200u}) {  // one level and two, of either parity
+  // 1,800 vertices take one level and 1,200 take two, so both parities are tested
+  for (const std::uint32_t vertices : {1800u, 1200u}) {
     const auto hierarchy = simplify(fine, {.target_vertices = vertices}, plane.positions);
     EXPECT_LT(off_plane(hierarchy.value().base), 0.9 * off_plane(fine)) << vertices;
   }
@@ -332,7 +337,7 @@ Surface surface_of(const LatticeMesh& fine) {
   return surface;
 }
 
-// What the finest level's collapse of the edge costs.
+// Returns the cost of collapsing the edge to `target` in the finest level.
 double cost_of(const Surface& surface, const EdgeStar& edge, const Vec3i& target) {
   const Vec3 at = to_vec3(target);
   return surface.quadric[edge.v1].at(at) + surface.quadric[edge.v2].at(at);
@@ -423,7 +428,7 @@ TEST(Simplify, LeavesWhatCannotCollapseAsItIs) {
   const LatticeMesh tetrahedron{.lattice = {},
                                 .positions = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}},
                                 .faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
-                                .colours = {}};
+                                .attributes = {}};
   const auto hierarchy = simplify(tetrahedron, {.target_vertices = 1});
   ASSERT_TRUE(hierarchy.has_value());
   EXPECT_TRUE(hierarchy->levels.empty());

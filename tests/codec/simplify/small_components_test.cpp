@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "codec/simplify/simplify.h"
-#include "hierarchies.h"
+#include "support/hierarchies.h"
 #include "support/meshes.h"
 #include "support/random_mesh.h"
 
@@ -20,18 +20,19 @@ std::int32_t width(const std::vector<Vec3i>& positions) {
 }
 
 TEST(SmallComponents, OfAModelOfSpecksAloneTheLargestAreTheBase) {
-  LatticeMesh specks{.lattice = {.bits = 12}, .positions = {}, .faces = {}, .colours = {}};
+  LatticeMesh specks{.lattice = {.bits = 12}, .positions = {}, .faces = {}, .attributes = {}};
   add_specks(specks, 3000, 2);
   const auto hierarchy = simplify(specks, {});
   ASSERT_TRUE(hierarchy.has_value());
   EXPECT_GE(hierarchy->base.positions.size(), 150u);
   EXPECT_LE(hierarchy->base.positions.size(), 375u);
-  ASSERT_FALSE(hierarchy->births[0].empty());
-  for (const Component& component : hierarchy->births[0])
+  ASSERT_FALSE(hierarchy->insertions[0].empty());
+  for (const Component& component : hierarchy->insertions[0])
     EXPECT_LE(width(component.mesh.positions), width(hierarchy->base.positions));
 }
 
-// Seven vertices, each next to each: no torus has fewer, and none has more faces per vertex.
+// The torus of seven vertices, which are all adjacent to each other. No torus has fewer vertices,
+// or more faces per vertex.
 TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
   LatticeMesh mesh = on_lattice(sheet(30, 30));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -43,7 +44,7 @@ TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
   }
   const auto hierarchy = simplify(mesh, {.target_vertices = 60});
   ASSERT_TRUE(hierarchy.has_value());
-  EXPECT_EQ(born_whole(*hierarchy), 7u);
+  EXPECT_EQ(inserted_vertices(*hierarchy), 7u);
 }
 
 TEST(SmallComponents, WhatIsAsLargeAsTheModelStays) {
@@ -57,7 +58,7 @@ TEST(SmallComponents, WhatIsAsLargeAsTheModelStays) {
     mesh.faces.push_back({first + f[0], first + f[2], first + f[1]});
   const auto hierarchy = simplify(mesh, {});
   ASSERT_TRUE(hierarchy.has_value());
-  EXPECT_EQ(born_whole(*hierarchy), 0u);
+  EXPECT_EQ(inserted_vertices(*hierarchy), 0u);
 }
 
 }  // namespace

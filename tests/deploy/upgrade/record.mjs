@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a release says to its catalogue, for the tests of those that come after it:
+// Records the SQL statements that a release sends to its catalogue, for the tests of later releases:
 // node record.mjs BINARIES MESH >VERSION.json
-// Its vitrined starts on an empty database and does once what an operator can ask for without a scanner;
-// the server's log of it becomes a list of transactions, each a list of {sql, values}.
+// The release's vitrined starts on an empty database and executes the requests of an operator, except those for
+// scanners. The database server's log is converted to a list of transactions, each of which is a list of {sql, values}.
 import { execFile, spawn } from "node:child_process";
 import { once } from "node:events";
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
@@ -15,7 +15,7 @@ import { Daemon } from "../../e2e/daemon.mjs";
 
 const [bin, mesh] = process.argv.slice(2);
 const folder = await mkdtemp(join(tmpdir(), "vitrine-record-"));
-const script = fileURLToPath(new URL("../../support/postgres.sh", import.meta.url));
+const script = fileURLToPath(new URL("../../support/process/postgres.sh", import.meta.url));
 const server = spawn(script, [folder], { stdio: ["pipe", "pipe", "inherit"] });
 const lines = createInterface({ input: server.stdout })[Symbol.asyncIterator]();
 const { value: port } = await lines.next();
@@ -23,7 +23,7 @@ server.stdin.write("create old\n");
 await lines.next();
 const url = `postgresql://museum:a-secret@127.0.0.1:${port}/old?options=-c%20log_statement%3Dall%20-c%20bytea_output%3Dhex`;
 
-/** What an operator does, one call after the other. */
+/** Sends an operator's requests, one after the other. */
 async function operate(daemon, conf) {
   const vitrine = async (...words) => JSON.parse((await promisify(execFile)(join(bin, "vitrine"), [...words, "--json"])).stdout);
   const { token } = await vitrine("token", "create", "--role", "admin", "--data", conf);
@@ -50,7 +50,7 @@ async function operate(daemon, conf) {
   await ask("POST", "/models", refused, { "Idempotency-Key": "once" });
 }
 
-/** Of the server's log: what each connection began and ended, in the order in which it ended. */
+/** Returns the transactions in the database server's log, in the order in which they ended. */
 function transactions(log) {
   const open = new Map(), done = [];
   const entry = /^\S+ \S+ \S+ \[(\d+)\] (LOG|DETAIL): {2}(statement|execute [^:]*|parameters): ([^]*?)(?=\n\S+ \S+ \S+ \[\d+\] |$(?![^]))/gm;
@@ -78,7 +78,7 @@ await daemon.stop();
 server.stdin.end();
 await once(server, "close");
 const all = transactions(await readFile(join(folder, "log"), "utf8"));
-// What is asked again and again says nothing new.
+// Transactions that only read are recorded once, even if they occurred repeatedly.
 const texts = all.map((transaction) => JSON.stringify(transaction));
 const told = all.filter((_, i) => texts.indexOf(texts[i]) === i || !texts[i].startsWith('[{"sql":"SELECT'));
 process.stdout.write(`[\n${told.map((transaction) => JSON.stringify(transaction)).join(",\n")}\n]\n`);

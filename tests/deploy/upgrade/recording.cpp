@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording.h"
+#include "support/product_names.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ Said said_in(const nlohmann::json& json) {
   return said;
 }
 
-// The end of a start: the lock under which tables are made is given back.
+// Whether a transaction is the last one of the daemon's start. It releases the migration lock.
 bool ends_start(const Transaction& transaction) {
   return transaction.front().sql.starts_with("SELECT pg_advisory_unlock(7957706764961114213)");
 }
@@ -39,7 +40,8 @@ std::string text_of(const PGresult* result) {
   return text;
 }
 
-// The server finds out what it takes for each value, but for one that the statement leaves out.
+// Returns the PostgreSQL type of each value. The type 0 makes the server derive the type from the
+// statement. For values that the statement does not use, the server cannot do this; they are text.
 std::vector<Oid> types_of(const Said& said) {
   constexpr Oid kText = 25;
   std::vector<Oid> types;
@@ -75,7 +77,7 @@ std::string OldDaemon::say(const Said& said) const {
   for (const auto& value : said.values)
     values.push_back(value ? value->c_str() : nullptr);
   const std::vector<Oid> types = types_of(said);
-  // Several statements at once, as those that make tables, are taken without values alone.
+  // PostgreSQL allows no values with several statements at once, such as those that create tables.
   PGresult* const result =
       values.empty()
           ? PQexec(connection_.get(), said.sql.c_str())

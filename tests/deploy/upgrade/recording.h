@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an older release said to its catalogue (record.mjs), said again.
+// Replays the SQL statements that an older release sent to its catalogue. record.mjs records them.
 #pragma once
 
 #include <libpq-fe.h>
@@ -19,19 +19,20 @@ struct Said {
 using Transaction = std::vector<Said>;
 
 struct Recording {
-  std::vector<Transaction> start;  // makes the tables
+  std::vector<Transaction> start;  // transactions of the daemon's start, which create the tables
   std::vector<Transaction> work;
 };
 
-// Of tests/deploy/upgrade/VERSION.json. Throws where there is none.
+// Reads tests/deploy/upgrade/VERSION.json. Throws if it does not exist.
 Recording read_recording(const std::string& version);
 
-// A daemon of that release, on one connection.
+// Simulates a daemon of the recorded release. It has one connection to the database.
 class OldDaemon {
  public:
   explicit OldDaemon(const std::string& database);
 
-  // What the server answers, in text: rows, or the fault's code.
+  // Executes a statement. Returns the server's response as text: the command's tag and the rows, or
+  // kRefused and the error message.
   std::string say(const Said& said) const;
   std::vector<std::string> say(std::span<const Transaction> transactions) const;
 
@@ -42,6 +43,6 @@ class OldDaemon {
   std::unique_ptr<PGconn, Finish> connection_;
 };
 
-inline constexpr const char* kRefused = "refused: ";  // so begins an answer that is a fault
+inline constexpr const char* kRefused = "refused: ";  // prefix of a response that is an error
 
 }  // namespace vitrine::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rolling upgrade: a daemon of an older release goes on beside one of this, on one catalogue that
-// this one has migrated.
+// Tests a rolling upgrade: a daemon of an older release continues to run beside one of this
+// release, on a catalogue that the new daemon has migrated.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,8 @@
 #include "server/catalogue/postgres_catalogue.h"
 #include "server/catalogue/sql_catalogue.h"
 #include "server/catalogue/sql_jobs.h"
-#include "support/postgres_server.h"
+#include "support/process/postgres_server.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {
@@ -21,8 +22,8 @@ constexpr const char* kJobs = "SELECT id, kind, state, scanner";
 constexpr const char* kNothing = "SELECT 1";
 constexpr const char* kVersion = "SELECT coalesce(max(version), 0) FROM migration";
 
-// The version is what a migration is to change: whether an old program starts at a newer one is for
-// that program to say.
+// Removes responses that contain the schema version, because a migration changes it. A recording
+// cannot tell whether the old program would accept a newer version.
 std::vector<std::string> without_version(std::vector<std::string> answers) {
   std::erase_if(answers, [](const std::string& answer) { return answer.starts_with(kVersion); });
   return answers;
@@ -38,7 +39,7 @@ class NewDaemon {
 
   std::vector<std::string> titles() {
     std::vector<std::string> titles;
-    const auto found = catalogue().search({.drafts = true}).value();
+    const auto found = catalogue().search({.includes_drafts = true}).value();
     for (const ModelRecord& model : found.models)
       titles.push_back(model.title);
     return titles;
@@ -52,7 +53,8 @@ class NewDaemon {
 
 class Upgrade : public testing::TestWithParam<const char*> {
  protected:
-  // What the old daemon is answered when somebody has changed its tables with `change`.
+  // Applies the statement `change` to the tables of the old release. Returns the responses that the
+  // old daemon then gets.
   std::vector<std::string> answers_after(const std::string& change) const {
     const OldDaemon old(new_database());
     old.say(recording_.start);
@@ -60,7 +62,7 @@ class Upgrade : public testing::TestWithParam<const char*> {
     return old.say(recording_.work);
   }
 
-  // What the old daemon asks that begins so, the last time.
+  // Returns the old daemon's last statement that begins with `beginning` and contains `part`.
   const Said& asked(const std::string& beginning, const std::string& part) const {
     const Said* last = nullptr;
     for (const Transaction& transaction : recording_.work) {
@@ -77,7 +79,7 @@ class Upgrade : public testing::TestWithParam<const char*> {
   const std::string database_ = new_database();
 };
 
-TEST_P(Upgrade, an_old_daemon_is_answered_as_ever) {
+TEST_P(Upgrade, AnOldDaemonGetsTheSameResponses) {
   const OldDaemon old(database_);
   old.say(recording_.start);
   NewDaemon successor(database_);
@@ -87,13 +89,13 @@ TEST_P(Upgrade, an_old_daemon_is_answered_as_ever) {
   EXPECT_EQ(without_version(old.say(recording_.work)), without_version(alone));
 }
 
-TEST_P(Upgrade, a_new_daemon_knows_what_the_old_one_writes) {
+TEST_P(Upgrade, ANewDaemonReadsTheOldOnesRows) {
   const OldDaemon old(database_);
   old.say(recording_.start);
   NewDaemon successor(database_);
   for (const Transaction& transaction : recording_.work) {
     old.say(std::span(&transaction, 1));
-    ASSERT_TRUE(successor.catalogue().search({.drafts = true}));
+    ASSERT_TRUE(successor.catalogue().search({.includes_drafts = true}));
     ASSERT_TRUE(successor.jobs().unfinished_jobs());
   }
   EXPECT_THAT(successor.titles(), testing::UnorderedElementsAre("Bust", "Second"));
@@ -101,7 +103,7 @@ TEST_P(Upgrade, a_new_daemon_knows_what_the_old_one_writes) {
   EXPECT_EQ(successor.catalogue().tokens().value().size(), 1u);
 }
 
-TEST_P(Upgrade, an_old_daemon_knows_what_the_new_one_writes) {
+TEST_P(Upgrade, AnOldDaemonReadsTheNewOnesRows) {
   const OldDaemon old(database_);
   old.say(recording_.start);
   NewDaemon successor(database_);
@@ -114,7 +116,7 @@ TEST_P(Upgrade, an_old_daemon_knows_what_the_new_one_writes) {
   EXPECT_THAT(old.say(asked(kJobs, "LIMIT")), HasSubstr("a new one's"));
 }
 
-TEST_P(Upgrade, a_change_that_takes_away_or_demands_is_noticed) {
+TEST_P(Upgrade, AnIncompatibleChangeIsDetected) {
   const auto alone = answers_after(kNothing);
   EXPECT_NE(answers_after("ALTER TABLE job RENAME COLUMN stage TO step"), alone);
   EXPECT_NE(answers_after("ALTER TABLE job ADD COLUMN demand BIGINT NOT NULL"), alone);

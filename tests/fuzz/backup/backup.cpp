@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A backup from anywhere: the archive, and the checksums in it.
+// Fuzzes the code that reads an untrusted backup: the archive, and the checksums in the archive.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -13,6 +13,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vitrine;
+  using namespace vitrine::server;
   const FileDescriptor file(::memfd_create("backup", MFD_CLOEXEC));
   fuzz::require(file && ::write(file.get(), data, size) == static_cast<ssize_t>(size));
   auto reader = TarReader::open("/proc/self/fd/" + std::to_string(file.get()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a board sends, through each chip's framing and each dialect's grammar.
+// Feeds arbitrary bytes to the framing of each chip and to the grammar of each dialect.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -16,6 +16,8 @@
 namespace {
 
 using namespace vitrine;
+
+using namespace vitrine::acquisition;
 
 void check(bool holds) {
   if (!holds) std::abort();

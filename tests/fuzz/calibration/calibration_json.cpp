@@ -3,19 +3,20 @@
 
 #include "fuzz/checks.h"
 
-// What is accepted can be used, and is written as what reads as the same.
+// An accepted calibration must be usable, and must stay the same when it is written and read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const auto calibration = vitrine::calibration_from_json(text, "input");
+  const auto calibration = vitrine::acquisition::calibration_from_json(text, "input");
   if (!calibration) {
     vitrine::fuzz::require(!calibration.error().message.empty());
     return 0;
   }
   for (double v = 0; v < calibration->region.height; v += 500) {
-    if (const auto at = calibration->map.at(500, v)) about(calibration->axis, *at);
+    if (const auto at = calibration->map.at(500, v))
+      vitrine::acquisition::about(calibration->axis, *at);
   }
-  const std::string written = to_json(*calibration);
-  const auto again = vitrine::calibration_from_json(written, "written");
+  const std::string written = vitrine::acquisition::to_json(*calibration);
+  const auto again = vitrine::acquisition::calibration_from_json(written, "written");
   vitrine::fuzz::require(again && to_json(*again) == written);
   return 0;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Header, planner and refiner on hostile bytes: what `vitrine decode` does. The header's hash is
-// made right and no other is looked at, so that no mutation stops there.
+// Runs the reader of the header, the planner and the refiner on hostile bytes, as `vitrine decode`
+// does. The hash of the header is corrected and all other hashes are ignored, so that mutated bytes
+// are not refused because of their hashes.
 #include "../bounded.h"
 #include "../checks.h"
-#include "codec/progressive/planner.h"
-#include "codec/progressive/refiner.h"
+#include "codec/plan/planner.h"
+#include "codec/refine/refiner.h"
 #include "raw_base.h"
 #include "support/sealed.h"
 
@@ -16,7 +17,7 @@ using fuzz::require;
 
 constexpr Limits kLimits = {.vertices = 20'000, .faces = 40'000};
 
-// What the refiner promises of every state that it reports as good.
+// Checks what the refiner guarantees for each state that it has accepted.
 void check(const Refiner& refiner) {
   const LatticeMesh mesh = refiner.lattice_mesh();
   require(mesh.positions.size() == refiner.vertex_count());
@@ -26,10 +27,10 @@ void check(const Refiner& refiner) {
   const TriangleMesh shown = refiner.display_mesh();
   require(shown.positions.size() >= refiner.vertex_count());
   require(shown.faces.size() == refiner.face_count());
-  require(shown.colours.empty() || shown.colours.size() == shown.positions.size());
+  require(shown.attributes.fit(shown.positions.size()));
 }
 
-// The planner ends, whatever is wanted, and names no chunk twice.
+// Checks that the planner terminates for requests of several kinds, and names no chunk twice.
 void plan(const Manifest& manifest) {
   const std::uint32_t level = static_cast<std::uint32_t>(manifest.levels.size()) / 2;
   for (const Want& want :
@@ -46,7 +47,7 @@ void plan(const Manifest& manifest) {
   }
 }
 
-// A camera so near to a corner of the model that not all of it is in sight.
+// Returns a camera so close to a corner of the model that a part of the model is out of sight.
 View close_up(const Lattice& lattice) {
   const double side = lattice.step * (1 << lattice.bits);
   const Vec3 eye = lattice.origin + Vec3{0.2, 0.2, 1.3} * side;
@@ -56,14 +57,14 @@ View close_up(const Lattice& lattice) {
           .height = 600};
 }
 
-// False where a chunk is damaged.
+// Applies the planned chunks in order. Returns false if the refiner refuses a chunk as damaged.
 bool apply(Refiner& refiner, Planner& planner, std::span<const std::uint8_t> bytes) {
   while (const auto chunk = planner.next()) {
-    require(refiner.ready(*chunk));
+    require(refiner.is_ready(*chunk));
     planner.have(*chunk);
     const ChunkInfo& info = refiner.manifest().chunks[*chunk];
     if (!refiner.apply(*chunk, part(bytes, info.offset, info.length))) return false;
-    require(refiner.applied(*chunk) && !refiner.ready(*chunk));
+    require(refiner.is_applied(*chunk) && !refiner.is_ready(*chunk));
     check(refiner);
   }
   return true;

@@ -41,7 +41,8 @@ BaseMesh read_raw_base(std::span<const std::uint8_t> bytes, const Manifest& mani
     base.faces.push_back({static_cast<std::uint32_t>(f.x), static_cast<std::uint32_t>(f.y),
                           static_cast<std::uint32_t>(f.z)});
   }
-  if (manifest.coloured) base.colours = read_triples(in, level.vertices);
+  for (const Semantic semantic : manifest.attributes)
+    base.attributes.push_back({semantic, read_triples(in, level.vertices)});
   return base;
 }
 
@@ -52,7 +53,8 @@ std::vector<std::uint8_t> with_raw_base(std::span<const std::uint8_t> pmesh, Man
   write_triples(raw, base.positions);
   for (const Triangle& f : base.faces)
     write_triple(raw, f[0], f[1], f[2]);
-  write_triples(raw, base.colours);
+  for (const auto& column : base.attributes)
+    write_triples(raw, column.values);
   manifest.base_length = raw.size();
   ByteWriter out;
   out.bytes(write_header(manifest));

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// A `.pmesh` whose base mesh is plain little-endian integers instead of a Draco buffer, so that a
-// fuzzer reaches the refiner with hostile base meshes and Draco stays outside.
+// Reads and writes a `.pmesh` whose base mesh is plain little-endian integers instead of a Draco
+// buffer. A fuzzer can then reach the refiner with hostile base meshes, without Draco.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "codec/progressive/base_mesh.h"
-#include "codec/progressive/manifest.h"
+#include "codec/format/base_mesh.h"
+#include "codec/format/manifest.h"
 
 namespace vitrine::fuzz {
 
-// The positions, faces and colours of level 0, three 32-bit integers each; short where bytes lack.
+// Returns the positions, faces and attributes of level 0. In `bytes`, each element of these is
+// three 32-bit integers. The result is incomplete if bytes are missing.
 BaseMesh read_raw_base(std::span<const std::uint8_t> bytes, const Manifest& manifest);
 
-// The same model with a raw base mesh. Both must be valid.
+// Returns the file `pmesh` with its base mesh replaced by `base` in raw form. Both must be valid,
+// and `manifest` must be that of the file.
 std::vector<std::uint8_t> with_raw_base(std::span<const std::uint8_t> pmesh, Manifest manifest,
                                         const BaseMesh& base);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns a `.pmesh` of our own into a seed of this fuzzer: fuzz_decode_seed FILE.pmesh SEED
+// fuzz_decode_seed FILE.pmesh SEED: converts a valid `.pmesh` to a seed for the decode fuzzer.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture that a mesh may name: its own bytes are read_glb's to change.
+// A picture to which a fuzzed OBJ or PLY file can refer. A GLB file contains its pictures, so the
+// fuzzer mutates those.
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 
 namespace vitrine::fuzz {
 
-// A PNG of two pixels.
+// A PNG file with two pixels.
 inline constexpr std::array<std::uint8_t, 72> kPicture = {
     0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44,
     0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x7B,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for Draco, which is not safe on hostile bytes and stays outside of the fuzzer: the data
-// is the number of faces in one byte, their corners in one byte each, and then the bytes of every
-// attribute.
+// Replaces Draco, which is not safe on hostile bytes and is not fuzzed here. The first byte of the
+// data is the number of faces. Then come the corners of the faces, in one byte each. Every
+// attribute consists of all remaining bytes.
 #include "codec/import/draco_primitive.h"
 
-namespace vitrine {
+namespace vitrine::inline codec {
 
 std::uint64_t DracoPrimitive::bytes() const {
   return faces.size() * sizeof(Triangle);
@@ -27,4 +27,4 @@ Expected<DracoPrimitive> decode_draco_primitive(std::span<const std::uint8_t> co
   return out;
 }
 
-}  // namespace vitrine
+}  // namespace vitrine::inline codec

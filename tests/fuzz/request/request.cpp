@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a visitor sends, through all that reads a request before a handler does: whole and in
-// two pieces, which must be the same request or none.
+// Passes arbitrary bytes of a client through all code that reads a request before its handler runs.
+// Reads the bytes once as a whole and once in two pieces. Both must give the same request, or both
+// must give none.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "server/api/path_parameters.h"
+#include "server/api/routes.h"
 #include "server/http/beast.h"
-#include "server/http/conditional.h"
-#include "server/http/framing.h"
-#include "server/http/query.h"
-#include "server/http/router.h"
-#include "server/http/routes.h"
-#include "server/http/visitor.h"
+#include "server/messages/client.h"
+#include "server/messages/conditional.h"
+#include "server/messages/framing.h"
+#include "server/messages/query.h"
+#include "server/messages/router.h"
 
 namespace {
 
 using namespace vitrine;
+
+using namespace vitrine::server;
 using Parser = beast::http::request_parser<beast::http::string_body>;
 
 void check(bool holds) {
@@ -29,10 +34,11 @@ struct Read {
   std::string target;
   RequestHeader header;
   std::string body;
-  std::size_t size = 0;  // of the request
+  std::size_t size = 0;  // bytes of the request
 };
 
-// Feeds `text` as a connection does: the first `piece` bytes, then all.
+// Passes `text` to the parser as a connection does: its first `piece` bytes, then the rest. Returns
+// nullopt if `text` does not begin with a complete request that the daemon accepts.
 std::optional<Read> read(std::string_view text, std::size_t piece) {
   Parser parser;
   parser.header_limit(16 * 1024);
@@ -54,12 +60,20 @@ std::optional<Read> read(std::string_view text, std::size_t piece) {
   return Read{{target.data(), target.size()}, parser.get().base(), parser.get().body(), used};
 }
 
+// Returns the public routes without their handlers.
+std::vector<Route> public_paths() {
+  std::vector<Route> routes;
+  for (const ApiRoute& route : public_routes())
+    routes.push_back({.method = route.method, .path = route.path});
+  return routes;
+}
+
 void use(const Read& read) {
-  static const Router router(public_routes());
+  static const Router router(public_paths(), parameter_patterns());
   static const Networks proxies = Networks::parse("10.0.0.0/8").value();
   for (const auto& field : read.header)
     check(field.value().find_first_of("\r\n") == beast::string_view::npos);
-  const std::string address = visitor_of({"10.0.0.1", false}, read.header, proxies).address;
+  const std::string address = client_of({"10.0.0.1", false}, read.header, proxies).address;
   check(is_address(address));
   const auto target = split_target(read.target);
   if (!target) return;

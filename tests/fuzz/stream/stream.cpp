@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever either end of pmesh.v1 sends: lines of text are messages of a client, which a server
-// with a small model acts on; the whole input is a message and a slice of a server.
+// Passes arbitrary bytes to both ends of a pmesh.v1 stream. A server with a small model receives
+// each line of the input as a message. A client receives the whole input as a message and as a
+// slice.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -13,8 +14,10 @@ namespace {
 
 using namespace vitrine;
 
+using namespace vitrine::server;
+
 constexpr std::uint32_t kChunk = 40'000;
-constexpr std::size_t kMostSteps = 64;  // of what one message sets free
+constexpr std::size_t kMostSteps = 64;  // maximum number of outputs taken after each message
 
 void check(bool holds) {
   if (!holds) std::abort();
@@ -38,7 +41,8 @@ Manifest small_manifest() {
   return manifest;
 }
 
-// All slices lie in the file, and cost no more than the credit.
+// Takes the outputs that are ready, at most kMostSteps. Each slice must lie within the file and
+// must not exceed the client's credit.
 void pull(StreamState& state, const Manifest& manifest, Pacer::Time now) {
   for (std::size_t step = 0; step < kMostSteps; ++step) {
     const std::uint64_t credit = state.credit();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `vitrine verify` does, on hostile headers and chunks. The seeds are those of the decode
-// fuzzer (a raw base mesh instead of a Draco buffer); the base is encoded and every checksum is
-// made right here, so that mutations reach the code behind the checksums. Memory is not counted:
-// what verifies has an operator new of its own (spill.h), and the decode fuzzer counts.
+// Runs the checks of `vitrine verify` on hostile headers and chunks. The seeds are those of the
+// decode fuzzer, with a raw base mesh instead of a Draco buffer. This program encodes the base mesh
+// with Draco and corrects every checksum, so that no input is refused because of a checksum. It
+// does not measure its memory; the decode fuzzer bounds the memory of decoding.
 #include "../checks.h"
 #include "../decode/raw_base.h"
 #include "codec/base/base_encoder.h"
-#include "codec/progressive/refiner.h"
-#include "server/jobs/verify_model.h"
+#include "codec/build/verify_model.h"
+#include "codec/refine/refiner.h"
 #include "support/sealed.h"
 
 namespace vitrine {
@@ -17,7 +17,7 @@ using fuzz::part;
 
 constexpr Limits kLimits = {.vertices = 5'000, .faces = 10'000};
 
-// The file that says the same with a Draco base and true checksums, or nothing.
+// Returns the same file with a Draco base mesh and correct checksums; empty if it cannot be made.
 std::vector<std::uint8_t> with_draco_base(std::span<const std::uint8_t> bytes) {
   auto manifest = parse_header(bytes, kLimits);
   if (!manifest) return {};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The browser's model on hostile bytes, through the calls that a page makes. The seeds are those of
-// the decode fuzzer (a raw base mesh, as Draco's own module hands it over); the header's hash is
-// made right and no other is looked at. The last bytes also say what is wanted on the way.
+// Runs the browser's model on hostile bytes, through the calls that a page makes. The seeds are
+// those of the decode fuzzer, with a raw base mesh instead of a Draco buffer, because in a browser
+// the base mesh arrives already decoded. The hash of the header is corrected, and other hashes are
+// ignored. The last bytes of the input also determine a detail request.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,7 +10,7 @@
 #include "../bounded.h"
 #include "../checks.h"
 #include "../decode/raw_base.h"
-#include "codec/wasm/model.h"
+#include "codec/wasm/browser_model.h"
 #include "support/sealed.h"
 
 namespace vitrine {
@@ -18,7 +19,7 @@ namespace {
 using fuzz::part;
 using fuzz::require;
 
-constexpr std::uint32_t kLevel = 3;  // of Model::want
+constexpr std::uint32_t kLevel = 3;  // the kind of BrowserModel::want() that requests a level
 
 template <class T>
 T last_bytes(std::span<const std::uint8_t> bytes) {
@@ -32,14 +33,14 @@ struct Counts {
   std::uint32_t vertices = 0, faces = 0;
 };
 
-// What is handed out, which is fit for the GPU.
-Counts hand_out(Model& model) {
+// Takes all arrays of the displayed surface from the model, and checks that a GPU can draw them.
+Counts hand_out(BrowserModel& model) {
   Counts out;
   model.display();
   while (const std::uint32_t count = model.next_vertices()) {
     out.vertices += count;
     require(model.positions().size() == count && model.normals().size() == count);
-    require(model.colours().empty() || model.colours().size() == count);
+    require(model.attributes().fit(count));
     for (const auto& p : model.positions())
       require(std::ranges::all_of(p, [](float x) { return std::isfinite(x); }));
   }
@@ -51,14 +52,15 @@ Counts hand_out(Model& model) {
   return out;
 }
 
-void expect_whole_surface(Model& model) {
+void expect_whole_surface(BrowserModel& model) {
   const Counts out = hand_out(model);
   require(out.vertices == model.refiner().vertex_count());
   require(out.faces == model.refiner().face_count());
 }
 
-// False where a chunk is damaged: then nothing can be applied until there is another want.
-bool fetch(Model& model, std::span<const std::uint8_t> bytes) {
+// Applies the chunks that the detail request needs. Returns false if the model refuses a chunk as
+// damaged; it must then refuse all chunks until the next detail request.
+bool fetch(BrowserModel& model, std::span<const std::uint8_t> bytes) {
   for (int next = model.next_chunk(); next >= 0; next = model.next_chunk()) {
     const auto chunk = static_cast<std::size_t>(next);
     const ChunkInfo& info = model.manifest().chunks[chunk];
@@ -72,9 +74,9 @@ bool fetch(Model& model, std::span<const std::uint8_t> bytes) {
 }
 
 void visit(std::span<const std::uint8_t> bytes) {
-  auto opened = Model::open(bytes);
+  auto opened = BrowserModel::open(bytes);
   if (!opened) return;
-  Model* const model = opened->get();
+  BrowserModel* const model = opened->get();
   const Manifest& manifest = model->manifest();
   require(model->summary().size() == 11 + 5 * manifest.levels.size() + 4 * manifest.chunks.size());
   require(!model->check_chunk(manifest.chunks.size(), {}));

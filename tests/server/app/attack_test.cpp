@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visitors who mean no good: each is answered or cut off, others are served meanwhile, and the log
-// ends clean.
+// Attacks on the daemon. Each attacker is answered or cut off, other clients are served meanwhile,
+// and the log contains no errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -10,10 +10,11 @@
 #include <memory>
 #include <vector>
 
-#include "served_folder.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
 #include "support/resident_memory.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -22,7 +23,7 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// A slow peer's pause between two bytes.
+// Waits as a slow client does between two bytes.
 void pause() {
   ::poll(nullptr, 0, 20);
 }
@@ -69,7 +70,7 @@ TEST_F(AttackTest, ABodyThatComesAByteAtATimeIsAnsweredAndCutOff) {
   EXPECT_EQ(client.receive().status, 408);
 }
 
-// Far more than two sockets hold.
+// A model far larger than the buffers of two sockets.
 const TinyPmesh& large_pmesh() {
   static const TinyPmesh pmesh = tiny_pmesh("a base mesh", std::string(32'000'000, 'c'));
   return pmesh;
@@ -86,13 +87,13 @@ TEST_F(SlowReaderTest, WhoTakesAnAnswerTooSlowlyIsCutOff) {
   client.send("GET /api/v1/models/" + large + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n");
   EXPECT_THROW(
       for (int i = 0; i < 300; ++i) {
-        client.read_exactly(100'000);  // each in good time
+        client.read_exactly(100'000);  // each read comes within the idle timeout
         pause();
       },
       std::runtime_error);
 }
 
-// Takes a byte at a time off its socket, which holds little.
+// A client that reads one byte at a time from a socket with a small receive buffer.
 class DrippingClient final : public HttpClient {
  public:
   explicit DrippingClient(std::uint16_t port) : HttpClient(port) {
@@ -119,7 +120,7 @@ TEST_F(AttackTest, WhoTakesAStreamAByteAtATimeCostsLittleAndIsCutOff) {
   for (int i = 0; i < 500 && text.find("\nvitrine_streams 0\n") == std::string::npos; ++i) {
     try {
       raw.read_exactly(1);
-    } catch (const std::runtime_error&) {  // cut off
+    } catch (const std::runtime_error&) {  // the daemon has cut off the connection
     }
     pause();
     text = streams();
@@ -133,7 +134,7 @@ TEST_F(AttackTest, WhoTakesAStreamAByteAtATimeCostsLittleAndIsCutOff) {
 TEST_F(AttackTest, HalfOpenConnectionsCostLittleAndGo) {
   constexpr std::size_t kConnections = 400;
 #ifdef VITRINE_SANITISED
-  constexpr std::size_t kBytesEach = 100'000;  // and what the sanitizer notes of them
+  constexpr std::size_t kBytesEach = 100'000;  // includes the sanitizer's records
 #else
   constexpr std::size_t kBytesEach = 20'000;
 #endif

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uploads that are small and claim, or unfold to, far more than any memory holds: the job fails and
-// says why, and the daemon is as it was.
+// Small uploads that claim, or expand to, far more data than any memory holds. The job must fail
+// and say why, and the daemon must not be affected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "served_folder.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
 #include "support/resident_memory.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -27,7 +28,7 @@ class BombTest : public ::testing::Test {
     return client.receive();
   }
 
-  // The job that makes a model of `file`, once it has ended.
+  // Starts a job that builds a model from `file`. Returns the job after it has ended.
   Json made_of(const std::string& file) {
     const std::string length = std::to_string(file.size());
     const std::string upload =
@@ -60,7 +61,7 @@ class BombTest : public ::testing::Test {
   Daemon daemon{folder.path()};
 
  private:
-  // Its events end with the job.
+  // Waits until `job` has ended, which also ends its stream of events. Returns the job.
   Json ended(const std::string& job) {
     HttpClient client(daemon.port());
     client.send("GET " + job + "/events HTTP/1.1\r\nHost: a\r\n" + bearer + "\r\n");
@@ -69,7 +70,7 @@ class BombTest : public ::testing::Test {
     try {
       for (;;)
         events += client.read_exactly(1);
-    } catch (const std::runtime_error&) {  // the end
+    } catch (const std::runtime_error&) {  // the stream has ended
     }
     return Json::parse(ask("GET", job, "").body);
   }
@@ -108,13 +109,13 @@ std::string glb(std::string json, std::string binary) {
          std::string("BIN\0", 4) + binary;
 }
 
-// 100000 instances of 3000 triangles, out of 2 MB.
+// The file has 2 MB and expands to 100,000 instances of 3,000 triangles.
 TEST_F(BombTest, AFileThatRefersToItselfOverAndOverIsRefused) {
   constexpr std::size_t kIndices = 9'000, kInstances = 100'000;
   std::string binary(36 + 2 * kIndices, '\0');
   const std::string one("\0\0\x80\x3f", 4);
   binary.replace(12, 4, one);  // x of the second corner
-  binary.replace(28, 4, one);  // y of the third
+  binary.replace(28, 4, one);  // y of the third corner
   for (std::size_t i = 0; i < kIndices; ++i)
     binary[36 + 2 * i] = static_cast<char>(i % 3);
   std::string nodes, all;

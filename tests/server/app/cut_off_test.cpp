@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Connections that take too long, and more of them than there is room for.
+// Connections that take too long, and more connections than the daemon has room for.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -7,9 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "served_folder.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -46,7 +47,7 @@ TEST_F(CutOffTest, ABodyThatNobodyTakes) {
 
 TEST_F(CutOffTest, AnAnswerThatNobodyTakes) {
   HttpClient client(daemon.port());
-  std::string requests;  // their answers are far more than the sockets' buffers hold
+  std::string requests;  // the answers are far larger than the sockets' buffers
   for (int i = 0; i < 2000; ++i) {
     requests += "GET /api/v1/models/" + id + "/file.pmesh HTTP/1.1\r\nHost: a\r\n\r\n";
   }
@@ -61,7 +62,8 @@ TEST_F(CutOffTest, AWebSocketWhosePeerDoesNotAnswerPings) {
   EXPECT_THROW(while (true) client.receive(), std::runtime_error);
 }
 
-// What the daemon inherits is lowered while it starts.
+// Keeps this process's limit of open files low until it is destroyed. A daemon that is started
+// meanwhile inherits the limit.
 class FewDescriptors {
  public:
   FewDescriptors() {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every route of the real daemon, over sockets.
+// Requests every route of the real daemon over sockets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "served_folder.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -185,7 +186,8 @@ TEST_F(DaemonTest, TheAdminListenerTellsHealthAndMetricsAndVisitorsCannotReachTh
   EXPECT_EQ(http_get(daemon.admin_port(), "/livez").status, 200);
   EXPECT_EQ(http_get(daemon.admin_port(), "/readyz").status, 200);
   HttpClient client(daemon.port());
-  // A request is counted once its answer is sent: surely before the next one on its connection.
+  // A request is counted after its answer is sent, but before the next request on the same
+  // connection.
   for (const std::string& target : {chunk_url(), std::string("/api/v1/models/nothing")}) {
     client.send("GET " + target + " HTTP/1.1\r\nHost: a\r\n\r\n");
     client.receive();

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real daemon with a model on display that was really built.
+// A fixture with the real daemon and a published model that build_model() has made.
 #pragma once
 
 #include <stdexcept>
 
-#include "server/jobs/build_model.h"
+#include "codec/build/build_model.h"
 #include "server/store/installation.h"
 #include "server/store/publish.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
 #include "support/temporary_folder.h"
 #include "support/wavy_sheet.h"
 

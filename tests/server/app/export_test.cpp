@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exports of the real daemon, of a model that was really built.
+// Exports by the real daemon of a model that build_model() has made.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,13 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "displayed_model.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-// The number after "element face " in a PLY header.
+// Returns the number after "element face " in a PLY header.
 std::uint64_t ply_faces(const std::string& file) {
   constexpr std::string_view kElement = "element face ";
   const std::size_t at = file.find(kElement);
@@ -73,7 +74,7 @@ TEST_F(ExportTest, RefusesParametersThatMakeNoSense) {
   }
 }
 
-// The value of an unlabelled sample of /metrics.
+// Returns the value of an unlabelled sample of /metrics.
 int metric(std::uint16_t admin_port, const std::string& name) {
   const std::string text = http_get(admin_port, "/metrics").body;
   return std::stoi(text.substr(text.find("\n" + name + " ") + name.size() + 2));
@@ -83,7 +84,8 @@ TEST_F(ExportTest, EqualOnesAreComputedOnceHoweverManyAskAtATime) {
   std::vector<std::future<HttpAnswer>> answers;
   for (std::size_t i = 0; i < 16; ++i) {
     answers.push_back(std::async(std::launch::async, [this, i] {
-      return get("glb?triangles=" + std::string(i, '0') + "5000");  // and however they are spelt
+      // leading zeros do not make the exports differ
+      return get("glb?triangles=" + std::string(i, '0') + "5000");
     }));
   }
   for (auto& answer : answers)
@@ -94,17 +96,19 @@ TEST_F(ExportTest, EqualOnesAreComputedOnceHoweverManyAskAtATime) {
 }
 
 TEST_F(ExportTest, TheManifestForetellsWhatAnExportGives) {
-  for (const std::string wish : {"kbps=10&seconds=1.5", "triangles=3000", "error=0.2", "level=1"}) {
-    const HttpAnswer answer = http_get(port(), api + "/manifest?" + wish);
-    ASSERT_EQ(answer.status, 200) << wish;
+  for (const std::string target :
+       {"kbps=10&seconds=1.5", "triangles=3000", "error=0.2", "level=1"}) {
+    const HttpAnswer answer = http_get(port(), api + "/manifest?" + target);
+    ASSERT_EQ(answer.status, 200) << target;
     const auto manifest = nlohmann::json::parse(answer.body);
     const auto expect = manifest["expect"];
     const auto level = manifest["levels"][expect["level"].get<std::size_t>()];
     const auto triangles = expect["triangles"].get<double>();
-    const double off = wish.starts_with("triangles") ? 2 : 0;  // of one split
-    EXPECT_NEAR(static_cast<double>(ply_faces(get("ply?" + wish).body)), triangles, off) << wish;
-    EXPECT_LE(level["faces"], triangles) << wish;
-    EXPECT_EQ(level["max_error"], expect["error"]) << wish;
+    const double off = target.starts_with("triangles") ? 2 : 0;  // a split adds up to two triangles
+    EXPECT_NEAR(static_cast<double>(ply_faces(get("ply?" + target).body)), triangles, off)
+        << target;
+    EXPECT_LE(level["faces"], triangles) << target;
+    EXPECT_EQ(level["max_error"], expect["error"]) << target;
   }
 }
 
@@ -136,7 +140,7 @@ TEST_F(ExportTest, WhoSavesDataIsToldSoAndCachesKnow) {
 TEST_F(ExportTest, WhoSavesDataIsGivenWhatAsMuchBringsAndNotTheWhole) {
   const HttpAnswer whole = get("ply"), saving = get("ply", "Save-Data: on\r\n");
   EXPECT_EQ(saving.body, whole.body) << "so small a model fits";
-  EXPECT_EQ(metric(daemon.admin_port(), "vitrine_exports_made_total"), 2) << "by another wish";
+  EXPECT_EQ(metric(daemon.admin_port(), "vitrine_exports_made_total"), 2) << "by another target";
   EXPECT_EQ(get("ply?level=highest", "Save-Data: on\r\n").body, whole.body);
   EXPECT_EQ(metric(daemon.admin_port(), "vitrine_exports_made_total"), 2) << "what is said counts";
 }

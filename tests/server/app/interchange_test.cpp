@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What other software is told of a model by the real daemon: posters, IIIF, oEmbed, previews.
+// How the real daemon describes a model to other software: posters, IIIF, oEmbed and link previews.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include "codec/import/image.h"
 #include "displayed_model.h"
 #include "server/auth/authenticator.h"
+#include "support/product_names.h"
 
 namespace vitrine::test {
 namespace {
@@ -35,7 +36,7 @@ class InterchangeTest : public ::testing::Test, public DisplayedModel {
   const std::string page = origin + "/models/" + id;
 };
 
-// Width and height out of a PNG's header (big-endian, at bytes 16 and 20).
+// Returns the width and height from a PNG's header (big-endian, at bytes 16 and 20).
 std::pair<unsigned, unsigned> png_size(const std::string& file) {
   const auto number = [&](std::size_t at) {
     unsigned value = 0;

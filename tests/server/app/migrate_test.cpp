@@ -4,8 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/app/elsewhere.h"
+#include "server/app/remote_installation.h"
 #include "server/store/publish.h"
+#include "support/product_names.h"
 #include "support/tiny_pmesh.h"
 
 namespace vitrine::test {
@@ -23,20 +24,20 @@ ModelId publish_at(Installation& installation, const std::string& title) {
       .id;
 }
 
-// All that a catalogue tells.
+// The content of a catalogue, as read through its functions.
 struct Told {
   std::vector<std::string> models;
-  std::vector<ModelId> tokens;
+  std::vector<TokenId> tokens;
   std::vector<JobRecord> jobs, untold;
   std::vector<ScanEntry> scans;
-  std::optional<ModelId> once;
+  std::optional<JobId> once;
 
   bool operator==(const Told&) const = default;
 };
 
 Told told_by(Installation& installation) {
   Told told;
-  const auto models = installation.catalogue->search({.drafts = true}).value().models;
+  const auto models = installation.catalogue->search({.includes_drafts = true}).value().models;
   for (const ModelRecord& m : models) {
     told.models.push_back(m.id.to_string() + m.title + m.creator + m.more.at("date") +
                           to_hex(m.file) + std::to_string(m.version) + std::to_string(m.created));
@@ -49,9 +50,9 @@ Told told_by(Installation& installation) {
   for (const TokenRecord& token : tokens)
     told.tokens.push_back(token.id);
   told.jobs = installation.jobs->jobs({}).value();
-  told.untold = installation.jobs->untold_jobs().value();
+  told.untold = installation.jobs->unnotified_jobs().value();
   told.scans = installation.jobs->scans({}).value();
-  if (const auto earlier = installation.jobs->find_once("a key").value()) told.once = earlier->job;
+  if (const auto earlier = installation.jobs->find_key("a key").value()) told.once = earlier->job;
   return told;
 }
 
@@ -68,63 +69,63 @@ class Migrate : public testing::Test {
                          .title = "a scan",
                          .steps = 720,
                          .rows = ScannedRows{.25, .5, 0}};
-    ASSERT_TRUE(folder_.jobs->add(told, scan, OnceKey{"a key", sha256({})}));
-    ASSERT_TRUE(folder_.jobs->set_told(told.id));
+    ASSERT_TRUE(folder_.jobs->add(told, scan, IdempotencyKey{"a key", sha256({})}));
+    ASSERT_TRUE(folder_.jobs->set_notified(told.id));
     ASSERT_TRUE(folder_.jobs->add(untold, {}, {}));
     ASSERT_TRUE(folder_.catalogue->add_token(
-        {.id = ModelId::generate(), .role = Role::kAdmin, .hash = sha256({}), .label = "l"}));
+        {.id = TokenId::generate(), .role = Role::kAdmin, .hash = sha256({}), .label = "l"}));
   }
 
   const TemporaryFolder root_;
-  const Elsewhere place_;
+  const RemoteInstallation place_;
   Installation folder_ = open_installation({.folder = root_.path() / "a"}).value();
-  Installation elsewhere_ = open_installation(place_.place()).value();
+  Installation remote_ = open_installation(place_.place()).value();
 };
 
-TEST_F(Migrate, an_installation_is_the_same_elsewhere_and_back) {
+TEST_F(Migrate, AnInstallationIsTheSameAfterMovingThereAndBack) {
   fill();
-  const auto moved = migrate(folder_, elsewhere_, nobody_looks);
+  const auto moved = migrate(folder_, remote_, nobody_looks);
   ASSERT_TRUE(moved) << moved.error().message;
   EXPECT_EQ(moved->models, 2u);
   EXPECT_EQ(moved->files, 2u);
-  EXPECT_EQ(told_by(elsewhere_), told_by(folder_));
+  EXPECT_EQ(told_by(remote_), told_by(folder_));
   Installation back = open_installation({.folder = root_.path() / "b"}).value();
-  ASSERT_TRUE(migrate(elsewhere_, back, nobody_looks));
+  ASSERT_TRUE(migrate(remote_, back, nobody_looks));
   EXPECT_EQ(told_by(back), told_by(folder_));
 }
 
-TEST_F(Migrate, what_was_interrupted_shows_nothing_and_is_done_again) {
+TEST_F(Migrate, WhatWasInterruptedShowsNothingAndIsDoneAgain) {
   fill();
   const auto file = folder_.catalogue->files().value().back().file;
   const auto object = folder_.store->open(file).value();
   const auto bytes = object->read(0, object->size()).value();
   ASSERT_TRUE(folder_.store->remove(file));
-  const auto broken = migrate(folder_, elsewhere_, nobody_looks);
+  const auto broken = migrate(folder_, remote_, nobody_looks);
   ASSERT_FALSE(broken);
   EXPECT_THAT(broken.error().message, HasSubstr("has lost its file"));
-  EXPECT_EQ(told_by(elsewhere_), Told{});
+  EXPECT_EQ(told_by(remote_), Told{});
   ASSERT_TRUE(folder_.store->put(file, bytes));
-  ASSERT_TRUE(migrate(folder_, elsewhere_, nobody_looks));
-  ASSERT_TRUE(migrate(folder_, elsewhere_, nobody_looks));
-  EXPECT_EQ(told_by(elsewhere_), told_by(folder_));
+  ASSERT_TRUE(migrate(folder_, remote_, nobody_looks));
+  ASSERT_TRUE(migrate(folder_, remote_, nobody_looks));
+  EXPECT_EQ(told_by(remote_), told_by(folder_));
 }
 
-TEST_F(Migrate, two_installations_are_not_mixed) {
+TEST_F(Migrate, TwoInstallationsAreNotMixed) {
   fill();
-  publish_at(elsewhere_, "another");
-  const auto before = told_by(elsewhere_);
-  const auto refused = migrate(folder_, elsewhere_, nobody_looks);
+  publish_at(remote_, "another");
+  const auto before = told_by(remote_);
+  const auto refused = migrate(folder_, remote_, nobody_looks);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kState);
-  EXPECT_EQ(told_by(elsewhere_), before);
+  EXPECT_EQ(told_by(remote_), before);
 }
 
-TEST_F(Migrate, a_place_is_not_migrated_to_itself) {
+TEST_F(Migrate, APlaceIsNotMigratedToItself) {
   Installation same = open_installation(place_.place()).value();
-  EXPECT_FALSE(migrate(elsewhere_, same, nobody_looks));
+  EXPECT_FALSE(migrate(remote_, same, nobody_looks));
 }
 
-TEST_F(Migrate, the_catalogue_can_move_alone) {
+TEST_F(Migrate, TheCatalogueCanMoveAlone) {
   fill();
   InstallationPlace place = place_.place();
   place.folder = folder_.place.folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the real daemon reads its configuration again.
+// How the real daemon reloads its configuration.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,9 +7,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "served_folder.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -27,12 +28,12 @@ class Reload : public ::testing::Test {
 
   void write(const std::string& text) const { std::ofstream(config) << text; }
 
-  // Reads it again; the line that says what came of it.
+  // Reloads the configuration and returns the log line that states the result.
   std::string reload() {
     daemon->signal(SIGHUP);
     return daemon->wait_for_line("configuration");
   }
-  // What it takes its visitors to see.
+  // Returns the origin of the URLs that the daemon writes.
   std::string origin() const {
     const auto answer = http_get(daemon->port(), "/api/v1/iiif/" + id + "/manifest.json");
     const std::string self = nlohmann::json::parse(answer.body)["id"];
@@ -69,7 +70,7 @@ TEST_F(Reload, AFaultLeavesAllAsItWas) {
 TEST_F(Reload, WhatNeedsANewStartSaysSo) {
   write("public-url = https://two.example\nmin-rate = 300\n");
   EXPECT_THAT(reload(), HasSubstr("new: public-url"));
-  EXPECT_THAT(daemon->wait_for_line("restart"), HasSubstr("to have the new min-rate"));
+  EXPECT_THAT(daemon->wait_for_line("restart"), HasSubstr("to apply the new min-rate"));
 }
 
 TEST_F(Reload, FewerConnectionsAndLessPatienceHoldAtOnceAndWhoIsThereStays) {
@@ -83,7 +84,8 @@ TEST_F(Reload, FewerConnectionsAndLessPatienceHoldAtOnceAndWhoIsThereStays) {
   EXPECT_THAT(reload(), HasSubstr("idle-timeout"));
   HttpClient slow(daemon->port());
   slow.send("GET / HTTP/1.1\r\n");
-  EXPECT_TRUE(slow.is_closed());  // else it would wait for longer than the client does
+  // with the old timeout, the daemon would wait for longer than the client does
+  EXPECT_TRUE(slow.is_closed());
 }
 
 TEST_F(Reload, ARotatedLogIsOpenedAnew) {
@@ -99,7 +101,7 @@ TEST_F(Reload, ARotatedLogIsOpenedAnew) {
     visit("before" + number);
     std::filesystem::rename(served.path() / "access.log", rotated);
     daemon->signal(signal);
-    daemon->wait_for_line(signal == SIGHUP ? "read again" : "access log opened anew");
+    daemon->wait_for_line(signal == SIGHUP ? "read again" : "access log reopened");
     visit("after" + number);
     std::ifstream old(rotated);
     const std::string lines{std::istreambuf_iterator<char>(old), {}};
@@ -113,7 +115,7 @@ TEST_F(Reload, ALogIsReopenedThoughTheConfigurationHasAFault) {
   std::filesystem::rename(served.path() / "access.log", served.path() / "rotated");
   write("nonsense = 1\n");
   reload();
-  daemon->wait_for_line("access log opened anew");
+  daemon->wait_for_line("access log reopened");
   EXPECT_TRUE(std::filesystem::exists(served.path() / "access.log"));
 }
 

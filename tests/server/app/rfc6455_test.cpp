@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real listener against RFC 6455, after the groups of the Autobahn test suite: 1 framing,
-// 2 pings, 3 reserved bits, 4 opcodes, 5 fragments, 6 UTF-8, 7 closing, 9 limits, 10 many frames.
+// Tests the real listener against RFC 6455. The tests follow the groups of the Autobahn test suite:
+// 1 framing, 2 pings, 3 reserved bits, 4 opcodes, 5 fragments, 6 UTF-8, 7 closing, 9 limits, 10
+// many frames.
 #include <gtest/gtest.h>
 
 #include <csignal>
 
-#include "served_folder.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -32,21 +34,21 @@ class Rfc6455Test : public ::testing::Test {
     delete folder_;
   }
 
-  // A connection of which the greeting has been read.
+  // A client that has received the server's greeting.
   struct Connection : WebSocketClient {
     Connection() : WebSocketClient(daemon_->port(), url_, "pmesh.v1") {
       EXPECT_EQ(receive().kind, Kind::kText);
     }
   };
 
-  // A message that changes nothing, of that length.
+  // Returns a valid message of `length` bytes that has no effect on the stream.
   static std::string message(std::size_t length) {
     std::string text = R"({"type":"ack","bytes":1})";
     text.resize(length, ' ');
     return text;
   }
 
-  // The peer is there and has found no fault.
+  // Expects that the server has found no fault and still answers pings.
   static void expect_alive(WebSocketClient& client) {
     client.send(kFin | kPing, "still there");
     const WebSocketFrame answer = client.receive();
@@ -54,14 +56,14 @@ class Rfc6455Test : public ::testing::Test {
     EXPECT_EQ(answer.payload, "still there");
   }
 
-  // The next frame ends the connection with that code.
+  // Expects that the next frame closes the connection with `code`.
   static void expect_close(WebSocketClient& client, int code) {
     const WebSocketFrame frame = client.receive();
     ASSERT_EQ(frame.kind, Kind::kClose);
     EXPECT_EQ(frame.close_code(), code) << frame.payload.substr(2);
     EXPECT_TRUE(client.is_closed());
   }
-  // The fault is answered so, on a connection of its own.
+  // Sends `bytes` on a new connection. Expects that the server closes it with `code`.
   static void expect_fault(const std::string& bytes, int code) {
     Connection client;
     client.send_raw(bytes);
@@ -180,7 +182,7 @@ TEST_F(Rfc6455Test, TakesUtf8AndNothingElse) {
   Connection client;
   client.send_text("{\"type\":\"ack\",\"bytes\":1,\"note\":\"κόσμε \xf4\x8f\xbf\xbf\"}");
   client.send(kText, "{\"type\":\"ack\",\"bytes\":1,\"note\":\"\xce");
-  client.send(kFin | kContinuation, "\xba\"}");  // a character over two fragments
+  client.send(kFin | kContinuation, "\xba\"}");  // one character split over two fragments
   expect_alive(client);
   for (const char* const bad : {"\xff", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xce",
                                 "\xf8\x88\x80\x80\x80", "\x80", "ok \xe0\x80\xaf"}) {
@@ -228,7 +230,7 @@ TEST_F(Rfc6455Test, RefusesMessagesThatAreTooLongHoweverTheyCome) {
   parts.send(kText, message(60'000));
   parts.send(kFin | kContinuation, std::string(6'000, ' '));
   expect_close(parts, 1009);
-  // Of one that only claims to be long, nothing is waited for.
+  // A frame that claims to be long is refused at once. The server does not wait for its payload.
   expect_fault({"\x81\xff\x00\x00\x00\xff\xff\xff\xff\xff\0\0\0\0", 14}, 1009);
 }
 

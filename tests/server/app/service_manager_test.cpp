@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What systemd hears of the real daemon, and that it hears nothing more of one that is stuck.
+// The real daemon's notifications to systemd. They must stop when the daemon is stuck.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,9 +20,10 @@
 #include <thread>
 #include <vector>
 
-#include "served_folder.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -30,7 +31,8 @@ namespace {
 using ::testing::StartsWith;
 using namespace std::chrono_literals;
 
-// Listens as systemd would, all the time: a daemon that it does not listen to is held up.
+// Receives notifications as systemd does. A thread receives all the time, because a daemon whose
+// messages are not received is held up.
 class ServiceManager {
  public:
   explicit ServiceManager(const std::filesystem::path& path)
@@ -52,7 +54,7 @@ class ServiceManager {
     ::close(socket_);
   }
 
-  // The next message that is not the watchdog's.
+  // Returns the next message other than those of the watchdog; "nothing" if none arrives.
   std::string hear() {
     std::unique_lock lock(mutex_);
     if (!heard_.wait_for(lock, kPatience, [this] { return !messages_.empty(); })) return "nothing";
@@ -61,14 +63,15 @@ class ServiceManager {
     return message;
   }
 
-  // Whether the daemon says that it is alive more often than it can have before this call.
+  // Whether the daemon sends more watchdog messages than can be on their way already.
   bool hears_of_life() {
     std::unique_lock lock(mutex_);
     const std::uint64_t before = alive_;
     return heard_.wait_for(lock, kPatience, [&] { return alive_ > before + kUnderWay; });
   }
 
-  // Whether, after what was under way, it says no more for fifty times as long as it should take.
+  // Whether no watchdog message arrives for a second, which is 50 times the daemon's interval. Up
+  // to kUnderWay messages that were on their way may arrive first.
   bool hears_no_more() {
     std::unique_lock lock(mutex_);
     const std::uint64_t before = alive_;
@@ -80,7 +83,7 @@ class ServiceManager {
 
  private:
   static constexpr auto kPatience = 20s;
-  static constexpr std::uint64_t kUnderWay = 30;  // of messages at most
+  static constexpr std::uint64_t kUnderWay = 30;  // the most messages that may be on their way
 
   void listen() {
     char text[512];
@@ -97,7 +100,7 @@ class ServiceManager {
   }
 
   const int socket_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable heard_;
   std::deque<std::string> messages_;
   std::uint64_t alive_ = 0;
@@ -123,7 +126,7 @@ TEST_F(ServiceManagerTest, HearsWhenTheDaemonIsReadyReloadsLivesAndStops) {
   EXPECT_EQ(daemon.wait().exit_code, 0);
 }
 
-// The only file below the folder.
+// Returns the only file below the folder.
 std::filesystem::path file_in(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file()) return entry.path();
@@ -136,7 +139,8 @@ TEST_F(ServiceManagerTest, HearsNoMoreOfADaemonWhoseWorkersAreAllStuckAndDoesWhi
   const auto object = file_in(served.path() / "objects");
   const auto aside = served.path() / "aside", pipe = served.path() / "pipe";
   std::filesystem::rename(object, aside);
-  ASSERT_EQ(::mkfifo(object.c_str(), 0600), 0);  // who opens it waits for somebody at the other end
+  // an open of a FIFO blocks until the other end is opened
+  ASSERT_EQ(::mkfifo(object.c_str(), 0600), 0);
   Daemon daemon(served.path());
   EXPECT_EQ(manager.hear(), "READY=1");
   std::vector<std::unique_ptr<HttpClient>> visitors;
@@ -147,12 +151,12 @@ TEST_F(ServiceManagerTest, HearsNoMoreOfADaemonWhoseWorkersAreAllStuckAndDoesWhi
   visit();
   while (http_get(daemon.admin_port(), "/metrics").body.find("cache_misses_total 1\n") ==
          std::string::npos)
-    std::this_thread::yield();  // until one opens it
+    std::this_thread::yield();  // waits until one worker opens the object
   EXPECT_TRUE(manager.hears_of_life()) << "one worker is stuck";
-  for (int i = 0; i < 40; ++i)  // who wants the same waits for that one
+  for (int i = 0; i < 40; ++i)  // requests for the same model wait for that worker
     visit();
   EXPECT_TRUE(manager.hears_no_more()) << "all workers are stuck";
-  EXPECT_EQ(http_get(daemon.admin_port(), "/livez").status, 200) << "the network goes on";
+  EXPECT_EQ(http_get(daemon.admin_port(), "/livez").status, 200) << "the network still answers";
   std::filesystem::rename(object, pipe);
   std::filesystem::rename(aside, object);
   ::close(::open(pipe.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));

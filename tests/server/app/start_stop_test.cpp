@@ -10,11 +10,12 @@
 #include <regex>
 #include <sstream>
 
-#include "served_folder.h"
 #include "server/store/file_lock.h"
 #include "server/store/installation.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -259,8 +260,9 @@ TEST(Stop, SigtermEndsIdleConnectionsAndTheDaemonWithACleanLog) {
 }
 
 TEST(Stop, FinishesATransferThatIsUnderWay) {
-  // An answer larger than the sockets hold, with more requests behind it than the daemon reads
-  // ahead: closing on those would reset the connection and take back the end of the answer.
+  // The answer is larger than the sockets' buffers, and more requests follow than the daemon reads
+  // ahead. Closing a socket with unread requests would reset the connection and lose the end of the
+  // answer.
   std::string chunk;
   chunk.resize(32'000'000, 'c');
   const TinyPmesh large = tiny_pmesh("a base mesh", chunk);
@@ -293,7 +295,7 @@ TEST(Stop, ASecondSignalEndsTheDaemonAtOnce) {
   WebSocketClient stuck(daemon.port(), "/api/v1/models/" + id + "/stream", "pmesh.v1");
   stuck.receive();
   daemon.signal(SIGTERM);
-  EXPECT_EQ(stuck.receive().close_code(), 1012);  // and never answers it
+  EXPECT_EQ(stuck.receive().close_code(), 1012);  // the client never answers this close frame
   daemon.signal(SIGTERM);
   EXPECT_EQ(daemon.wait().exit_code, 0);
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmesh.v1 of the real daemon.
+// Streams of the real daemon (subprotocol pmesh.v1).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "served_folder.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -34,13 +35,14 @@ class StreamTest : public ::testing::Test {
     const std::string target = "/api/v1/models/" + id + "/unpublish";
     EXPECT_EQ(http_get(daemon.port(), target, operator_, "POST").status, 200);
   }
-  // The next text frame.
+  // Returns the JSON of the next frame, which must be a text frame.
   static Json told(WebSocketClient& client) {
     WebSocketFrame frame = client.receive();
     EXPECT_EQ(frame.kind, WebSocketFrame::kText);
     return Json::parse(frame.payload);
   }
-  // Slices of one chunk, acknowledged; their first header.
+  // Receives the slices of one chunk into `bytes` and acknowledges each. Returns the first slice's
+  // header.
   static std::string take(WebSocketClient& client, std::size_t length, std::string& bytes) {
     std::string header;
     while (bytes.size() < length) {
@@ -106,7 +108,7 @@ TEST_F(StreamTest, OneSocketBringsSeveralModels) {
 }
 
 TEST_F(StreamTest, OpeningModelsIsBoundToTheRateOfRequests) {
-  end(daemon);  // a data folder is one daemon's
+  end(daemon);  // only one daemon may use a data folder
   const Daemon strict(folder.path(), {"--request-rate", "1"});
   WebSocketClient client(strict.port(), url(), "pmesh.v1");
   told(client);
@@ -115,13 +117,13 @@ TEST_F(StreamTest, OpeningModelsIsBoundToTheRateOfRequests) {
     return told(client)["reason"];
   };
   EXPECT_EQ(reason(), "there is no such model");
-  for (int i = 0; i < 100; ++i) {  // ten calls may come at once
+  for (int i = 0; i < 100; ++i) {  // the rate limit allows ten calls at once
     if (reason() == "too many requests; wait") return;
   }
   FAIL() << "a hundred calls were answered";
 }
 
-TEST_F(StreamTest, AWishForTimeIsAnsweredByPromises) {
+TEST_F(StreamTest, ARequestForTimeIsAnsweredByPromises) {
   WebSocketClient client = connect();
   told(client);
   client.send_text(R"({"type":"want","turn":3,"seconds":5})");
@@ -155,7 +157,7 @@ TEST_F(StreamTest, AClientThatGrantsAheadIsSentEverything) {
 
 TEST_F(StreamTest, PagesOfOtherSitesMayStreamUnlessSomeAreListed) {
   EXPECT_NO_THROW(connect("", "Origin: https://museum.example\r\n"));
-  end(daemon);  // a data folder is one daemon's
+  end(daemon);  // only one daemon may use a data folder
   const Daemon strict(folder.path(), {"--allowed-origins", "https://museum.example"});
   const auto status = [&](const std::string& origin) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A daemon that runs in a terminal's foreground.
+// A daemon in the foreground of a terminal.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,8 +7,9 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "served_folder.h"
-#include "support/daemon.h"
+#include "support/process/daemon.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {

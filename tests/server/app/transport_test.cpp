@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daemon over TLS, over a Unix socket and behind proxies.
+// The daemon over TLS, over a Unix socket, and behind proxies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
 
-#include "served_folder.h"
-#include "support/certificate.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
-#include "support/tls_client.h"
+#include "support/process/certificate.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/process/tls_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 
 namespace vitrine::test {
 namespace {
@@ -78,13 +79,16 @@ TEST_F(TlsTest, ANewCertificateIsShownToThoseWhoComeThenAndNobodyIsCutOff) {
 
 TEST_F(TlsTest, RefusesToStartWithoutBothFilesOrWithThoseThatDoNotFit) {
   const std::string data = folder.path().string();
-  ProgramResult result = run_vitrined({"--data", data, "--tls-key", key.string()});
+  const Daemon other(folder.path(), {});
+  const std::string in_use = "127.0.0.1:" + std::to_string(other.port());
+  ProgramResult result =
+      run_vitrined({"--data", data, "--listen", in_use, "--tls-key", key.string()});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.output, HasSubstr("tls-key is set alone; set tls-certificate, too"));
   write_certificate({make_certificate("A").certificate, make_certificate("B").key}, certificate,
                     key);
   for (const char* action : {"--check-config", "--threads=1"}) {
-    std::vector<std::string> arguments = {"--data", data, "--listen", "127.0.0.1:0", action};
+    std::vector<std::string> arguments = {"--data", data, "--listen", in_use, action};
     arguments.insert(arguments.end(), options.begin(), options.end());
     result = run_vitrined(arguments);
     EXPECT_EQ(result.exit_code, 2);
@@ -170,7 +174,7 @@ TEST(Limits, ATokenHasOneBudgetWhereverItIsUsed) {
   const Daemon daemon(folder.path(), {"--request-rate", "1", "--trusted-proxies", "127.0.0.1"});
   HttpClient client(daemon.port());
   HttpAnswer answer;
-  for (int i = 0; i < 200 && answer.status != 429; ++i)  // each from an address of its own
+  for (int i = 0; i < 200 && answer.status != 429; ++i)  // each request comes from another address
     answer = client.get(model, token + from("192.0.2." + std::to_string(i)));
   EXPECT_EQ(answer.status, 429);
   EXPECT_EQ(client.get(model, other + from("192.0.2.0")).status, 200);
@@ -188,7 +192,7 @@ TEST(Limits, AllOfAnIpv6NetworkShareOnesBudget) {
   EXPECT_EQ(client.get(model, from("2001:db8:0:1::")).status, 200);
 }
 
-// Few enough that they do not use the budget up by themselves.
+// The five HTTP requests are too few to use up the budget by themselves.
 TEST(Limits, ModelsThatAreOpenedOnAStreamAreOfItsNetworksBudget) {
   ServedFolder folder;
   const std::string model = "/api/v1/models/" + folder.publish("A small bust");
@@ -223,7 +227,8 @@ TEST(Limits, AStreamBehindAProxyCountsForItsVisitor) {
   }
   EXPECT_TRUE(first->is_closed());
   first.reset();
-  for (bool is_in = false; !is_in;) {  // once the daemon has seen the end of it
+  // Retries until the daemon has noticed the end of the first connection.
+  for (bool is_in = false; !is_in;) {
     try {
       open("2001:db8::3");
       is_in = true;

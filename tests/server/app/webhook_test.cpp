@@ -5,11 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "served_folder.h"
 #include "server/jobs/clock.h"
 #include "server/store/installation.h"
-#include "support/daemon.h"
-#include "support/http_client.h"
+#include "support/process/daemon.h"
+#include "support/process/http_client.h"
+#include "support/product_names.h"
+#include "support/served_folder.h"
 #include "support/temporary_folder.h"
 #include "support/webhook_listener.h"
 
@@ -32,7 +33,7 @@ TEST(WebhooksOfADaemon, WhatAnotherHasNotToldIsToldAtTheStart) {
   ASSERT_TRUE(installation.jobs->add(ended, std::nullopt, std::nullopt));
   const Daemon daemon(folder.path(), {"--webhook-hosts", listener.host()});
   EXPECT_THAT(listener.hear("200 OK"), HasSubstr("{\"id\":\"" + ended.id.to_string()));
-  while (!installation.jobs->untold_jobs().value().empty())
+  while (!installation.jobs->unnotified_jobs().value().empty())
     std::this_thread::yield();
 }
 

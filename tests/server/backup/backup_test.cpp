@@ -15,7 +15,8 @@
 #include "server/catalogue/snapshot.h"
 #include "server/store/change.h"
 #include "server/store/installation.h"
-#include "support/run_program.h"
+#include "support/process/run_program.h"
+#include "support/product_names.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_pmesh.h"
 
@@ -45,13 +46,13 @@ std::vector<std::string> names_in(const fs::path& folder) {
 class BackupTest : public ::testing::Test {
  protected:
   ModelId publish(const std::string& title, ModelState state = ModelState::kPublished) {
-    const auto done = vitrine::publish(*installation.store, *installation.catalogue,
-                                       tiny_pmesh("base of " + title, "chunk").bytes,
-                                       {.title = title}, {.state = state});
+    const auto done = server::publish(*installation.store, *installation.catalogue,
+                                      tiny_pmesh("base of " + title, "chunk").bytes,
+                                      {.title = title}, {.state = state});
     if (!done) throw std::runtime_error(done.error().message);
     return done->id;
   }
-  // The same with less of it public than there is.
+  // Publishes a model of which only the coarsest level is public. Returns its ID.
   ModelId publish_capped(const std::string& title) {
     ModelRecord model = installation.catalogue->find(publish(title)).value().value();
     model.public_part = PublicPart{.max_level = 0};
@@ -61,7 +62,7 @@ class BackupTest : public ::testing::Test {
   }
   fs::path path(const std::string& name) const { return folder.path() / name; }
 
-  // What restoring says, and that it leaves nothing behind.
+  // Restores the backup, which must fail and leave no files behind. Returns the error.
   std::string fault_of_restoring(const fs::path& backup) const {
     const auto done = restore(backup, path("again"));
     EXPECT_FALSE(done);
@@ -74,11 +75,11 @@ class BackupTest : public ::testing::Test {
   Installation installation = open_installation({.folder = data}).value();
 };
 
-TEST_F(BackupTest, WhatIsRestoredIsWhatThereWas) {
+TEST_F(BackupTest, TheRestoredInstallationEqualsTheOriginal) {
   const ModelId shown = publish("Shown"), draft = publish("Draft", ModelState::kDraft),
                 capped = publish_capped("Capped");
   ASSERT_TRUE(installation.catalogue->add_token(
-      {.id = ModelId::generate(), .role = Role::kAdmin, .hash = Sha256{7}, .label = "door"}));
+      {.id = TokenId::generate(), .role = Role::kAdmin, .hash = Sha256{7}, .label = "door"}));
   fs::create_directories(data / "scans/one");
   write(data / "scans/one/profiles", "measured");
   write(data / "scans/one/.half.part", "not yet");
@@ -107,7 +108,7 @@ TEST_F(BackupTest, WhatIsRestoredIsWhatThereWas) {
   EXPECT_FALSE(fs::exists(path("again/scans/one/.half.part")));
 }
 
-TEST_F(BackupTest, OneThatLacksWhatIsPublicOfAModelIsRefused) {
+TEST_F(BackupTest, ABackupWithoutAPublicPartIsRefused) {
   const ModelId id = publish_capped("Capped");
   ASSERT_TRUE(back_up(data, tar));
   const std::string hex =
@@ -128,7 +129,7 @@ TEST_F(BackupTest, OneThatLacksWhatIsPublicOfAModelIsRefused) {
               HasSubstr("the file of model " + id.to_string() + " is missing"));
 }
 
-TEST_F(BackupTest, IsForItsOwnerAloneFromItsFirstByteOn) {
+TEST_F(BackupTest, OnlyItsOwnerCanReadItFromTheFirstByteOn) {
   publish("Shown");
   const mode_t mask = ::umask(0);
   const auto done = back_up(data, tar);
@@ -162,7 +163,7 @@ TEST_F(BackupTest, IsConsistentWhileOthersPublish) {
     for (int i = 0; i < kModels; ++i, ++published)
       publish("Model " + std::to_string(i));
   });
-  while (published == 0)  // they are at it
+  while (published == 0)  // waits until the other thread has published a model
     std::this_thread::yield();
   for (bool last = false; !last;) {
     last = published == kModels;
@@ -205,7 +206,7 @@ TEST_F(BackupTest, ACutOrDamagedFileIsRefusedAndLeavesNothing) {
   }
 }
 
-TEST_F(BackupTest, WhatDoesNotBelongIntoOneIsRefused) {
+TEST_F(BackupTest, AnEntryThatDoesNotBelongInABackupIsRefused) {
   const std::vector<std::uint8_t> bytes = {1, 2, 3};
   for (const char* name :
        {"../escaped", "scans/../../escaped", "/escaped", "scans/.hidden", "scans//x", "scans/",

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 std::optional<Checksums> parse(std::string_view text) {
@@ -16,7 +16,7 @@ TEST(Checksums, ComeBackAsTheyWere) {
   EXPECT_EQ(parse(""), Checksums{});
 }
 
-TEST(Checksums, ALineThatIsNoneIsRefused) {
+TEST(Checksums, AMalformedLineIsRefused) {
   const std::string hash(64, 'a');
   EXPECT_TRUE(parse(hash + "  name\n"));
   for (const std::string& text :
@@ -27,4 +27,4 @@ TEST(Checksums, ALineThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -4,11 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <set>
 
 #include "server/config/options.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using ::testing::Eq;
@@ -84,7 +85,7 @@ TEST(CommandLine, RefusesValuesOutOfRangeAndSaysWhereTheyCameFrom) {
   const auto port = parse({"--listen", "127.0.0.1:65536"});
   ASSERT_FALSE(port);
   EXPECT_EQ(port.error().message,
-            "--listen: '65536' is not a whole number from 0 to 65535; give one");
+            "--listen: '65536' is not a whole number from 0 to 65535; correct it");
   EXPECT_THAT(parse({}, {"VITRINE_THREADS=x"}).error().message, StartsWith("VITRINE_THREADS: 'x'"));
   EXPECT_THAT(parse({"--config", "v.conf"}, {}, "\nthreads = x\n").error().message,
               StartsWith("v.conf:2: threads: 'x'"));
@@ -150,22 +151,29 @@ TEST(CommandLine, SecretsAreNotPrintedNorRepeatedInFaults) {
   const auto fault = parse({"--catalogue", "mysql://museum:hush@db/vitrine"});
   ASSERT_FALSE(fault);
   EXPECT_EQ(fault.error().message,
-            "--catalogue: it does not begin with postgresql://; correct the URL");
+            "--catalogue: the URL does not begin with postgresql://; correct it");
 }
 
-TEST(CommandLine, ADaemonHasTheRolesThatItIsGivenAndElseAll) {
+TEST(CommandLine, ADaemonHasTheGivenRolesByDefaultAll) {
   const auto all = parse({}), some = parse({"--roles", "scan,build"});
   ASSERT_TRUE(all && some);
-  EXPECT_TRUE(all->settings.roles.serve && all->settings.roles.build && all->settings.roles.scan);
-  EXPECT_FALSE(some->settings.roles.serve);
-  EXPECT_TRUE(some->settings.roles.build && some->settings.roles.scan);
-  EXPECT_THAT(parse({"--roles", "serve,bild"}).error().message,
-              HasSubstr("--roles: 'bild' is no role; give some of serve, build and scan"));
+  EXPECT_TRUE(all->settings.roles.serves && all->settings.roles.builds &&
+              all->settings.roles.scans);
+  EXPECT_FALSE(some->settings.roles.serves);
+  EXPECT_TRUE(some->settings.roles.builds && some->settings.roles.scans);
+  EXPECT_THAT(
+      parse({"--roles", "serve,bild"}).error().message,
+      HasSubstr("--roles: 'bild' is not a role; give one or more of serve, build and scan"));
   EXPECT_FALSE(parse({"--roles", ""}));
 }
 
+// Returns the text with wrapped lines joined again.
+std::string unwrapped(const std::string& text) {
+  return std::regex_replace(text, std::regex("\\s+"), " ");
+}
+
 TEST(CommandLine, TheReferenceNamesEveryOption) {
-  const std::string text = reference();
+  const std::string text = unwrapped(reference());
   for (const Option& option : options()) {
     EXPECT_THAT(text, HasSubstr("--" + std::string(option.key)));
     EXPECT_THAT(text, HasSubstr(std::string(option.doc)));
@@ -188,4 +196,4 @@ TEST(CommandLine, KnowsItsActions) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 TEST(Networks, AnAddressIsInItselfAndInItsPrefix) {
@@ -22,7 +22,7 @@ TEST(Networks, ThePrefixOfNoLengthHoldsAllOfItsKind) {
   EXPECT_FALSE(networks.contain("2001:db8::1"));
 }
 
-TEST(Networks, UnixIsWhoConnectsToAUnixSocket) {
+TEST(Networks, UnixMeansClientsOnAUnixSocket) {
   EXPECT_TRUE(Networks::parse("unix")->contain("unix"));
   EXPECT_FALSE(Networks::parse("")->contain("unix"));
 }
@@ -36,13 +36,13 @@ TEST(Networks, LimitsCountAnIpv4AddressAndTheFirstHalfOfAnIpv6Address) {
   EXPECT_EQ(network_of("unix"), "unix");
 }
 
-TEST(Networks, WhatIsNoNetworkIsRefusedByName) {
+TEST(Networks, AnEntryThatIsNoNetworkIsNamed) {
   for (const char* text : {"10.0.0.0/33", "::/129", "10.0.0/8", "10.0.0.0/", "10.0.0.0/8x", "proxy",
                            "10.0.0.1,,10.0.0.2", "10.0.0.0/-1"})
     EXPECT_FALSE(Networks::parse(text)) << text;
   EXPECT_EQ(Networks::parse("10.0.0.1, proxy").error().message,
-            "'proxy' is no network; give, for example, 10.0.0.0/8");
+            "'proxy' is not a network; give, for example, 10.0.0.0/8");
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

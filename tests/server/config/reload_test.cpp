@@ -6,7 +6,7 @@
 
 #include "server/config/options.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using ::testing::ElementsAre;
@@ -18,7 +18,7 @@ CommandLine line_of(const std::string& file) {
       .value();
 }
 
-TEST(Reload, TakesWhatMayChangeAndTellsWhatWaits) {
+TEST(Reload, AppliesReloadableKeysAndListsTheOthers) {
   const auto result = reload(line_of("threads = 2\nstop-timeout = 5\n"),
                              line_of("threads = 3\nstop-timeout = 6\npublic-url = https://a.b\n"));
   ASSERT_TRUE(result);
@@ -29,13 +29,13 @@ TEST(Reload, TakesWhatMayChangeAndTellsWhatWaits) {
   EXPECT_EQ(result->line.settings.public_url, "https://a.b");
 }
 
-TEST(Reload, WhatWaitsIsToldEachTime) {
+TEST(Reload, KeysThatNeedARestartAreListedEachTime) {
   const CommandLine fresh = line_of("threads = 3\n");
   const auto once = reload(line_of("threads = 2\n"), fresh);
   EXPECT_THAT(reload(once->line, fresh)->waiting, ElementsAre("threads"));
 }
 
-TEST(Reload, WhatIsGoneFromTheFileHasItsDefaultAgain) {
+TEST(Reload, AKeyRemovedFromTheFileHasItsDefaultAgain) {
   const auto result = reload(line_of("stop-timeout = 5\n"), line_of(""));
   EXPECT_THAT(result->changed, ElementsAre("stop-timeout"));
   EXPECT_EQ(result->line.settings.stop_timeout, std::chrono::seconds(20));
@@ -61,4 +61,4 @@ TEST(PublicUrl, IsAnOriginAndPerhapsAPath) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

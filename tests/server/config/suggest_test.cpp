@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::array<std::string_view, 3> kWords = {"listen", "admin-listen", "data"};
@@ -21,4 +21,4 @@ TEST(Suggest, StaysSilentWhenNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

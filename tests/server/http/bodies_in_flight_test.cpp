@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::uint64_t kSize = BodiesInFlight::kSmall;
@@ -60,4 +60,4 @@ TEST(BodiesInFlight, WhatIsSmallOrStaticIsAlwaysAdmitted) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http/framing.h"
+#include "server/messages/framing.h"
 
 #include <gtest/gtest.h>
 
 #include "server/http/beast.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 struct Case {
   const char* name;
-  std::string head;  // after the request line
+  std::string head;  // header fields after the request line
   bool accepted;
   const char* version = "1.1";
 };
 
-// Accepted by the parser and by the guard.
+// Whether both the parser and the guard accept the request.
 bool accepts(const Case& test) {
   const std::string text = std::string("GET / HTTP/") + test.version + "\r\n" + test.head + "\r\n";
   beast::http::request_parser<beast::http::string_body> parser;
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(Table, FramingTest, ::testing::ValuesIn(kFramings),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 TEST(Repeat, GoesOnAfterATaskThatThrew) {
@@ -48,4 +48,4 @@ TEST(KeepTrying, GoesOnAfterAnAttemptThatFailedOrThrew) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

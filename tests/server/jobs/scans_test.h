@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of what a daemon makes of its scans: a service over a folder, with a scanner that obeys.
+// A fixture for scans: a service on a data folder, with a simulated scanner.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,32 +11,32 @@
 #include "support/fake_backend.h"
 #include "support/temporary_folder.h"
 
-namespace vitrine {
+namespace vitrine::server {
 
 class ScansTest : public testing::Test {
  protected:
   ScansTest() { start(); }
 
-  // A daemon's life: a new service over the same folder.
-  void start(std::chrono::milliseconds patience = std::chrono::hours(1)) {
+  // Starts a new service on the same folder, as a restarted daemon does.
+  void start(std::chrono::milliseconds idle_timeout = std::chrono::hours(1)) {
     std::vector<std::unique_ptr<ScannerBackend>> backends;
     backends.push_back(std::make_unique<test::FakeBackend>(world_));
-    service_ = std::make_unique<ScanService>(ScanMeans{*installation_.store,
-                                                       *installation_.catalogue,
-                                                       *installation_.jobs,
-                                                       events_,
-                                                       folder_.path(),
-                                                       VITRINE_BIN_DIR "/vitrined",
-                                                       patience,
-                                                       {},
-                                                       quota_.get()},
-                                             std::move(backends));
+    service_ =
+        std::make_unique<ScanService>(ScanServiceOptions{.store = *installation_.store,
+                                                         .catalogue = *installation_.catalogue,
+                                                         .jobs = *installation_.jobs,
+                                                         .events = events_,
+                                                         .data = folder_.path(),
+                                                         .program = VITRINE_BIN_DIR "/vitrined",
+                                                         .idle_timeout = idle_timeout,
+                                                         .quota = quota_.get()},
+                                      std::move(backends));
     ASSERT_TRUE(service_->start());
   }
   void settle() {
-    service_->jobs().lane(world_.name).run([] {});
+    service_->jobs().executor(world_.name).run([] {});
   }
-  // A scan of which seven steps are measured when the daemon stops.
+  // Begins a scan and stops the daemon after seven steps are measured.
   ScanStarted begin_and_stop() {
     test::HeldAtStep held(world_, 7);
     const auto started = begin(order_);
@@ -68,4 +68,4 @@ class ScansTest : public testing::Test {
   std::unique_ptr<ScanService> service_;
 };
 
-}  // namespace vitrine
+}  // namespace vitrine::server

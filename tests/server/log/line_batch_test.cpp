@@ -9,7 +9,7 @@
 #include <csignal>
 #include <thread>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 std::string read_all(int descriptor) {
@@ -21,10 +21,11 @@ std::string read_all(int descriptor) {
   return text;
 }
 
-// Interrupted when the pipe is full: write(2) then tells how much it has taken.
+// If the pipe is full, a signal interrupts write(2), which then returns the number of bytes
+// written.
 TEST(LineBatch, AWriteThatIsInterruptedTearsNoLine) {
   struct sigaction action {};
-  action.sa_handler = [](int) {};  // without SA_RESTART
+  action.sa_handler = [](int) {};  // without SA_RESTART, write(2) is not continued
   ASSERT_EQ(::sigaction(SIGUSR2, &action, nullptr), 0);
   int ends[2];
   ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
@@ -44,4 +45,4 @@ TEST(LineBatch, AWriteThatIsInterruptedTearsNoLine) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -9,7 +9,7 @@
 
 #include "server/log/request_id.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using ::testing::HasSubstr;
@@ -45,7 +45,7 @@ TEST(Log, WritesOneLinePerRequest) {
   EXPECT_THAT(text, HasSubstr("event=warning message=\"all is well\"\n"));
 }
 
-TEST(Log, RequestsWaitForEachOtherUntilTheFirstOfThemIsSeenTo) {
+TEST(Log, RequestsAreBatchedUntilTheFlush) {
   const std::filesystem::path file = ::testing::TempDir() + "vitrine-batch.log";
   std::filesystem::remove(file);
   const auto log = Log::open(file);
@@ -57,7 +57,7 @@ TEST(Log, RequestsWaitForEachOtherUntilTheFirstOfThemIsSeenTo) {
   EXPECT_TRUE(log->access({.request_id = "3"}));
 }
 
-TEST(Log, ManyRequestsAreWrittenBeforeAnybodySeesToThem) {
+TEST(Log, ALargeBatchIsWrittenWithoutAFlush) {
   const std::filesystem::path file = ::testing::TempDir() + "vitrine-many.log";
   std::filesystem::remove(file);
   const auto log = Log::open(file);
@@ -67,7 +67,7 @@ TEST(Log, ManyRequestsAreWrittenBeforeAnybodySeesToThem) {
   EXPECT_GT(std::filesystem::file_size(file), 60'000u);
 }
 
-TEST(Log, WritesWhoChangedWhat) {
+TEST(Log, WritesOneLinePerChange) {
   const std::filesystem::path file = ::testing::TempDir() + "vitrine-audit.log";
   std::filesystem::remove(file);
   Log::open(file)->audit({.request_id = "0123",
@@ -100,4 +100,4 @@ TEST(RequestId, DiffersForEveryRequest) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

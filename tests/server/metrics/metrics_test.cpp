@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 using ::testing::HasSubstr;
@@ -25,7 +25,7 @@ TEST(Metrics, CountsRequestsByRouteTemplateAndStatusClass) {
 
 TEST(Metrics, BucketsOfTheHistogramAreCumulative) {
   Metrics metrics(kRoutes);
-  metrics.request(0, 200, 0, 0.001);  // a bound is inclusive
+  metrics.request(0, 200, 0, 0.001);  // the upper bound of a bucket is inclusive
   metrics.request(0, 200, 0, 0.3);
   metrics.request(0, 200, 0, 100);
   const std::string text = metrics.text();
@@ -36,7 +36,7 @@ TEST(Metrics, BucketsOfTheHistogramAreCumulative) {
   EXPECT_THAT(text, HasSubstr("seconds_count{route=\"/\"} 3\n"));
 }
 
-TEST(Metrics, ItsSizeDoesNotDependOnWhatWasAskedFor) {
+TEST(Metrics, ItsSizeDoesNotDependOnTheRequests) {
   Metrics metrics(kRoutes);
   const auto lines = [&] {
     const std::string text = metrics.text();
@@ -49,4 +49,4 @@ TEST(Metrics, ItsSizeDoesNotDependOnWhatWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

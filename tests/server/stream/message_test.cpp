@@ -3,16 +3,16 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 template <class Wanted>
 std::optional<Wanted> want_of(std::string_view text) {
   const auto message = parse_message(text);
   if (!message || !std::holds_alternative<WantMessage>(*message)) return std::nullopt;
-  const Wish& wish = std::get<WantMessage>(*message).wish;
-  if (!std::holds_alternative<Want>(wish)) return std::nullopt;
-  const Want& want = std::get<Want>(wish);
+  const DetailTarget& target = std::get<WantMessage>(*message).target;
+  if (!std::holds_alternative<Want>(target)) return std::nullopt;
+  const Want& want = std::get<Want>(target);
   return std::holds_alternative<Wanted>(want) ? std::optional(std::get<Wanted>(want))
                                               : std::nullopt;
 }
@@ -26,14 +26,14 @@ TEST(Message, ReadsEachKindOfWant) {
   EXPECT_EQ(want_of<WantLevel>(R"({"level":99999999999,"type":"want"})")->level, UINT32_MAX);
 }
 
-TEST(Message, ReadsAWishForTimeWithItsModelAndTurn) {
+TEST(Message, ReadsARequestForTimeWithItsModelAndTurn) {
   const auto message =
       parse_message(R"({"type":"want","model":15,"turn":4294967295,"seconds":0.5})");
   ASSERT_TRUE(message) << message.error().message;
   const auto& want = std::get<WantMessage>(*message);
   EXPECT_EQ(want.model, 15);
   EXPECT_EQ(want.turn, UINT32_MAX);
-  EXPECT_EQ(std::get<WantSeconds>(want.wish).seconds, 0.5);
+  EXPECT_EQ(std::get<WantSeconds>(want.target).seconds, 0.5);
 }
 
 TEST(Message, ReadsACamera) {
@@ -186,4 +186,4 @@ TEST(Message, ALongHaveIsSaidInSeveral) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

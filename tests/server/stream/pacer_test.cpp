@@ -12,18 +12,18 @@
 
 #include "server/stream/slice.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-// A link with a queue of any length: what is sent comes out at `rate` and is acknowledged after
-// the way there and back.
+// Simulates a link with an unlimited queue. It delivers bytes at `rate`. Acknowledgements arrive
+// after a round trip.
 class Link {
  public:
   double rate = 100'000;  // bytes per second
-  double delay = 0.02;    // seconds, there and back
-  std::size_t crowd = 1;
+  double delay = 0.02;    // round trip, seconds
+  std::size_t busy_streams = 1;
 
-  // Sends as much as the pacer lets through, for that long.
+  // Sends as much as the pacer allows for `seconds` seconds.
   void run(Pacer& pacer, double seconds) {
     for (const Pacer::Time end = now + Pacer::Duration(seconds); now < end;
          now += Pacer::Duration(0.001)) {
@@ -31,7 +31,7 @@ class Link {
         pacer.arrived(queue_.front().bytes, now);
         arrived += queue_.front().bytes;
       }
-      while (const std::uint32_t room = pacer.room(now, crowd))
+      while (const std::uint32_t room = pacer.room(now, busy_streams))
         send(pacer, room);
       longest = std::max(longest, static_cast<double>(pacer.in_flight()) / rate);
     }
@@ -39,7 +39,7 @@ class Link {
 
   Pacer::Time now{};
   std::uint64_t arrived = 0;
-  double longest = 0;  // queue and link, seconds
+  double longest = 0;  // longest time in the queue and on the link, seconds
 
  private:
   struct Packet {
@@ -152,7 +152,7 @@ TEST(Pacer, TakesNoMoreThanWasSentForArrived) {
   EXPECT_EQ(pacer.in_flight(), 0u);
 }
 
-// The delay of a link is seen only where no queue adds to it.
+// The pacer can measure the delay of a link only while no queue adds to it.
 TEST(Pacer, ALongTransferDoesNotLengthenItsQueue) {
   Link link;
   Pacer pacer;
@@ -164,19 +164,19 @@ TEST(Pacer, ALongTransferDoesNotLengthenItsQueue) {
 }
 
 struct FarCase {
-  std::size_t crowd;
+  std::size_t busy_streams;
   bool is_direct;
 };
 void PrintTo(const FarCase& one, std::ostream* out) {
-  *out << one.crowd << (one.is_direct ? " directly" : " behind a proxy");
+  *out << one.busy_streams << (one.is_direct ? " directly" : " behind a proxy");
 }
 
 class FarPacerTest : public ::testing::TestWithParam<FarCase> {};
 
-// A busy hour must not make links slower that are long, and not full.
+// Many busy streams must not slow down a link that has a long delay and is not full.
 TEST_P(FarPacerTest, FillsALongLinkInACrowd) {
   Link link;
-  link.rate = 400'000, link.delay = 0.15, link.crowd = GetParam().crowd;
+  link.rate = 400'000, link.delay = 0.15, link.busy_streams = GetParam().busy_streams;
   Pacer pacer;
   if (GetParam().is_direct) pacer.know_delay(Pacer::Duration(link.delay));
   link.run(pacer, 3);
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(Crowds, FarPacerTest,
                          ::testing::Values(FarCase{20, true}, FarCase{500, true},
                                            FarCase{20, false}, FarCase{100, false}));
 
-// Connections whose slices and acknowledgements wait for the same thing, first come, first served.
+// Connections whose slices and acknowledgements wait in one queue, first come, first served.
 class SharedQueue {
  public:
   SharedQueue(std::size_t size, double rate) : members_(size), rate_(rate) {
@@ -197,7 +197,8 @@ class SharedQueue {
       member.pacer.know_delay(Pacer::Duration(kDelay));
   }
 
-  // Three of four begin in the first two seconds, the others when those have filled the queue.
+  // Simulates until the time `until`. Three of four connections begin in the first two seconds. The
+  // others begin when the first ones have filled the queue.
   void run(double until) {
     for (; now_ < until; now_ += 0.001) {
       for (; !queue_.empty() && queue_.top().at <= now_; queue_.pop())
@@ -209,7 +210,7 @@ class SharedQueue {
     }
   }
 
-  // Of what they have got since it was last asked for.
+  // Returns the bytes that each connection has received since the last call, in ascending order.
   std::vector<double> shares() {
     std::vector<double> shares;
     for (Member& member : members_)
@@ -228,7 +229,8 @@ class SharedQueue {
     double at;
     std::size_t member;
     std::uint64_t bytes;
-    bool operator<(const Packet& other) const { return at > other.at; }  // the first is on top
+    // the earliest packet is on top
+    bool operator<(const Packet& other) const { return at > other.at; }
   };
 
   static Pacer::Time time(double now) { return Pacer::Time(Pacer::Duration(1000 + now)); }
@@ -262,7 +264,7 @@ class SharedQueue {
 
 struct CrowdCase {
   std::size_t members;
-  double rate;  // bytes per second, of all
+  double rate;  // bytes per second, for all connections together
 };
 void PrintTo(const CrowdCase& one, std::ostream* out) {
   *out << one.members << " at " << one.rate;
@@ -270,14 +272,14 @@ void PrintTo(const CrowdCase& one, std::ostream* out) {
 
 class PacerCrowdTest : public ::testing::TestWithParam<CrowdCase> {};
 
-// As long as it takes for delays to be measured anew, twice.
+// The simulated time is twice the interval at which delays are measured again.
 TEST_P(PacerCrowdTest, ComesToEqualShares) {
-  SharedQueue crowd(GetParam().members, GetParam().rate);
-  crowd.run(20);
-  crowd.shares();
+  SharedQueue queue(GetParam().members, GetParam().rate);
+  queue.run(20);
+  queue.shares();
   for (const double until : {25.0, 30.0}) {
-    crowd.run(until);
-    const std::vector<double> shares = crowd.shares();
+    queue.run(until);
+    const std::vector<double> shares = queue.shares();
     EXPECT_GE(shares.front(), shares[shares.size() / 2] / 2);
     double all = 0;
     for (const double share : shares)
@@ -291,4 +293,4 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PacerCrowdTest,
                                            CrowdCase{200, 20e6}, CrowdCase{200, 60e6}));
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wishes for `seconds` over a link that takes its time: what was promised is what is there.
+// Requests for `seconds` over a slow link. The bytes that the server promised must arrive in time.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -8,12 +8,12 @@
 
 #include "server/stream/stream_state.h"
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr std::uint64_t kHeadBytes = 1'000;
 
-// Levels of one region and one chunk each.
+// Returns a manifest whose levels have one region and one chunk each.
 Manifest manifest_of(std::uint32_t levels, std::uint64_t chunk) {
   Manifest manifest;
   manifest.base_offset = 600;
@@ -32,7 +32,7 @@ Manifest manifest_of(std::uint32_t levels, std::uint64_t chunk) {
 
 class PromiseTest : public ::testing::Test {
  protected:
-  using Rate = std::function<double(double seconds)>;  // bytes per second, by the time
+  using Rate = std::function<double(double seconds)>;  // bytes per second at a given time
   struct Said {
     double at;
     PromiseMessage promise;
@@ -41,11 +41,12 @@ class PromiseTest : public ::testing::Test {
   void open(std::uint16_t model, const Manifest& manifest) {
     ASSERT_TRUE(state.open(model, manifest, false));
   }
-  void want(std::uint16_t model, const Wish& wish) {
-    ASSERT_TRUE(state.receive(WantMessage{model, 0, wish}, time()));
+  void want(std::uint16_t model, const DetailTarget& target) {
+    ASSERT_TRUE(state.receive(WantMessage{model, 0, target}, time()));
   }
 
-  // Slices arrive in order, each acknowledged at once.
+  // Simulates the link until the time `until`. Slices arrive in order, and each is acknowledged at
+  // once.
   void run(double until, const Rate& rate) {
     constexpr double kStep = 0.001;
     for (; now < until; now += kStep) {
@@ -60,7 +61,7 @@ class PromiseTest : public ::testing::Test {
     }
   }
 
-  // Of whole chunks by that time, with the head.
+  // Returns the bytes of the chunks that have arrived whole by the time `by`, plus kHeadBytes.
   std::uint64_t held(std::uint16_t model, double by) const {
     std::uint64_t bytes = kHeadBytes;
     for (const auto& [at, slice] : arrived) {
@@ -77,7 +78,8 @@ class PromiseTest : public ::testing::Test {
     return bytes;
   }
 
-  // Those that were said from then on, once the connection was measured.
+  // Expects that the server has kept its promises. Checks those from the time `from` on that were
+  // made after the connection was measured.
   void expect_kept(double from, double times = 1.05) const {
     std::size_t checked = 0;
     for (const auto& [at, promise] : said) {
@@ -101,7 +103,7 @@ class PromiseTest : public ::testing::Test {
   double now = 0;
   std::vector<Said> said;
   std::vector<std::pair<double, Slice>> arrived;
-  std::map<std::uint16_t, double> done;  // when it was said
+  std::map<std::uint16_t, double> done;  // time of each model's "done" message
 
  private:
   void pull() {
@@ -127,7 +129,7 @@ class PromiseTest : public ::testing::Test {
   }
 
   std::deque<Slice> on_its_way;
-  double left = 0;  // of the first
+  double left = 0;  // bytes of the first slice still on the way
 };
 
 TEST_F(PromiseTest, IsKeptOverAFastAndOverASlowLink) {
@@ -179,8 +181,9 @@ TEST_F(PromiseTest, CountsAModelThatJoinsAndOneThatIsPaused) {
   expect_kept(1.01);
 }
 
-// The link carries nothing in between; before and after, most of what it can.
-TEST_F(PromiseTest, AWishForSecondsOutlivesASilence) {
+// The link carries nothing during the silence. Before and after the silence, the link must carry
+// most of its capacity.
+TEST_F(PromiseTest, ARequestForSecondsOutlivesASilence) {
   constexpr double kRate = 200'000;
   constexpr std::pair<double, double> kSilences[] = {{1.5, 1.8}, {1.5, 2.5}, {0.5, 3}, {2, 3.2}};
   for (const auto& [from, to] : kSilences) {
@@ -201,4 +204,4 @@ TEST_F(PromiseTest, AWishForSecondsOutlivesASilence) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 TEST(ServerMessage, IsWrittenAsTheProtocolSays) {
@@ -65,4 +65,4 @@ TEST(ServerMessage, EverythingElseIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

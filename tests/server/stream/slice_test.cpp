@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
 constexpr SliceHeader kHeader{.model = 0x0102,
@@ -44,4 +44,4 @@ TEST(SliceHeader, OfAFrameThatIsNoSliceIsRefused) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

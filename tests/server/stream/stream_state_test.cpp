@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <map>
 
-namespace vitrine {
+namespace vitrine::server {
 namespace {
 
-constexpr std::uint32_t kChunk = 40'000;  // two whole slices and a part
+constexpr std::uint32_t kChunk = 40'000;  // two whole slices and a part of one
 constexpr std::uint32_t kHead = 1'000;
 
-// Levels of one region: 100, 200, 300 … faces.
+// Returns a manifest whose levels have one region and 100, 200, 300 … faces.
 Manifest small_manifest(std::uint32_t levels) {
   Manifest manifest;
   manifest.base_offset = 600;
@@ -40,11 +40,12 @@ class StreamStateTest : public ::testing::Test {
     const auto received = state.receive(message, now);
     ASSERT_TRUE(received) << received.error().message;
   }
-  void want(const Wish& wish, std::uint16_t model = 0) {
-    receive(WantMessage{model, ++turn, wish});
+  void want(const DetailTarget& target, std::uint16_t model = 0) {
+    receive(WantMessage{model, ++turn, target});
   }
 
-  // What comes next over a link of that many bytes per second, each slice acknowledged at once.
+  // Returns the next output over a link of `rate` bytes per second. Acknowledges each slice at
+  // once.
   StreamOutput take(double rate) {
     const StreamOutput output = state.next(now);
     if (const auto* slice = std::get_if<Slice>(&output)) {
@@ -60,8 +61,8 @@ class StreamStateTest : public ::testing::Test {
     return output;
   }
 
-  // Everything that is sent without further messages; the chunks, as (model, level), whose first
-  // slices are among it.
+  // Takes everything that is sent without further messages. Returns the chunks, as (model, level),
+  // of which the first slice was sent.
   using Chunks = std::vector<std::pair<int, int>>;
   Chunks pull(double rate = 1e6) {
     Chunks started;
@@ -94,12 +95,12 @@ class StreamStateTest : public ::testing::Test {
   std::vector<PromiseMessage> promises;
 };
 
-TEST_F(StreamStateTest, SendsNothingBeforeAWish) {
+TEST_F(StreamStateTest, SendsNothingBeforeARequest) {
   EXPECT_EQ(pull(), Chunks{});
   EXPECT_FALSE(done);
 }
 
-TEST_F(StreamStateTest, SendsTheChunksOfAWishInOrderAndThenSaysDone) {
+TEST_F(StreamStateTest, SendsTheChunksOfARequestInOrderAndThenSaysDone) {
   want(Want(WantLevel{2}));
   EXPECT_EQ(pull(), (Chunks{{0, 1}, {0, 2}}));
   EXPECT_EQ(bytes, 2 * kChunk);
@@ -110,7 +111,7 @@ TEST_F(StreamStateTest, SendsTheHeadFirstWhereItIsAskedFor) {
   ASSERT_TRUE(state.open(1, manifest, true));
   EXPECT_EQ(pull(), (Chunks{{1, 0}}));
   EXPECT_EQ(bytes, kHead);
-  EXPECT_FALSE(done) << "a head is no wish";
+  EXPECT_FALSE(done) << "a head is no target";
 }
 
 TEST_F(StreamStateTest, SlicesOfAChunkFollowEachOtherWithoutGaps) {
@@ -173,7 +174,7 @@ TEST_F(StreamStateTest, DoesNotSendWhatTheClientHolds) {
   EXPECT_EQ(done->triangles, 400u);
 }
 
-TEST_F(StreamStateTest, ANewWishInterruptsTheChunkUnderWay) {
+TEST_F(StreamStateTest, ANewRequestInterruptsTheChunkUnderWay) {
   want(Want(WantLevel{3}));
   const auto first = std::get<Slice>(take(1e6));
   want(Want(WantLevel{0}));
@@ -182,16 +183,16 @@ TEST_F(StreamStateTest, ANewWishInterruptsTheChunkUnderWay) {
   want(Want(WantLevel{1}));
   const auto rest = std::get<Slice>(take(1e6));
   EXPECT_EQ(rest.header.level, 1);
-  EXPECT_EQ(rest.header.offset, first.length) << "it goes on where it stopped";
+  EXPECT_EQ(rest.header.offset, first.length) << "it continues where it stopped";
 }
 
-// The box of the test's model is the origin.
+// The box of the test's model is the single point at the origin.
 TEST_F(StreamStateTest, ACameraIsSentWhatItSees) {
   View view{.camera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 100, 1},
             .field_of_view = 30,
             .width = 800,
             .height = 600};
-  view.camera[10] = -1;  // looks away
+  view.camera[10] = -1;  // the camera looks away from the model
   want(Want(view));
   EXPECT_EQ(pull(), Chunks{});
   EXPECT_TRUE(done);
@@ -201,7 +202,7 @@ TEST_F(StreamStateTest, ACameraIsSentWhatItSees) {
   EXPECT_TRUE(done);
 }
 
-TEST_F(StreamStateTest, EachWishIsAnsweredByDone) {
+TEST_F(StreamStateTest, EachRequestIsAnsweredByDone) {
   want(Want(WantError{0.5}));
   EXPECT_EQ(pull(), (Chunks{{0, 1}}));
   EXPECT_EQ(done->turn, 1u);
@@ -212,7 +213,7 @@ TEST_F(StreamStateTest, EachWishIsAnsweredByDone) {
   EXPECT_EQ(done->turn, 2u) << "again, as it was asked again";
 }
 
-TEST_F(StreamStateTest, AWishForBytesCountsTheHead) {
+TEST_F(StreamStateTest, ARequestForBytesCountsTheHead) {
   want(Want(WantBytes{kHead + kChunk}));
   EXPECT_EQ(pull(), (Chunks{{0, 1}}));
   want(Want(WantBytes{kHead + 2 * kChunk - 1}));
@@ -351,4 +352,4 @@ TEST_F(SecondsTest, TimePassesWhileNothingArrives) {
 }
 
 }  // namespace
-}  // namespace vitrine
+}  // namespace vitrine::server

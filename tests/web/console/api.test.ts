@@ -8,7 +8,10 @@ interface Asked {
   signal: AbortSignal;
 }
 
-/** A network whose answers are dealt out one by one; an error is a connection that breaks. */
+/**
+ * Replaces `fetch`. Each request gets the next of `answers`: a response, an error as from a broken connection, or no
+ * answer ("never"). Returns a list to which every request is added.
+ */
 function network(...answers: (Response | Error | "never")[]): Asked[] {
   const asked: Asked[] = [];
   vi.stubGlobal("fetch", (path: string, { headers, signal }: Asked) => {
@@ -39,7 +42,7 @@ test("an emergency stop lets go of all that holds a connection, and is not let g
   expect((await Promise.allSettled(held)).map(({ status }) => status)).toEqual(["rejected", "rejected"]);
   expect(asked[2]?.path).toBe("/api/v1/scanners/a/stop");
   network(json({ jobs: [] }));
-  expect(await api.get("/jobs", never)).toEqual({ jobs: [] }); // and the day goes on
+  expect(await api.get("/jobs", never)).toEqual({ jobs: [] }); // the next request is not aborted
 });
 
 test("what may have begun is asked for under the same key, until there is an answer", async () => {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { eventData } from "@console/events.ts";
 
-/** A body that comes in these pieces. */
+/** Returns a response body that arrives in these pieces. */
 function body(...pieces: string[]): ReadableStream<Uint8Array> {
   return new ReadableStream({
     start(controller) {
@@ -17,7 +17,7 @@ async function read(...pieces: string[]): Promise<string[]> {
   return all;
 }
 
-test("events are told one by one, heartbeats are not", async () => {
+test("events are passed on one by one, heartbeats are not", async () => {
   expect(await read("event: job\ndata: {\"a\":1}\n\n:\n\nevent: job\ndata: {\"a\":2}\n\n")).toEqual(['{"a":1}', '{"a":2}']);
 });
 

@@ -6,7 +6,7 @@ const job = (id: string, state: JobState): Job => ({
   id, state, kind: "publish", stage: null, progress: 0, eta: null, error: null, note: null, scanner: null, scan: null, model: null, created: "", ended: null,
 });
 
-/** A daemon whose streams the test holds in its hands. */
+/** A fake daemon. Tests send states on a job's event stream with `open.get(id).tell(state)`. */
 class Played implements JobSource {
   readonly open = new Map<string, { tell: (next: Job) => void; signal: AbortSignal }>();
   constructor(public jobs: Job[]) {}

@@ -2,7 +2,7 @@
 import { Problem } from "@console/problem.ts";
 import { EmergencyStop } from "@console/stop.ts";
 
-/** As much of an element as the stop uses. */
+/** A fake of the DOM's Element, with the members that the emergency stop uses. */
 class Element {
   hidden = false;
   className = "";
@@ -25,7 +25,7 @@ class Element {
   }
 }
 
-/** A daemon whose answers the test deals out; the last of the lists stays. */
+/** A fake daemon. Each request gets the next of `lists` or `answers`; the last list is repeated. */
 class Daemon {
   readonly stopped: string[] = [];
   constructor(readonly lists: (string[] | Error)[], readonly answers: (Error | undefined)[] = []) {}
@@ -85,7 +85,7 @@ test("scanners that come and go are learnt, whatever goes wrong meanwhile", asyn
   expect(daemon.stopped).toEqual(["left", "left", "right"]);
 });
 
-test("a scanner that is no more in the list is stopped all the same", async () => {
+test("a scanner that is no more in the list is stopped nevertheless", async () => {
   const daemon = new Daemon([["left", "right"], ["right"], []]), { button, press } = await learnt(daemon);
   await vi.advanceTimersByTimeAsync(kLook);
   await press();
@@ -114,7 +114,7 @@ test.each([
 test.each([
   ["refused", new Problem(403, "Forbidden"), 1],
   ["not to be had", away(), 3],
-])("a stop that is %s is told", async (_, fault, tries) => {
+])("a stop that is %s is reported", async (_, fault, tries) => {
   const daemon = new Daemon([["left"]], [fault, fault, fault, fault]), { said, press } = await learnt(daemon);
   await press();
   expect(daemon.stopped.length).toBe(tries);

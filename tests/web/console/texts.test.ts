@@ -11,13 +11,13 @@ test.each([
 
 test.each([
   [new Problem(409, "Conflict", "the scanner is busy; wait for its end"), "The scanner is busy; wait for its end"],
-  [new Problem(500, "Internal Server Error"), /^The server has failed/],
-  [new Problem(502, "Bad Gateway"), /^The server has failed/],
+  [new Problem(500, "Internal Server Error"), /^The server failed/],
+  [new Problem(502, "Bad Gateway"), /^The server failed/],
   [new Problem(404, "Not Found"), /404 Not Found/],
-  [new TypeError("Failed to fetch"), /does not answer/],
-  [new DOMException("", "TimeoutError"), /does not answer/],
+  [new TypeError("Failed to fetch"), /does not respond/],
+  [new DOMException("", "TimeoutError"), /does not respond/],
   [new DOMException("", "AbortError"), /emergency stop/],
-])("%s is told with what to do", (error, words) => expect(sentence(error)).toMatch(words));
+])("%s is reported with the next step", (error, words) => expect(sentence(error)).toMatch(words));
 
 test("a proxy's page has nothing to tell but its status", async () => {
   const problem = await Problem.of(new Response("<html>", { status: 413, statusText: "Payload Too Large" }));

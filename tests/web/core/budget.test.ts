@@ -24,7 +24,7 @@ describe("Budget", () => {
     expect(budget.room(a).triangles).toBe(85);
   });
 
-  test("takes back what a closed model held", () => {
+  test("frees the share of a closed model", () => {
     const budget = new Budget(amount(100));
     budget.hold(a, amount(50));
     budget.release(a);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { kBlockBytes, Shown } from "@core/change.ts";
-import type { Part, Surface } from "@core/types.ts";
+import type { SurfaceArray, Surface } from "@core/types.ts";
 
-/** `count` vertices and faces; vertex i lies at (i, height(i), 0). */
+/** Returns a surface with `count` vertices and `count` faces; vertex i is at (i, height(i), 0). */
 function surface(count: number, height: (i: number) => number = () => 0): Surface {
   const positions = new Float32Array(3 * count), normals = new Int16Array(4 * count);
   for (let i = 0; i < count; ++i) {
@@ -10,14 +10,14 @@ function surface(count: number, height: (i: number) => number = () => 0): Surfac
     normals.set([i % 1000, 0, 1, 0], 4 * i);
   }
   const indices = Uint32Array.from({ length: 3 * count }, (_, i) => i);
-  return { vertices: count, triangles: count, bytes: count, positions, normals, colours: undefined, indices };
+  return { vertices: count, triangles: count, bytes: count, positions, normals, attributes: [], indices };
 }
 
 const noParents = (count: number) => Uint32Array.from({ length: count }, (_, i) => i);
 
 type Way = ReturnType<Shown["change"]>;
 
-/** What a page has that puts each piece to its place. */
+/** A copy of the surface, as the page has it. take() applies all pieces of a change. */
 class Mirror {
   positions = new Float32Array(3 * 20_000);
   normals = new Int16Array(4 * 20_000);
@@ -29,7 +29,7 @@ class Mirror {
     const buffer = new ArrayBuffer(kBlockBytes);
     for (const { part, first, count, write } of pieces) {
       write(buffer);
-      if (part === "colours") throw new Error("there are none");
+      if (part === "colour") throw new Error("there are none");
       const values = this[part], width = part.startsWith("from") || part === "normals" ? 4 : 3;
       values.set(new (values.constructor as Float32ArrayConstructor)(buffer, 0, width * count), width * first);
     }
@@ -37,8 +37,8 @@ class Mirror {
   }
 }
 
-/** Where the pieces of a part begin and how many vertices or faces they have. */
-function places({ pieces }: Way, part: Part): number[][] {
+/** Returns [first, count] of each piece of an array, in vertices or faces. */
+function places({ pieces }: Way, part: SurfaceArray): number[][] {
   return pieces.filter((piece) => piece.part === part).map(({ first, count }) => [first, count]);
 }
 
@@ -50,7 +50,7 @@ describe("Shown", () => {
     expect([way.change.number, way.change.blocks]).toEqual([1, way.pieces.length]);
   });
 
-  test("gives nothing where nothing has changed", () => {
+  test("returns no piece without a change", () => {
     const shown = new Shown();
     shown.change(surface(5000), noParents(5000), false);
     expect(shown.change(surface(5000), noParents(5000), false).pieces).toEqual([]);
@@ -84,13 +84,14 @@ describe("Shown", () => {
   test("lets a new vertex part from its nearest ancestor that was shown", () => {
     const shown = new Shown();
     shown.change(surface(3, () => 5), noParents(3), false);
-    const parents = Uint32Array.of(0, 1, 2, 1, 3, 5); // 4 is a child of 3, that of 1; 5 was born whole
+    // Vertex 3 was split from 1, vertex 4 from 3; vertex 5 was inserted.
+    const parents = Uint32Array.of(0, 1, 2, 1, 3, 5);
     const { fromPositions } = new Mirror().take(shown.change(surface(6), parents, false));
     const from = Array.from({ length: 6 }, (_, i) => [...fromPositions.subarray(4 * i, 4 * i + 4)]);
     expect(from).toEqual([[0, 5, 0, 2], [1, 5, 0, 2], [2, 5, 0, 2], [1, 5, 0, 2], [1, 5, 0, 2], [5, 0, 0, 2]]);
   });
 
-  test("lets nothing move where the vertices are numbered anew", () => {
+  test("lets nothing move where the vertices have new numbers", () => {
     const shown = new Shown();
     shown.change(surface(3, () => 5), noParents(3), false);
     const { fromPositions, positions } = new Mirror().take(shown.change(surface(3), noParents(3), true));

@@ -2,7 +2,7 @@
 import { Lending } from "@core/lending.ts";
 import { settle } from "../support/fake_model.ts";
 
-/** Borrows until there is none left at once; the request that waits is the second. */
+/** Borrows all buffers. Returns them and the promise of one more, which waits until a buffer is returned. */
 async function exhaust(lending: Lending): Promise<[ArrayBuffer[], Promise<ArrayBuffer | undefined>]> {
   const lent: ArrayBuffer[] = [];
   for (;;) {
@@ -14,7 +14,7 @@ async function exhaust(lending: Lending): Promise<[ArrayBuffer[], Promise<ArrayB
 }
 
 describe("Lending", () => {
-  test("bounds what is on the way, and goes on with what comes back", async () => {
+  test("bounds what is on the way, and continues with what is returned", async () => {
     const lending = new Lending();
     const [lent, waiting] = await exhaust(lending);
     expect(new Set(lent).size).toBe(64);
@@ -23,7 +23,7 @@ describe("Lending", () => {
     expect((await exhaust(lending))[0]).toEqual([]);
   });
 
-  test("lets go of whoever waits when it is closed", async () => {
+  test("releases all waiting calls when it is closed", async () => {
     const lending = new Lending();
     const [, waiting] = await exhaust(lending);
     lending.close();

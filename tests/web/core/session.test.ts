@@ -3,7 +3,7 @@ import { Session } from "@core/session.ts";
 import { DamagedError, ModelError, UnreachableError } from "@core/types.ts";
 import { ControlledSource, FakeDecoder, RecordingSink, fakeInfo, kHeader, settle } from "../support/fake_model.ts";
 
-const base = { positions: new Int32Array(), faces: new Uint32Array(), colours: undefined };
+const base = { positions: new Int32Array(), faces: new Uint32Array(), attributes: new Int32Array() };
 
 function setUp(chunks: number, headBytes?: number) {
   const source = new ControlledSource(headBytes);
@@ -99,7 +99,7 @@ describe("Session", () => {
     sink.triangles.length = 0;
     expect(await session.refine({ level: 1 })).toBe(true);
     expect(decoder.applied).toEqual([0]);
-    expect(sink.triangles).toEqual([200]); // not by way of the base mesh
+    expect(sink.triangles).toEqual([200]); // the base mesh is not shown in between
     expect(await session.refine({ level: 3 })).toBe(true);
     expect(source.asked).toEqual([0, 1, 2]);
     expect(sink.triangles.at(-1)).toBe(400);
@@ -155,7 +155,7 @@ describe("Session", () => {
     expect(source.asked).toEqual([0]);
   });
 
-  test("waits for a server that is gone, longer each time, and goes on where it was", async () => {
+  test("waits for a server that is gone, longer each time, and resumes where it was", async () => {
     const { source, session, sink, waits, go, decoder } = await opened(2);
     const done = session.refine({ level: 2 });
     await settle();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { StreamSource, pairs } from "@core/stream-source.ts";
 
-/** The socket's far end, played by the test. */
+/** A fake WebSocket. The test acts as the server. */
 class FakeSocket {
   static readonly OPEN = 1;
   static last: FakeSocket;
@@ -180,7 +180,7 @@ describe("StreamSource", () => {
   });
 });
 
-test("indices are told as inclusive pairs", () => {
+test("indices are sent as inclusive pairs", () => {
   expect(pairs([])).toEqual([]);
   expect(pairs([3])).toEqual([[3, 3]]);
   expect(pairs([0, 1, 2, 5, 7, 8])).toEqual([[0, 2], [5, 5], [7, 8]]);

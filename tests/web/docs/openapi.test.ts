@@ -42,7 +42,7 @@ describe("the calls of a document", () => {
     expect(call).toMatchObject({ method: "POST", path: "/things", role: "operator", status: "202", answer: "Thing" });
     expect(call?.parameters[0]).toMatchObject({ name: "Idempotency-Key", type: "string (header)" });
     expect(call?.body.map(({ name }) => name)).toEqual(["name", "bits"]);
-    expect(call?.fields[0]).toMatchObject({ name: "id", required: true });
+    expect(call?.fields[0]).toMatchObject({ name: "id", isRequired: true });
   });
   test("take the members of what a schema is made of", () => {
     expect(fieldsOf({ $ref: "#/components/schemas/Order" }, api)[1]?.type).toBe("integer, 10 to 16, default 12");

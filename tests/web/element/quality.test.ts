@@ -22,7 +22,7 @@ describe("a line", () => {
     const line = new Throughput();
     line.sample(1000, 0);
     line.begin(60_000);
-    line.sample(3000, 61_000); // 2000 bytes a second
+    line.sample(3000, 61_000); // 2000 bytes per second
     expect(line.secondsTo(9000)).toBeCloseTo(3);
   });
 
@@ -31,7 +31,7 @@ describe("a line", () => {
     line.begin(0);
     line.sample(2000, 1000);
     line.begin(5000);
-    line.sample(500, 5001); // coarser again, and back
+    line.sample(500, 5001); // a coarser state, then the same state as before: no bytes are downloaded
     line.sample(2000, 5002);
     expect(line.held).toBe(2000);
     expect(line.secondsTo(4000)).toBeCloseTo(1);
@@ -41,7 +41,7 @@ describe("a line", () => {
     const line = new Throughput();
     line.begin(0);
     for (let i = 1; i <= 50; ++i) line.sample(1000 * i, 100 * i); // 10 kB/s
-    for (let i = 1; i <= 20; ++i) line.sample(50_000 + 100 * i, 5000 + 1000 * i); // .1 kB/s
+    for (let i = 1; i <= 20; ++i) line.sample(50_000 + 100 * i, 5000 + 1000 * i); // 0.1 kB/s
     expect(line.secondsTo(53_000)).toBeGreaterThan(5);
   });
 });

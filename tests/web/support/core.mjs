@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The web client's core for plain Node: bundled from its TypeScript, with the real decoder.
+// Bundles the web client's TypeScript core for Node, and loads the real decoder.
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 
@@ -25,12 +25,15 @@ export async function loadCore(wasmPath) {
   return { ...core, module, draco };
 }
 
-/** A model from the bytes of a whole file, at its base mesh. */
+/**
+ * Opens the model in the bytes of a whole file. Returns its decoder, which has the base mesh, and its manifest as
+ * `info`.
+ */
 export async function openFile({ Decoder, decodeBase, module, draco }, file) {
   const decoder = await Decoder.create(module);
   const info = decoder.open(file.subarray(0, decoder.headerLength(file)));
   const base = file.subarray(info.baseOffset, info.baseOffset + info.baseLength);
   decoder.checkBase(base);
-  decoder.start(decodeBase(draco, base, info.levels[0]));
+  decoder.start(decodeBase(draco, base, info));
   return { decoder, info };
 }

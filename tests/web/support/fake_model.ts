@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model whose decoder only keeps account, and a source whose answers the test gives one by one:
-// every interleaving can be played without a clock.
+// A fake decoder that only records calls, and a fake source whose responses the test sends one by one. So tests can
+// produce every order of events without timers.
 import type { ModelDecoder, Sink } from "@core/session.ts";
 import type { ByteRange, Source } from "@core/source.ts";
 import type { Change, ModelInfo, Surface, Want } from "@core/types.ts";
 
 export const kHeader = 16, kBase = 8, kChunk = 10;
 
-/** `chunks` layers of one region, kChunk bytes each; level i has 100 (i + 1) faces. */
+/** Describes a model with one region and `chunks` layers of kChunk bytes each; level i has 100 (i + 1) faces. */
 export function fakeInfo(chunks: number): ModelInfo {
   const head = kHeader + kBase;
   return {
@@ -18,14 +18,14 @@ export function fakeInfo(chunks: number): ModelInfo {
       level: i + 1, region: 0, offset: head + kChunk * i, length: kChunk, sha256: `${i}`,
     })),
     baseOffset: kHeader, baseLength: kBase, fileBytes: head + kChunk * chunks,
-    coloured: false, bits: 12, step: 1, unit: "mm", centre: [0, 0, 0],
+    attributes: [], bits: 12, step: 1, unit: "mm", centre: [0, 0, 0],
   };
 }
 
 export class FakeDecoder implements ModelDecoder {
   applied: number[] = [];
   starts = 0;
-  /** Chunks whose bytes count as damaged: thrown once for each entry. */
+  /** Chunks that count as damaged: the error of each entry is thrown once. */
   damaged: { chunk: number; error: Error }[] = [];
   #goal = 0;
   #requested = 0;
@@ -68,12 +68,12 @@ export class FakeDecoder implements ModelDecoder {
   surface(): Surface {
     return {
       triangles: 100 * (this.applied.length + 1), vertices: 0, bytes: this.bytesHeld,
-      positions: new Float32Array(), normals: new Int16Array(), colours: undefined, indices: new Uint32Array(),
+      positions: new Float32Array(), normals: new Int16Array(), attributes: [], indices: new Uint32Array(),
     };
   }
 }
 
-/** A request that waits for the test. */
+/** A request that the test has yet to answer. */
 export interface Request {
   range: ByteRange;
   signal: AbortSignal;
@@ -105,7 +105,7 @@ export class ControlledSource implements Source {
     this.closed = true;
   }
 
-  /** Answers the newest request for a chunk. */
+  /** Responds to the newest request for a chunk. */
   answer(chunk: number): void {
     this.find(chunk).answer(new Uint8Array(kChunk).fill(chunk));
   }
@@ -121,7 +121,7 @@ export class ControlledSource implements Source {
   }
 }
 
-/** Keeps what is shown. With `hold`, a surface counts as displayed when the test releases it. */
+/** Records the surfaces shown. With `hold`, a surface counts as displayed only when the test calls release(). */
 export class RecordingSink implements Sink {
   readonly triangles: number[] = [];
   hold = false;
@@ -143,7 +143,7 @@ export class RecordingSink implements Sink {
   }
 }
 
-/** Lets everything run that waits for nothing but its turn. */
+/** Waits until all code has run that depends only on the event loop, not on timers or responses. */
 export async function settle(): Promise<void> {
   for (let i = 0; i < 30; ++i) await new Promise((resolve) => setImmediate(resolve));
 }

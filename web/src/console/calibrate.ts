@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/scanners/{name}/calibrate": step by step from an empty table to a calibration.
-import { h } from "../gallery/dom.ts";
-import { measure } from "../gallery/texts/index.ts";
-import type { Page, Visit } from "./desk.ts";
-import { Alert, button, confirmed, field, form } from "./forms.ts";
+// The page "#/scanners/{name}/calibrate": a wizard that guides the operator through a calibration.
+import { h } from "../ui/dom.ts";
+import { measure } from "../ui/texts/index.ts";
+import type { ConsolePage, Visit } from "./desk.ts";
+import { Alert, button, field, form, isConfirmed } from "./forms.ts";
 import { Bar, facts, heading, jobLine } from "./parts.ts";
 import { residuals } from "./scanner.ts";
 import { texts } from "./texts/index.ts";
@@ -15,7 +15,7 @@ const kPoses = 20;
 class Wizard {
   readonly #step = h("section", { class: "card wizard" });
   readonly #path: string;
-  #shown = ""; // which step and pose: what is there stays, and its focus
+  #shown = ""; // job state and stage shown; while they do not change, the elements are kept, and one may have the focus
 
   constructor(private readonly visit: Visit, private readonly name: string) {
     this.#path = `/scanners/${encodeURIComponent(name)}`;
@@ -26,7 +26,7 @@ class Wizard {
     view.append(heading(title), this.#step);
     await desk.jobs.refresh();
     const open = desk.jobs.all.find((job) => job.kind === "calibrate" && job.scanner === this.name && !isOver(job));
-    if (open) await this.#follow(open.id); // begun before this page was loaded
+    if (open) await this.#follow(open.id); // a calibration that was started before this page was loaded
     else this.#prepare();
     return title;
   }
@@ -44,7 +44,7 @@ class Wizard {
     const bar = new Bar(words.progress), line = h("p", { role: "status" }), turn = h("div"), alert = new Alert();
     const { desk, signal } = this.visit;
     const cancel = async () => {
-      if (await confirmed(words.cancelQuestion, words.cancelExplanation, texts.jobs.cancel)) desk.jobs.put(await desk.api.send<Job>("DELETE", `/jobs/${id}`));
+      if (await isConfirmed(words.cancelQuestion, words.cancelExplanation, texts.jobs.cancel)) desk.jobs.put(await desk.api.send<Job>("DELETE", `/jobs/${id}`));
     };
     this.#step.replaceChildren(h("h2", {}, words.measuring), bar.element, line, turn, h("div", { class: "actions" }, button(texts.jobs.cancel, alert, cancel)), alert.element);
     await desk.jobs.watch(id, (job) => {
@@ -56,7 +56,7 @@ class Wizard {
     }, signal);
   }
 
-  /** Somebody has to place the target: laser and motor are off meanwhile. */
+  /** Asks the operator to place the target if the job is paused. Laser and motor are off during the pause. */
   #ask(job: Job, turn: HTMLElement): void {
     const shown = `${job.state} ${job.stage}`;
     if (shown === this.#shown) return;
@@ -86,4 +86,4 @@ class Wizard {
   }
 }
 
-export const calibratePage: Page = (visit) => new Wizard(visit, visit.words[0] as string).open();
+export const calibratePage: ConsolePage = (visit) => new Wizard(visit, visit.words[0] as string).open();

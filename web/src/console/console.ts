@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "/console": an operator's desk. What it shows is in the address behind "#"; all it knows it
-// asks of the daemon's public interface.
-import { byId, h } from "../gallery/dom.ts";
-import { language } from "../gallery/texts/index.ts";
+// The page "/console" for operators. The URL's fragment selects the page shown; all data come from the
+// daemon's API.
+import { byId, h } from "../ui/dom.ts";
+import { language } from "../ui/texts/index.ts";
 import { Api } from "./api.ts";
 import { calibratePage } from "./calibrate.ts";
-import type { Desk, Page } from "./desk.ts";
+import type { ConsolePage, Desk } from "./desk.ts";
 import { Alert } from "./forms.ts";
 import { jobsPage } from "./jobs.ts";
 import { LiveJobs } from "./live-jobs.ts";
@@ -24,7 +24,7 @@ import { tokensPage } from "./tokens.ts";
 import { Uploads } from "./uploads.ts";
 
 const kHome = "#/models";
-const kPages: readonly (readonly [string, Page])[] = [
+const kPages: readonly (readonly [string, ConsolePage])[] = [
   ["models", modelsPage], ["models/:id", modelPage], ["jobs", jobsPage], ["tokens", tokensPage],
   ["scanners", scannersPage], ["scanners/:name", scannerPage], ["scanners/:name/calibrate", calibratePage],
   ["scans", scansPage], ["scans/new", newScanPage], ["scans/new/:scanner", newScanPage], ["scans/:id", scanPage],
@@ -35,13 +35,13 @@ const main = byId("main"), nav = byId("nav"), said = byId("said"), top = byId("t
 function say(text: string): void {
   said.textContent = text;
   said.classList.remove("fresh");
-  void said.offsetWidth; // begins the animation anew
+  void said.offsetWidth; // restarts the animation
   said.classList.add("fresh");
 }
 
 let visit = new AbortController();
 
-/** Shows the page that the address means. A page that has been left does nothing more. */
+/** Shows the page that the URL's fragment selects, and ends the previous page. */
 async function go(desk: Desk): Promise<void> {
   visit.abort();
   const { signal } = (visit = new AbortController());
@@ -66,7 +66,7 @@ async function go(desk: Desk): Promise<void> {
   }
 }
 
-/** Only administrators see the tokens. */
+/** Whether the token has the role of an administrator. Only this role may list the tokens. */
 async function isAdmin(api: Api): Promise<boolean> {
   try {
     await api.get("/tokens?limit=1");

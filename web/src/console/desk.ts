@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every page of the console works with.
+// The services that every page of the console uses.
 import type { Api } from "./api.ts";
 import type { LiveJobs } from "./live-jobs.ts";
 import type { Uploads } from "./uploads.ts";
@@ -8,24 +8,24 @@ export interface Desk {
   api: Api;
   jobs: LiveJobs;
   uploads: Uploads;
-  /** Says politely what has happened, to those who do not see it, too. */
+  /** Shows a message, which screen readers announce politely. */
   say(text: string): void;
 }
 
 export interface Visit {
   desk: Desk;
-  /** To be filled. */
+  /** The element that the page fills. */
   view: HTMLElement;
-  /** Ends when the operator goes to another page. */
+  /** Aborted when the operator goes to another page. */
   signal: AbortSignal;
-  /** Out of the address. */
+  /** The parameters in the URL's fragment. */
   words: string[];
 }
 
-/** Fills the view; resolves to the page's title, which is its heading, too. */
-export type Page = (visit: Visit) => Promise<string> | string;
+/** Fills the view and returns the page's title, which is also its heading. */
+export type ConsolePage = (visit: Visit) => Promise<string> | string;
 
-/** Resolves after `milliseconds`; rejects where the visit ends before. */
+/** Resolves after `milliseconds`; rejects if the visit ends before. */
 export function pause(milliseconds: number, signal: AbortSignal): Promise<void> {
   return new Promise((resolve, reject) => {
     const leave = () => (clearTimeout(timer), reject(signal.reason));

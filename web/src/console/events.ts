@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Server-sent events out of a body. EventSource cannot send a token.
+// Reads server-sent events from a response body, because EventSource cannot send a token.
 
-/** The data of each event, as it comes; what is not an event (heartbeats) is left out. */
+/**
+ * Yields the data of each event as soon as the event is complete. Skips comments, which the server sends as
+ * heartbeats.
+ */
 export async function* eventData(body: ReadableStream<Uint8Array>): AsyncGenerator<string> {
   const reader = body.pipeThrough(new TextDecoderStream() as ReadableWritablePair<string, Uint8Array>).getReader();
   let text = "";

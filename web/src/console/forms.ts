@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields, buttons, and what went wrong with them: told beside them, with its place and the next step.
-import { h } from "../gallery/dom.ts";
+// Form fields and buttons, with error messages beside them that name the field and the next step.
+import { h } from "../ui/dom.ts";
 import { Problem, type Fault } from "./problem.ts";
 import { texts } from "./texts/index.ts";
 
 type Control = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
 
-export interface Field {
+export interface FieldOptions {
   name: string;
   label: string;
   hint?: string;
@@ -19,7 +19,7 @@ export interface Field {
   required?: boolean;
 }
 
-/** Says what went wrong as soon as it is told, and nothing before. */
+/** An element that shows an error, and is hidden while there is none. */
 export class Alert {
   readonly element = h("div", { role: "alert", class: "alert", hidden: true });
 
@@ -35,7 +35,7 @@ export class Alert {
     this.element.hidden = false;
   }
 
-  /** Does `act`; false where it went wrong. */
+  /** Runs `act`. Shows the error and returns false if it fails. */
   async attempt(act: () => Promise<unknown>): Promise<boolean> {
     this.clear();
     try {
@@ -48,7 +48,7 @@ export class Alert {
   }
 }
 
-/** What went wrong and what to do, as one sentence of a person. */
+/** Describes an error for the operator: the fault and the next step. */
 export function sentence(error: unknown): string {
   const words = texts.problem;
   if (error instanceof DOMException) return error.name === "TimeoutError" ? words.silent : words.interrupted;
@@ -61,7 +61,7 @@ export function sentence(error: unknown): string {
 
 const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** A button that cannot be pressed again while it works. */
+/** Creates a button that runs `act` when clicked and is disabled meanwhile. If `act` fails, `alert` shows the error. */
 export function button(label: string, alert: Alert, act: () => Promise<unknown>, kind = ""): HTMLButtonElement {
   const made = h("button", { type: "button", class: kind }, label);
   made.addEventListener("click", async () => {
@@ -74,8 +74,8 @@ export function button(label: string, alert: Alert, act: () => Promise<unknown>,
 
 let fields = 0;
 
-/** A label, its field, and room for what is wrong with it. */
-export function field({ name, label, hint, value, type = "text", options, min, max, step, required }: Field): HTMLElement {
+/** Creates a form field with its label, and an element below that shows the hint or an error. */
+export function field({ name, label, hint, value, type = "text", options, min, max, step, required }: FieldOptions): HTMLElement {
   const id = `field-${++fields}`;
   const shared = { id, name, required, "aria-describedby": `${id}-note` };
   const control = options
@@ -91,7 +91,9 @@ export function field({ name, label, hint, value, type = "text", options, min, m
 
 export type Values = Record<string, string | number | boolean | null>;
 
-/** A form that hands on what it holds, and shows each fault beside its field. */
+/**
+ * Creates a form that passes its values to `act` when submitted. If `act` fails, each fault is shown beside its field.
+ */
 export function form(all: HTMLElement[], submit: string, act: (values: Values) => Promise<unknown>, kind = ""): HTMLFormElement {
   const alert = new Alert(), send = h("button", { type: "submit", class: kind === "inline" ? "" : "primary" }, submit);
   const made = h("form", { class: `form ${kind}` }, ...all, h("div", { class: "actions" }, send), alert.element);
@@ -114,14 +116,17 @@ function values(within: HTMLFormElement): Values {
   return Object.fromEntries(controls(within).map((control) => [control.name, valueOf(control)]));
 }
 
-/** A number field that is empty is null. */
+/** Returns the value of a field; null for an empty number field. */
 function valueOf(control: Control): string | number | boolean | null {
   if (control.type === "checkbox") return (control as HTMLInputElement).checked;
   if (control.type === "number") return control.value === "" ? null : Number(control.value);
   return control.value.trim();
 }
 
-/** Marks the fields that a problem names ("metadata.title" is "title"); returns what has no field. */
+/**
+ * Shows the faults of a problem beside the fields that they name ("metadata.title" names the field "title"). Returns
+ * the faults without such a field.
+ */
 function place(error: unknown, within: HTMLFormElement): Fault[] {
   if (!(error instanceof Problem)) return [];
   return error.faults.filter(({ parameter, detail }) => {
@@ -138,8 +143,11 @@ function mark(control: Control, fault: string): void {
   if (note) note.textContent = fault ? texts.problem.expected(fault) : (note.dataset["hint"] ?? "");
 }
 
-/** Asks before what cannot be undone; the safe answer has the focus. */
-export function confirmed(question: string, explanation: string, yes: string): Promise<boolean> {
+/**
+ * Asks the operator to confirm an action that cannot be undone. Resolves to true if the operator confirms. The button
+ * that cancels has the focus.
+ */
+export function isConfirmed(question: string, explanation: string, yes: string): Promise<boolean> {
   const no = h("button", { value: "", autofocus: true }, texts.cancel);
   const dialog = h("dialog", { "aria-labelledby": "question" },
     h("form", { method: "dialog" }, h("h2", { id: "question" }, question), h("p", {}, explanation),

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/jobs": what the daemon does, live.
-import { h } from "../gallery/dom.ts";
-import { time } from "../gallery/texts/index.ts";
-import type { Page } from "./desk.ts";
+// The page "#/jobs": the daemon's jobs, updated live.
+import { h } from "../ui/dom.ts";
+import { time } from "../ui/texts/index.ts";
+import type { ConsolePage } from "./desk.ts";
 import type { Desk } from "./desk.ts";
-import { Alert, button, confirmed } from "./forms.ts";
+import { Alert, button, isConfirmed } from "./forms.ts";
 import { Bar, heading, jobBadge, jobLine } from "./parts.ts";
 import { texts } from "./texts/index.ts";
 import { isOver, type Job } from "./types.ts";
 
 const words = texts.jobs;
 
-/** A job with what can be done about it. It is told of each new state. */
+/** A card with a job's state and actions. Call `show` with each new state of the job. */
 export class JobCard {
   readonly element = h("li", { class: "card job" });
   readonly #bar = new Bar(words.progress);
@@ -29,7 +29,8 @@ export class JobCard {
     this.#bar.value = job.progress;
     this.#bar.element.hidden = isOver(job);
     this.#line.textContent = jobLine(job);
-    const state = `${job.state} ${job.model}`; // buttons stay as long as they are right: one may have the focus
+    // The buttons are replaced only if this changes, because one may have the focus.
+    const state = `${job.state} ${job.model}`;
     if (state === this.#state) return;
     this.#state = state;
     this.#top.replaceChildren(h("strong", {}, words.kinds[job.kind]), jobBadge(job), h("span", { class: "quiet" }, [job.scanner, time(job.created)].filter(Boolean).join(" · ")));
@@ -41,7 +42,7 @@ export class JobCard {
     const { api } = this.desk;
     const resume = after(() => api.send<Job>("POST", `/jobs/${job.id}/resume`, {}));
     const cancel = async () => {
-      if (await confirmed(words.cancelQuestion, words.cancelExplanation, words.cancel)) await after(() => api.send<Job>("DELETE", `/jobs/${job.id}`))();
+      if (await isConfirmed(words.cancelQuestion, words.cancelExplanation, words.cancel)) await after(() => api.send<Job>("DELETE", `/jobs/${job.id}`))();
     };
     return [
       ...(job.state === "paused" || job.state === "failed" ? [button(words.resume, this.#alert, resume)] : []),
@@ -52,7 +53,7 @@ export class JobCard {
   }
 }
 
-export const jobsPage: Page = ({ desk, view, signal }) => {
+export const jobsPage: ConsolePage = ({ desk, view, signal }) => {
   const list = h("ul", { class: "cards" }), cards = new Map<string, JobCard>(), empty = h("p", { class: "quiet" }, words.empty);
   view.append(heading(words.title), list, empty);
   desk.jobs.onChange(() => {

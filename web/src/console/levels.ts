@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a build has come to: its levels as a curve, error against bytes, and as a table.
-import { h } from "../gallery/dom.ts";
-import { count, measure, size } from "../gallery/texts/index.ts";
+// Shows the levels of a model as a curve of error over bytes and as a table.
+import { h } from "../ui/dom.ts";
+import { count, measure, size } from "../ui/texts/index.ts";
 import { table } from "./parts.ts";
 import { texts } from "./texts/index.ts";
 import type { Manifest } from "./types.ts";
@@ -22,7 +22,7 @@ export function levelReport(manifest: Manifest): Node[] {
   ];
 }
 
-interface Point {
+interface PlotPoint {
   x: number;
   y: number;
 }
@@ -34,8 +34,8 @@ function svg(tag: string, attributes: Record<string, string | number>, text = ""
   return made;
 }
 
-/** Both axes are logarithmic; a lossless last level has no place on it. */
-function curve(all: Point[], label: string): SVGElement {
+/** Draws the points as a curve. Both axes are logarithmic, so points with a coordinate of 0 are left out. */
+function curve(all: PlotPoint[], label: string): SVGElement {
   const points = all.filter(({ x, y }) => x > 0 && y > 0);
   const across = scale(points.map(({ x }) => x), kLeft, kWidth - kMargin), up = scale(points.map(({ y }) => y), kHeight - kBottom, kMargin);
   const path = points.map(({ x, y }, i) => `${i ? "L" : "M"}${across(x).toFixed(1)} ${up(y).toFixed(1)}`).join("");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The jobs as they are now. A browser grants six connections to a server, so few are followed as
-// they change; of the others it is asked now and then.
-import { isOver, type Job, type JobPage } from "./types.ts";
+// Keeps the states of the jobs up to date. Browsers limit the connections per server to six, so only a few jobs
+// are followed as event streams; the others are polled.
+import { isOver, type Job, type JobListPage } from "./types.ts";
 
 const kFollowed = 2;
-/** Of the newest. */
+/** Number of newest jobs that are polled. */
 const kListed = 50;
-/** Milliseconds between two questions. */
+/** Polling interval, milliseconds. */
 const kPause = 3000;
 
 export interface JobSource {
@@ -19,27 +19,27 @@ type Listener = () => void;
 export class LiveJobs {
   readonly #jobs = new Map<string, Job>();
   readonly #followed = new Map<string, AbortController>();
-  readonly #watched: string[] = []; // by the page that is open: they come first
+  readonly #watched: string[] = []; // IDs of the jobs that the open page shows; they have the highest priority
   readonly #listeners = new Set<Listener>();
 
   constructor(private readonly source: JobSource) {}
 
-  /** Newest first. */
+  /** All known jobs, newest first. */
   get all(): Job[] {
-    return [...this.#jobs.values()].sort((a, b) => (a.id < b.id ? 1 : -1)); // ids tell the time
+    return [...this.#jobs.values()].sort((a, b) => (a.id < b.id ? 1 : -1)); // IDs are ordered by time
   }
 
-  /** Keeps them live until `signal`. */
+  /** Keeps the jobs up to date until `signal` is aborted. */
   async run(signal: AbortSignal): Promise<void> {
     signal.addEventListener("abort", () => this.#followed.forEach((one) => one.abort()));
     while (!signal.aborted) {
-      if (!document.hidden) await this.refresh().catch(() => undefined); // the next question is near
+      if (!document.hidden) await this.refresh().catch(() => undefined); // the next poll is soon
       await new Promise((resolve) => setTimeout(resolve, kPause));
     }
   }
 
   async refresh(): Promise<void> {
-    const { jobs } = await this.source.get<JobPage>(`/jobs?limit=${kListed}`);
+    const { jobs } = await this.source.get<JobListPage>(`/jobs?limit=${kListed}`);
     for (const job of jobs) this.#jobs.set(job.id, job);
     this.#follow();
     this.#tell();
@@ -51,7 +51,7 @@ export class LiveJobs {
     listener();
   }
 
-  /** A job of which the page has just learned, or which it shows. */
+  /** Calls `see` with the current state of a job and with each later state, until `signal` is aborted. */
   async watch(id: string, see: (job: Job) => void, signal: AbortSignal): Promise<void> {
     this.#watched.unshift(id);
     signal.addEventListener("abort", () => this.#watched.splice(this.#watched.indexOf(id), 1));
@@ -73,7 +73,7 @@ export class LiveJobs {
     for (const listener of [...this.#listeners]) listener();
   }
 
-  /** Those that matter most, and no others. */
+  /** Follows the jobs of highest priority and stops following the others. */
   #follow(): void {
     const wanted = this.#mostWanted();
     for (const [id, one] of this.#followed) if (!wanted.includes(id)) one.abort();
@@ -86,7 +86,7 @@ export class LiveJobs {
     return open.sort((a, b) => rank(a) - rank(b)).slice(0, kFollowed).map(({ id }) => id);
   }
 
-  /** Until it is over, another is wanted more, or the connection is lost: then the next question finds it. */
+  /** Follows a job until it ends, until a job of higher priority replaces it, or until the connection is lost. */
   async #listen(id: string): Promise<void> {
     const end = new AbortController();
     this.#followed.set(id, end);
@@ -96,7 +96,7 @@ export class LiveJobs {
         this.#tell();
       }
     } catch {
-      // the next question finds it
+      // The next poll gets the job's state.
     } finally {
       this.#followed.delete(id);
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/models/{id}": what is known of a model and who may see it.
-import { snippet } from "../gallery/about.ts";
-import { copyable } from "../gallery/copy.ts";
-import { h } from "../gallery/dom.ts";
-import { count, date, size, texts as gallery } from "../gallery/texts/index.ts";
-import type { Page, Visit } from "./desk.ts";
-import { Alert, button, confirmed, field, form, type Values } from "./forms.ts";
+// The page "#/models/{id}": a model's view, metadata, visibility and build report.
+import { snippet } from "../ui/about.ts";
+import { copyable } from "../ui/copy.ts";
+import { h } from "../ui/dom.ts";
+import { count, date, size, texts as gallery } from "../ui/texts/index.ts";
+import type { ConsolePage, Visit } from "./desk.ts";
+import { Alert, button, field, form, isConfirmed, type Values } from "./forms.ts";
 import { levelReport } from "./levels.ts";
 import { facts, heading, modelBadge } from "./parts.ts";
 import { texts } from "./texts/index.ts";
@@ -15,17 +15,17 @@ import { cardOf, dropZone } from "./upload-card.ts";
 const words = texts.model;
 const kTexts = ["title", "creator", "rights", "licence", "description", "date", "subject", "identifier", "publisher", "source"] as const;
 
-/** As visitors see it, or will see it. */
+/** Creates a viewer that shows the model. For a draft, the viewer sends the operator's token and a hint is below it. */
 export function sight({ desk }: Visit, { state, title, links }: ModelRecord): HTMLElement {
-  const viewer = document.createElement("progressive-mesh"), draft = state !== "published";
-  if (draft) Object.assign(viewer, { token: desk.api.token });
+  const viewer = document.createElement("progressive-mesh"), isDraft = state !== "published";
+  if (isDraft) Object.assign(viewer, { token: desk.api.token });
   viewer.setAttribute("src", links.self);
   viewer.setAttribute("alt", title || gallery.untitled);
   viewer.toggleAttribute("camera-controls", true);
-  return h("div", { class: "sight" }, viewer, draft && h("p", { class: "quiet" }, words.draftHint));
+  return h("div", { class: "sight" }, viewer, isDraft && h("p", { class: "quiet" }, words.draftHint));
 }
 
-class ModelPage {
+class ModelEditor {
   readonly #path: string;
   readonly #stage = h("div", { class: "stage-box" });
   readonly #side = h("section", { class: "side" });
@@ -34,7 +34,7 @@ class ModelPage {
   readonly #title = h("h1", { tabindex: -1 });
   readonly #state = h("span");
   #tag = "";
-  #shown = ""; // the state in which it stands on the stage
+  #shown = ""; // state of the model when its viewer was created
 
   constructor(private readonly visit: Visit, private readonly id: string) {
     this.#path = `/models/${id}`;
@@ -45,7 +45,7 @@ class ModelPage {
     view.append(h("header", { class: "heading" }, this.#title, this.#state),
       h("div", { class: "columns wide" }, h("div", {}, this.#stage, this.#report, this.#replacing()), h("div", {}, this.#side, this.#form)));
     this.#show(model);
-    void this.#tellLevels();
+    void this.#showLevels();
     return model.title || gallery.untitled;
   }
 
@@ -55,26 +55,26 @@ class ModelPage {
     return value;
   }
 
-  /** Without them the page has all else. */
-  async #tellLevels(): Promise<void> {
+  /** Shows the build report; hides it if the manifest cannot be loaded. */
+  async #showLevels(): Promise<void> {
     const { desk, signal } = this.visit;
-    const told = await desk.api.get<Manifest>(`${this.#path}/manifest`, signal).then(levelReport, () => []);
-    this.#report.hidden = told.length === 0;
-    this.#report.replaceChildren(...told);
+    const report = await desk.api.get<Manifest>(`${this.#path}/manifest`, signal).then(levelReport, () => []);
+    this.#report.hidden = report.length === 0;
+    this.#report.replaceChildren(...report);
   }
 
-  /** What is shown is what the daemon has, with its tag. */
+  /** Waits until the change `act` is done, then reads the model from the daemon and shows it. */
   async #changed(act: Promise<unknown>): Promise<void> {
     await act;
     this.#show(await this.#read());
     this.#title.focus();
   }
 
-  /** With another file in its place. */
+  /** Shows the new file after the model's file was replaced. */
   async #again(): Promise<void> {
     this.#shown = "";
     this.#show(await this.#read());
-    await this.#tellLevels();
+    await this.#showLevels();
   }
 
   #show(model: ModelRecord): void {
@@ -93,7 +93,7 @@ class ModelPage {
       say(isPublic ? words.isDraft : words.isPublic);
     };
     const remove = async () => {
-      if (!(await confirmed(words.deleteQuestion(model.title || gallery.untitled), words.deleteExplanation, words.deleteNow))) return;
+      if (!(await isConfirmed(words.deleteQuestion(model.title || gallery.untitled), words.deleteExplanation, words.deleteNow))) return;
       await api.send("DELETE", this.#path, undefined, this.#tag);
       say(words.deleted);
       location.hash = "#/models";
@@ -124,7 +124,7 @@ class ModelPage {
     words.save, save);
   }
 
-  /** The new file takes the model's place; its address and its texts stay. */
+  /** Creates the form that replaces the model's file. The model keeps its URL and metadata. */
   #replacing(): HTMLElement {
     const { desk, signal } = this.visit, list = h("ul", { class: "cards" });
     const take = ([file]: File[]) => {
@@ -136,4 +136,4 @@ class ModelPage {
   }
 }
 
-export const modelPage: Page = (visit) => new ModelPage(visit, visit.words[0] as string).open();
+export const modelPage: ConsolePage = (visit) => new ModelEditor(visit, visit.words[0] as string).open();

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/models": all models, drafts too, and new ones out of files.
-import { modelQuery } from "../gallery/api.ts";
-import { h } from "../gallery/dom.ts";
-import { date, texts as gallery } from "../gallery/texts/index.ts";
-import type { Desk, Page, Visit } from "./desk.ts";
+// The page "#/models": all models, including drafts, and an area for uploading new models.
+import { modelQuery } from "../ui/api.ts";
+import { h } from "../ui/dom.ts";
+import { date, texts as gallery } from "../ui/texts/index.ts";
+import type { ConsolePage, Desk, Visit } from "./desk.ts";
 import { field, type Values } from "./forms.ts";
 import { heading, modelBadge, paged, triangles } from "./parts.ts";
 import { picture } from "./pictures.ts";
 import { texts } from "./texts/index.ts";
-import { isOver, type ModelPage, type ModelRecord } from "./types.ts";
+import { isOver, type ModelListPage, type ModelRecord } from "./types.ts";
 import { cardOf, dropZone, interruptedUploads, kUnits, type Making } from "./upload-card.ts";
 import type { Sending } from "./uploads.ts";
 
 const words = texts.models;
-/** Milliseconds without a letter after which a word is finished. */
+/** Milliseconds without input after which the search starts. */
 const kRest = 250;
 
 function row({ desk, signal }: Visit, model: ModelRecord): HTMLElement {
@@ -39,7 +39,7 @@ function newModel(sending: Sending): Making {
   return { fields, submit: texts.uploads.make, order };
 }
 
-/** Whenever another job has made a model. */
+/** Calls `act` whenever a job that made a model has ended, until `signal` is aborted. */
 function onMade(desk: Desk, act: () => void, signal: AbortSignal): void {
   let made: string | undefined;
   desk.jobs.onChange(() => {
@@ -49,7 +49,7 @@ function onMade(desk: Desk, act: () => void, signal: AbortSignal): void {
   }, signal);
 }
 
-export const modelsPage: Page = async (visit) => {
+export const modelsPage: ConsolePage = async (visit) => {
   const { desk, view, signal } = visit;
   const list = h("ul", { class: "cards" }), uploads = h("ul", { class: "cards" }), note = h("p", { class: "quiet", role: "status" });
   const search = h("input", { type: "search", placeholder: gallery.searchHint, "aria-label": words.search, maxlength: 100 });
@@ -59,7 +59,7 @@ export const modelsPage: Page = async (visit) => {
     const found = await paged(list, async (cursor) => {
       const query = modelQuery(wanted, cursor);
       query.set("drafts", "true");
-      const { models, next } = await desk.api.get<ModelPage>(`/models?${query}`, signal);
+      const { models, next } = await desk.api.get<ModelListPage>(`/models?${query}`, signal);
       return question === asked ? { rows: models.map((model) => row(visit, model)), next } : { rows: [...list.children], next };
     });
     note.textContent = found > 0 ? "" : wanted ? gallery.nothingFound(wanted) : words.empty;

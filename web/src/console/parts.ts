@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces that several pages show.
-import { h } from "../gallery/dom.ts";
-import { count, timeLeft } from "../gallery/texts/index.ts";
+// Interface elements that several pages share.
+import { h } from "../ui/dom.ts";
+import { count, timeLeft } from "../ui/texts/index.ts";
 import { stageName, texts } from "./texts/index.ts";
 import { isOver, type Job, type ModelRecord } from "./types.ts";
 
@@ -31,7 +31,7 @@ export function jobBadge({ state }: Job): HTMLElement {
   return badge(texts.jobs.states[state], state);
 }
 
-/** What a job does, how long it will, and why it does not. */
+/** Describes a job: its stage, its remaining time, and why it waits or failed. */
 export function jobLine(job: Job): string {
   const underWay = job.state === "running" && job.eta !== null ? timeLeft(job.eta) : "";
   const stage = !isOver(job) && job.stage ? stageName(job.stage) : "";
@@ -52,7 +52,10 @@ export function table(caption: string, heads: string[], rows: (string | Node)[][
       h("tbody", {}, ...rows.map((cells) => h("tr", {}, ...cells.map((cell) => h("td", {}, cell)))))));
 }
 
-/** A list that comes a page at a time; `ask` resolves to its rows and to the cursor of the next. */
+/**
+ * Fills a list with its first page, and adds a button that appends the next page. `ask` returns the rows of the page at
+ * `cursor`, and the cursor of the next page. Resolves to the number of rows on the first page.
+ */
 export async function paged(list: HTMLElement, ask: (cursor: string | null) => Promise<{ rows: Node[]; next: string | null }>): Promise<number> {
   const first = await ask(null);
   list.replaceChildren(...first.rows);

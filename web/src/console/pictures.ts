@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that are shown to whoever sends a token: an <img> sends none.
-import { h } from "../gallery/dom.ts";
+// Images that need a token. An <img> element cannot send a token, so these images are fetched by script.
+import { h } from "../ui/dom.ts";
 import type { Api } from "./api.ts";
 
-/** An image that takes its place at once and fills it when it has come; without it there is none. */
+/**
+ * Creates an image that reserves its space and is loaded when it becomes visible. If loading fails, the image is
+ * hidden.
+ */
 export function picture(api: Api, path: string, alt: string, signal: AbortSignal): HTMLImageElement {
   const image = h("img", { alt, class: "pending" });
   const seen = new IntersectionObserver(([entry]) => {
@@ -24,7 +27,7 @@ async function fill(image: HTMLImageElement, api: Api, path: string, signal: Abo
   }
 }
 
-/** In the place of what it shows now; resolves when it is on the screen. */
+/** Replaces the image's picture. Resolves when the new picture is decoded. */
 export async function show(image: HTMLImageElement, blob: Blob): Promise<void> {
   const url = URL.createObjectURL(blob);
   image.src = url;

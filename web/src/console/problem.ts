@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What went wrong, as the daemon tells it (RFC 9457): what, where, and what is expected there.
+// Errors as the daemon reports them (RFC 9457). Each may list faults: a parameter and what is wrong with it.
 export interface Fault {
   parameter: string;
   detail: string;
@@ -10,9 +10,12 @@ export class Problem extends Error {
     super(detail || title);
   }
 
-  /** Of an answer that is no success; a proxy's own page has nothing but its status. */
+  /**
+   * Reads an error response. If it is not from the daemon, such as a proxy's error page, the problem has only a status
+   * and its text.
+   */
   static async of(answer: Response): Promise<Problem> {
-    const told = (await answer.json().catch(() => ({}))) as { title?: string; detail?: string; errors?: Fault[]; request_id?: string };
-    return new Problem(answer.status, told.title ?? answer.statusText, told.detail, told.errors, told.request_id);
+    const body = (await answer.json().catch(() => ({}))) as { title?: string; detail?: string; errors?: Fault[]; request_id?: string };
+    return new Problem(answer.status, body.title ?? answer.statusText, body.detail, body.errors, body.request_id);
   }
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which page an address means: "#/models/01hf…".
+// Finds the page for a URL fragment such as "#/models/01hf…".
 
-/** Words of the address in the places of `:name`, or null where it means another page. */
+/**
+ * Matches a fragment with a pattern such as "models/:id". Returns the fragment's parts that correspond to the parts of
+ * the pattern with a colon, or null if the fragment does not match.
+ */
 export function match(pattern: string, hash: string): string[] | null {
   const wanted = pattern.split("/"), given = hash.replace(/^#?\/?/, "").split("/");
   if (wanted.length !== given.length) return null;
@@ -14,7 +17,7 @@ export function match(pattern: string, hash: string): string[] | null {
   return words;
 }
 
-/** The first of the routes that the address means. */
+/** Returns the first route whose pattern matches the fragment, or null if none does. */
 export function routed<Target>(routes: readonly (readonly [string, Target])[], hash: string): { target: Target; words: string[] } | null {
   for (const [pattern, target] of routes) {
     const words = match(pattern, hash);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/scans/{id}": an object as it is measured, and what may be done about it.
-import type { CloudView } from "../gallery/cloud-view.ts";
-import { h } from "../gallery/dom.ts";
-import { watchScan, type ScanSight } from "../gallery/scan-watch.ts";
-import { count, scanState, texts as gallery, timeLeft } from "../gallery/texts/index.ts";
-import { pause, type Page, type Visit } from "./desk.ts";
-import { Alert, button, confirmed } from "./forms.ts";
+// The page "#/scans/{id}": a scan with its growing point cloud and its actions. The model finally replaces the points.
+import type { CloudView } from "../ui/cloud-view.ts";
+import { h } from "../ui/dom.ts";
+import { watchScan, type ScanSight } from "../ui/scan-watch.ts";
+import { count, scanState, texts as gallery, timeLeft } from "../ui/texts/index.ts";
+import { pause, type ConsolePage, type Visit } from "./desk.ts";
+import { Alert, button, isConfirmed } from "./forms.ts";
 import { sight } from "./model.ts";
 import { Bar, modelBadge } from "./parts.ts";
 import { texts } from "./texts/index.ts";
@@ -42,9 +42,12 @@ class ScanDesk implements ScanSight {
     return scan.title;
   }
 
-  /** To its end; and anew where somebody has gone on with it. */
+  /**
+   * Follows the scan until it is done or cancelled. A failed scan is followed further, because an operator may resume
+   * it.
+   */
   async #watch(): Promise<void> {
-    const { desk: { api }, signal } = this.visit, { CloudView } = await import("../gallery/cloud-view.ts");
+    const { desk: { api }, signal } = this.visit, { CloudView } = await import("../ui/cloud-view.ts");
     if (signal.aborted) return;
     this.#cloud = new CloudView(this.#canvas, this.#box);
     signal.addEventListener("abort", () => this.#cloud?.dispose());
@@ -87,22 +90,22 @@ class ScanDesk implements ScanSight {
   }
 
   #offer(scan: Scan): void {
-    const choices = scan.model ?? scan.state; // buttons, and a model's viewer, stay as long as they are right
+    const choices = scan.model ?? scan.state; // buttons and viewer are replaced only if `choices` changes
     if (choices === this.#choices) return;
     this.#choices = choices;
     if (scan.model) return void this.#modelled(scan.model).catch((error) => this.#alert.show(error));
-    const { state } = scan, { api } = this.visit.desk, open = state === "waiting" || state === "scanning" || state === "paused" || state === "meshing" || state === "building";
+    const { state } = scan, { api } = this.visit.desk, isOpen = state === "waiting" || state === "scanning" || state === "paused" || state === "meshing" || state === "building";
     const cancel = async () => {
-      if (await confirmed(words.cancelQuestion, words.cancelExplanation, words.cancel)) await api.send<Job>("DELETE", `/jobs/${scan.job}`);
+      if (await isConfirmed(words.cancelQuestion, words.cancelExplanation, words.cancel)) await api.send<Job>("DELETE", `/jobs/${scan.job}`);
     };
     const order = (what: string) => () => api.send<Scan>("POST", `${this.#path}/${what}`, {});
     this.#actions.replaceChildren(
       ...(state === "scanning" ? [button(words.pause, this.#alert, order("pause"))] : []),
       ...(state === "paused" || state === "failed" ? [button(words.resume, this.#alert, order("resume"), "primary")] : []),
-      ...(open ? [button(words.cancel, this.#alert, cancel)] : []));
+      ...(isOpen ? [button(words.cancel, this.#alert, cancel)] : []));
   }
 
-  /** The model takes the place of the points: a draft, too. */
+  /** Replaces the points by the model, which may be a draft. */
   async #modelled(id: string): Promise<void> {
     const { desk } = this.visit, model = await desk.api.get<ModelRecord>(`/models/${id}`, this.visit.signal);
     const publish = async () => {
@@ -122,4 +125,4 @@ class ScanDesk implements ScanSight {
   }
 }
 
-export const scanPage: Page = (visit) => new ScanDesk(visit, visit.words[0] as string).open();
+export const scanPage: ConsolePage = (visit) => new ScanDesk(visit, visit.words[0] as string).open();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/scanners/{name}": what its camera sees, table and laser by hand, its calibrations.
-import { h } from "../gallery/dom.ts";
-import { date, measure } from "../gallery/texts/index.ts";
-import { pause, type Page, type Visit } from "./desk.ts";
+// The page "#/scanners/{name}": camera preview, manual control of turntable and laser, calibrations.
+import { h } from "../ui/dom.ts";
+import { date, measure } from "../ui/texts/index.ts";
+import { pause, type ConsolePage, type Visit } from "./desk.ts";
 import { Alert, button, field, form, sentence } from "./forms.ts";
 import { heading, table } from "./parts.ts";
 import { picture, show } from "./pictures.ts";
@@ -11,15 +11,18 @@ import { texts } from "./texts/index.ts";
 import type { Calibrations, Scanner } from "./types.ts";
 
 const words = texts.scanner;
-/** Milliseconds between two pictures, and after one that did not come. */
+/**
+ * Waits in milliseconds: kPause between two preview pictures, kRetry after a picture could not be fetched, and kLook
+ * between two polls of the scanner's state.
+ */
 const kPause = 200, kRetry = 2000, kLook = 2000;
 const kJogs = [-90, -10, 10, 90];
 
-/** Pictures one after the other, as long as somebody looks. */
+/** Creates the camera preview. It fetches pictures while its checkbox "live" is checked. */
 function preview({ desk, signal }: Visit, path: string): HTMLElement {
   const image = h("img", { alt: words.previewOf, class: "pending" }), note = h("p", { class: "quiet", role: "status" });
   const live = h("input", { type: "checkbox", id: "live" });
-  let running = false;
+  let isRunning = false;
   const look = async () => {
     while (live.checked && !signal.aborted) {
       try {
@@ -34,10 +37,10 @@ function preview({ desk, signal }: Visit, path: string): HTMLElement {
     }
   };
   live.addEventListener("change", async () => {
-    if (running) return;
-    running = true;
+    if (isRunning) return;
+    isRunning = true;
     await look();
-    running = false;
+    isRunning = false;
   });
   return h("section", { class: "preview" }, h("div", { class: "frame" }, image),
     h("div", { class: "row" }, h("label", { class: "switch", for: "live" }, live, words.live), note));
@@ -58,7 +61,9 @@ function byHand({ desk }: Visit, path: string): HTMLElement {
     alert.element);
 }
 
-/** What there is to judge a calibration by. */
+/**
+ * Returns elements that show the residuals of the newest calibration and a table with the errors of all calibrations.
+ */
 export async function calibrationsOf({ desk, signal }: Visit, path: string): Promise<Node[]> {
   const { calibrations, damaged } = await desk.api.get<Calibrations>(`${path}/calibrations`, signal), { calibration } = texts;
   const rows = calibrations.map(({ number, created, rms, p95, max, coverage }) =>
@@ -76,7 +81,7 @@ export function residuals({ desk, signal }: Pick<Visit, "desk" | "signal">, path
   return h("figure", { class: "plot" }, image, h("figcaption", { class: "quiet" }, texts.calibration.plotHint));
 }
 
-export const scannerPage: Page = async (visit) => {
+export const scannerPage: ConsolePage = async (visit) => {
   const { desk, view, signal, words: [name = ""] } = visit, path = `/scanners/${encodeURIComponent(name)}`;
   const state = h("div", { class: "state" }), badge = h("span");
   const look = async () => {
@@ -93,7 +98,7 @@ export const scannerPage: Page = async (visit) => {
   void (async () => {
     for (;;) {
       await pause(kLook, signal);
-      await look().catch(() => undefined); // the next look is near
+      await look().catch(() => undefined); // the next poll is soon
     }
   })().catch(() => undefined);
   return name;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/scanners": which there are and how they are.
-import { h } from "../gallery/dom.ts";
-import { pause, type Page } from "./desk.ts";
+// The page "#/scanners": all scanners with their states.
+import { h } from "../ui/dom.ts";
+import { pause, type ConsolePage } from "./desk.ts";
 import { badge, facts, heading } from "./parts.ts";
 import { texts } from "./texts/index.ts";
 import type { Scanner } from "./types.ts";
 
 const words = texts.scanners;
-/** Milliseconds between two looks at them. */
+/** Polling interval, milliseconds. */
 const kPause = 3000;
 
 export function scannerBadge({ state }: Scanner): HTMLElement {
@@ -30,12 +30,12 @@ function card(scanner: Scanner): HTMLElement {
     h("p", { class: "row" }, h("strong", {}, scanner.name), scannerBadge(scanner)), scannerFacts(scanner), scannerProblem(scanner)));
 }
 
-export const scannersPage: Page = async ({ desk, view, signal }) => {
+export const scannersPage: ConsolePage = async ({ desk, view, signal }) => {
   const list = h("ul", { class: "cards" });
   const fill = async () => {
     const { scanners } = await desk.api.get<{ scanners: Scanner[] }>("/scanners", signal);
     const cards = scanners.map(card);
-    if (!same(cards, list)) list.replaceChildren(...cards);
+    if (!isSame(cards, list)) list.replaceChildren(...cards);
     return scanners.length;
   };
   view.append(heading(words.title), list);
@@ -43,13 +43,13 @@ export const scannersPage: Page = async ({ desk, view, signal }) => {
   void (async () => {
     for (;;) {
       await pause(kPause, signal);
-      await fill().catch(() => undefined); // the next look is near
+      await fill().catch(() => undefined); // the next poll is soon
     }
   })().catch(() => undefined);
   return words.title;
 };
 
-/** What has not changed keeps its place and its focus. */
-function same(cards: HTMLElement[], list: HTMLElement): boolean {
+/** Whether the list already shows these cards. Replacing equal cards would take the focus from them. */
+function isSame(cards: HTMLElement[], list: HTMLElement): boolean {
   return cards.length === list.children.length && cards.every((one, i) => one.isEqualNode(list.children[i] as Node));
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pages "#/scans" and "#/scans/new": what has been measured, and the next one.
-import { h } from "../gallery/dom.ts";
-import { date, texts as gallery } from "../gallery/texts/index.ts";
-import type { Page } from "./desk.ts";
+// The pages "#/scans", the list of scans, and "#/scans/new", which starts a scan.
+import { h } from "../ui/dom.ts";
+import { date, texts as gallery } from "../ui/texts/index.ts";
+import type { ConsolePage } from "./desk.ts";
 import { field, form, type Values } from "./forms.ts";
 import { badge, heading, paged } from "./parts.ts";
 import { texts } from "./texts/index.ts";
-import type { Calibration, Calibrations, Scan, ScanPage, Scanner } from "./types.ts";
+import type { Calibration, Calibrations, Scan, ScanListPage, Scanner } from "./types.ts";
 
 const words = texts.scans;
 
@@ -16,17 +16,17 @@ function row({ id, title, state, scanner, created, error }: Scan): HTMLElement {
     badge(words.states[state], state)));
 }
 
-export const scansPage: Page = async ({ desk, view, signal }) => {
+export const scansPage: ConsolePage = async ({ desk, view, signal }) => {
   const list = h("ul", { class: "cards" }), empty = h("p", { class: "quiet", hidden: true }, words.empty);
   view.append(heading(words.title, h("a", { class: "button primary", href: "#/scans/new" }, words.new)), list, empty);
   empty.hidden = (await paged(list, async (cursor) => {
-    const { scans, next } = await desk.api.get<ScanPage>(`/scans${cursor ? `?cursor=${cursor}` : ""}`, signal);
+    const { scans, next } = await desk.api.get<ScanListPage>(`/scans${cursor ? `?cursor=${cursor}` : ""}`, signal);
     return { rows: scans.map(row), next };
   })) > 0;
   return words.title;
 };
 
-/** What is left empty is the scanner's own choice. */
+/** Converts the form's values to a request. Empty fields are omitted; the scanner's defaults then apply. */
 function orderOf({ scanner, title, creator, licence, steps, exposure, calibration, keep_frames, publish }: Values) {
   return {
     scanner, steps, keep_frames, publish, metadata: { title, creator, licence },
@@ -34,7 +34,7 @@ function orderOf({ scanner, title, creator, licence, steps, exposure, calibratio
   };
 }
 
-export const newScanPage: Page = async ({ desk, view, signal, words: [wanted] }) => {
+export const newScanPage: ConsolePage = async ({ desk, view, signal, words: [wanted] }) => {
   const { scanners } = await desk.api.get<{ scanners: Scanner[] }>("/scanners", signal);
   const chosen = field({ name: "scanner", label: words.scanner, options: scanners.map(({ name }) => [name, name]), value: wanted ?? scanners[0]?.name });
   const calibration = field({ name: "calibration", label: texts.calibration.one, options: [["", texts.calibration.newest]] });
@@ -42,7 +42,7 @@ export const newScanPage: Page = async ({ desk, view, signal, words: [wanted] })
   const offer = (known: Calibration[]) => calibration.querySelector("select")?.replaceChildren(
     h("option", { value: "" }, texts.calibration.newest), ...known.map(({ number, rms }) => h("option", { value: number }, words.calibration(number, rms))));
   const learn = async () => {
-    offer([]); // of a scanner that is not to be reached the newest is all there is
+    offer([]); // for a scanner that cannot be reached, only "newest" is offered
     const { calibrations } = await desk.api.get<Calibrations>(`/scanners/${encodeURIComponent(select.value)}/calibrations`, signal);
     offer(calibrations);
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who works here. The token stays in this tab's session, and goes with it.
-import { h } from "../gallery/dom.ts";
+// Signs an operator in. The token is kept in the tab's session storage, which the browser deletes when the tab is
+// closed.
+import { h } from "../ui/dom.ts";
 import { Api } from "./api.ts";
 import { Alert, field } from "./forms.ts";
 import { texts } from "./texts/index.ts";
@@ -10,7 +11,10 @@ const kKept = "vitrine.token";
 export const keptToken = (): string | null => sessionStorage.getItem(kKept);
 export const forgetToken = (): void => sessionStorage.removeItem(kKept);
 
-/** Resolves to an interface whose token the daemon knows. `why`: the operator was here a moment ago. */
+/**
+ * Asks for a token until the daemon accepts one. Resolves to an API client with that token. `why` is the error because
+ * of which the operator was signed out, if any; it is shown.
+ */
 export function signedIn(view: HTMLElement, why?: unknown): Promise<Api> {
   const alert = new Alert(), words = texts.signIn, token = field({ name: "token", label: words.token, hint: words.hint, required: true });
   const input = token.querySelector("input") as HTMLInputElement;

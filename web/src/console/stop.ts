@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The emergency stop: on every page, for every scanner, without a question.
-import { h } from "../gallery/dom.ts";
+// The emergency stop: a button on every page that stops all scanners without confirmation.
+import { h } from "../ui/dom.ts";
 import type { Api } from "./api.ts";
 import { pause } from "./desk.ts";
 import { sentence } from "./forms.ts";
@@ -9,25 +9,28 @@ import { texts } from "./texts/index.ts";
 import type { Scanner } from "./types.ts";
 
 const kTries = 3;
-/** Milliseconds until it is sent again. */
+/** Milliseconds between two attempts. */
 const kBetween = 1000;
-/** Milliseconds between two looks at which scanners there are. */
+/** Interval in milliseconds at which the list of scanners is polled. */
 const kPause = 3000;
 
 export class EmergencyStop {
   readonly button = h("button", { type: "button", class: "stop", hidden: true }, texts.stop.button);
   readonly said = h("div", { role: "alert", class: "stopped", hidden: true });
-  /** All that were ever in the list: one whose daemon is lost to the others may still turn. */
+  /**
+   * Names of all scanners that have been in the list. If a scanner's daemon disappears from the list, its table may
+   * still be turning.
+   */
   readonly #scanners = new Set<string>();
 
   constructor(private readonly api: Pick<Api, "get" | "stop">) {
     this.button.addEventListener("click", () => void this.#stop());
   }
 
-  /** The scanners are known before it is needed: nobody who presses waits for a list. */
+  /** Polls the list of scanners until `signal` is aborted, so that a stop need not wait for the list. */
   async keepLearning(signal: AbortSignal): Promise<void> {
     while (!signal.aborted) {
-      await this.#learn(signal).catch(() => undefined); // the next look is near
+      await this.#learn(signal).catch(() => undefined); // the next poll is soon
       await pause(kPause, signal);
     }
   }
@@ -47,14 +50,14 @@ export class EmergencyStop {
     else this.#say(texts.stop.done(scanners.join(", ")), "good");
   }
 
-  /** Who refuses it does so again. That it cannot be done now, or that nobody answers, may pass. */
+  /** Sends the stop up to kTries times, until it succeeds. Does not retry after a 4xx response. */
   async #surely(scanner: string): Promise<void> {
     for (let left = kTries; ; --left) {
       try {
         return await this.api.stop(scanner);
       } catch (error) {
-        const refused = error instanceof Problem && error.status < 500;
-        if (left === 1 || refused) throw error;
+        const isRefused = error instanceof Problem && error.status < 500;
+        if (left === 1 || isRefused) throw error;
         await new Promise((resolve) => setTimeout(resolve, kBetween));
       }
     }

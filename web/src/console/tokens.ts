@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "#/tokens": who may call, for administrators.
-import { copyable } from "../gallery/copy.ts";
-import { h } from "../gallery/dom.ts";
-import { date } from "../gallery/texts/index.ts";
-import type { Page } from "./desk.ts";
-import { Alert, button, confirmed, field, form } from "./forms.ts";
+// The page "#/tokens": access tokens, for administrators.
+import { copyable } from "../ui/copy.ts";
+import { h } from "../ui/dom.ts";
+import { date } from "../ui/texts/index.ts";
+import type { ConsolePage } from "./desk.ts";
+import { Alert, button, field, form, isConfirmed } from "./forms.ts";
 import { heading, paged } from "./parts.ts";
 import { texts } from "./texts/index.ts";
 import type { Role, Token } from "./types.ts";
 
 const words = texts.tokens;
 
-interface TokenPage {
+interface TokenListPage {
   tokens: Token[];
   next: string | null;
 }
 
-export const tokensPage: Page = async ({ desk, view, signal }) => {
+export const tokensPage: ConsolePage = async ({ desk, view, signal }) => {
   const list = h("ul", { class: "cards" }), made = h("div", { "aria-live": "polite" });
   const fill = () => paged(list, async (cursor) => {
-    const { tokens, next } = await desk.api.get<TokenPage>(`/tokens${cursor ? `?cursor=${cursor}` : ""}`, signal);
+    const { tokens, next } = await desk.api.get<TokenListPage>(`/tokens${cursor ? `?cursor=${cursor}` : ""}`, signal);
     return { rows: tokens.map(card), next };
   });
 
   function card({ id, role, label, created }: Token): HTMLElement {
     const alert = new Alert();
     const revoke = async () => {
-      if (!(await confirmed(words.revokeQuestion(label || id), words.revokeExplanation, words.revoke))) return;
+      if (!(await isConfirmed(words.revokeQuestion(label || id), words.revokeExplanation, words.revoke))) return;
       await desk.api.send("DELETE", `/tokens/${id}`);
       await fill();
       desk.say(words.revoked);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the daemon's public interface answers with (/api/v1/openapi.json), as far as the console reads it.
-export type { ModelPage, ModelRecord, ScanRecord, Unit } from "../gallery/api.ts";
-import type { ScanRecord } from "../gallery/api.ts";
+// Types of the API's responses, with the members that the console reads (all are in /api/v1/openapi.json).
+export type { ModelListPage, ModelRecord, ScanRecord, Unit } from "../ui/api.ts";
+import type { ScanRecord } from "../ui/api.ts";
 
 export type JobState = "queued" | "running" | "paused" | "done" | "failed" | "cancelled";
 
@@ -21,19 +21,19 @@ export interface Job {
   ended: string | null;
 }
 
-export interface JobPage {
+export interface JobListPage {
   jobs: Job[];
   next: string | null;
 }
 
-/** As an operator sees a scan. */
+/** A scan, with the members that only operators receive. */
 export interface Scan extends ScanRecord {
   job: string;
   scanner: string;
   created: string;
 }
 
-export interface ScanPage {
+export interface ScanListPage {
   scans: Scan[];
   next: string | null;
 }
@@ -52,7 +52,7 @@ export interface Calibration {
   number: number;
   created: string;
   camera: string;
-  rms: number; // mm, over held-out poses
+  rms: number; // RMS error in mm, measured with poses that were not used for the calibration
   p95: number;
   max: number;
   coverage: number; // 0 to 1

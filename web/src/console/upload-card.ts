@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// One file from the operator's hand to a model: while it is on its way, its details are filled in.
-import { h } from "../gallery/dom.ts";
-import { size } from "../gallery/texts/index.ts";
+// Cards for uploads. Each has a form for the model to make from the file; the operator fills it in during the upload.
+import { h } from "../ui/dom.ts";
+import { size } from "../ui/texts/index.ts";
 import type { Desk } from "./desk.ts";
 import { Alert, button, field, form, type Values } from "./forms.ts";
 import { Bar } from "./parts.ts";
 import { JobCard } from "./jobs.ts";
 import { texts } from "./texts/index.ts";
-import type { Sending } from "./uploads.ts";
+import { kUploadNames, kUploadSuffixes } from "./mesh-formats.ts";
+import type { Sending, SendingState } from "./uploads.ts";
 
 const words = texts.uploads;
 export const kUnits: [string, string][] = [["", words.unitOfFile], ["mm", "mm"], ["cm", "cm"], ["m", "m"], ["in", "in"]];
 
-/** `order` is sent once the file is whole; with `fields` the operator completes it. */
+/**
+ * The form of an upload. `order` converts the form's values to the request that is sent when the upload is complete.
+ * `made` is called when the model has been made.
+ */
 export interface Making {
   fields: HTMLElement[];
   submit: string;
@@ -20,73 +24,99 @@ export interface Making {
   made?: () => void;
 }
 
-/** They go on behind other pages, and are found as they were left. */
+/** The cards of all uploads. They are kept, because uploads continue while other pages are open. */
 const cards = new WeakMap<Sending, HTMLElement>();
 const never = new AbortController().signal;
 
 export function cardOf(desk: Desk, sending: Sending, making: () => Making): HTMLElement {
-  const card = cards.get(sending) ?? uploadCard(desk, sending, making());
+  const card = cards.get(sending) ?? new UploadCard(desk, sending, making()).element;
   cards.set(sending, card);
   return card;
 }
 
-function uploadCard(desk: Desk, sending: Sending, { fields, submit, order, made }: Making): HTMLElement {
-  const bar = new Bar(words.progress(sending.file.name)), line = h("p", { class: "quiet" }), alert = new Alert();
-  const actions = h("div", { class: "actions" }), job = new JobCard(desk), card = h("li", { class: "card upload" });
-  const give = async () => {
-    await sending.cancel();
-    desk.uploads.remove(sending);
-    card.remove();
-  };
-  const tell = () => {
-    bar.value = sending.file.size ? sending.sent / sending.file.size : 0;
-    line.textContent = `${words.states[sending.state]} · ${words.sent(size(sending.sent), size(sending.file.size))}`;
-    if (sending.error) alert.show(sending.error);
-    const { state } = sending;
-    if (actions.dataset["state"] === state) return;
-    actions.dataset["state"] = state;
-    const again = async () => {
-      alert.clear();
-      sending.resume();
-    };
-    actions.replaceChildren(
-      ...(state === "sending" ? [button(words.pause, alert, () => sending.pause())] : []),
-      ...(state === "paused" || state === "failed" ? [button(words.resume, alert, again)] : []),
-      ...(state === "whole" ? [] : [button(words.giveUp, alert, give)]));
-  };
-  sending.onChange = tell;
+/** A card that shows an upload with its actions and form, and later the job that makes the model. */
+class UploadCard {
+  readonly element = h("li", { class: "card upload" });
+  readonly #bar: Bar;
+  readonly #line = h("p", { class: "quiet" });
+  readonly #actions = h("div", { class: "actions" });
+  readonly #alert = new Alert();
+  readonly #job: JobCard;
+  readonly #form: HTMLFormElement;
 
-  const make = async (values: Values) => {
-    entry.inert = true;
-    line.textContent = words.afterwards;
-    const upload = await sending.whole;
+  constructor(private readonly desk: Desk, private readonly sending: Sending, private readonly making: Making) {
+    this.#bar = new Bar(words.progress(sending.file.name));
+    this.#job = new JobCard(desk);
+    this.#form = form(making.fields, making.submit, (values) => this.#make(values));
+    this.element.append(this.#heading, this.#bar.element, this.#line, this.#actions, this.#alert.element, this.#form);
+    sending.onChange = () => this.#show();
+    this.#show();
+  }
+
+  get #heading(): HTMLElement {
+    return h("h2", {}, this.sending.file.name);
+  }
+
+  #show(): void {
+    const { file, sent, state, error } = this.sending;
+    this.#bar.value = file.size ? sent / file.size : 0;
+    this.#line.textContent = `${words.states[state]} · ${words.sent(size(sent), size(file.size))}`;
+    if (error) this.#alert.show(error);
+    if (this.#actions.dataset["state"] === state) return;
+    this.#actions.dataset["state"] = state;
+    this.#actions.replaceChildren(...this.#choices(state));
+  }
+
+  #choices(state: SendingState): HTMLElement[] {
+    return [
+      ...(state === "sending" ? [button(words.pause, this.#alert, () => this.sending.pause())] : []),
+      ...(state === "paused" || state === "failed" ? [button(words.resume, this.#alert, () => this.#resume())] : []),
+      ...(state === "whole" ? [] : [button(words.giveUp, this.#alert, () => this.#discard())]),
+    ];
+  }
+
+  async #resume(): Promise<void> {
+    this.#alert.clear();
+    this.sending.resume();
+  }
+
+  async #discard(): Promise<void> {
+    await this.sending.cancel();
+    this.desk.uploads.remove(this.sending);
+    this.element.remove();
+  }
+
+  /** Waits until the file is uploaded, starts the job, and replaces the form by the job's progress. */
+  async #make(values: Values): Promise<void> {
+    this.#form.inert = true;
+    this.#line.textContent = words.afterwards;
+    const upload = await this.sending.whole;
     try {
-      const begun = await desk.api.begin<{ job: string }>("/models", { upload, ...order(values) });
-      card.replaceChildren(h("h2", {}, sending.file.name), job.element);
-      job.element.classList.remove("card");
-      desk.uploads.remove(sending);
-      await desk.jobs.watch(begun.job, (now) => {
-        job.show(now);
-        if (now.state === "done") made?.();
+      const { job } = await this.desk.api.begin<{ job: string }>("/models", { upload, ...this.making.order(values) });
+      this.element.replaceChildren(this.#heading, this.#job.element);
+      this.#job.element.classList.remove("card");
+      this.desk.uploads.remove(this.sending);
+      await this.desk.jobs.watch(job, (now) => {
+        this.#job.show(now);
+        if (now.state === "done") this.making.made?.();
       }, never);
     } finally {
-      entry.inert = false;
+      this.#form.inert = false;
     }
-  };
-  const entry = form(fields, submit, make);
-  card.append(h("h2", {}, sending.file.name), bar.element, line, actions, alert.element, entry);
-  tell();
-  return card;
+  }
 }
 
-/** Where files are dropped; a button beside it for those who do not drag. */
+/**
+ * Creates an area onto which files can be dropped, with a button that opens a file dialog. Calls `take` with the
+ * files.
+ */
 export function dropZone(label: string, take: (files: File[]) => void): HTMLElement {
-  const input = h("input", { type: "file", multiple: true, accept: ".ply,.obj,.stl,.off,.glb,.pmesh", class: "hidden", tabindex: -1, "aria-label": label });
+  const input = h("input", { type: "file", multiple: true, accept: kUploadSuffixes.join(), class: "hidden", tabindex: -1, "aria-label": label });
   const choose = h("button", { type: "button", onclick: () => input.click() }, words.choose);
-  const zone = h("div", { class: "drop" }, h("p", {}, label), choose, h("small", {}, words.formats), input);
+  const zone = h("div", { class: "drop" }, h("p", {}, label), choose, h("small", {}, words.formats(kUploadNames)), input);
   input.addEventListener("change", () => {
     take([...(input.files ?? [])]);
-    input.value = ""; // the same file may be chosen again
+    input.value = ""; // allows choosing the same file again
   });
   const over = (event: Event) => (event.preventDefault(), zone.classList.add("over"));
   zone.addEventListener("dragenter", over);
@@ -100,7 +130,7 @@ export function dropZone(label: string, take: (files: File[]) => void): HTMLElem
   return zone;
 }
 
-/** What came in part before this page was loaded. */
+/** Creates cards for uploads that were interrupted before this page was loaded. */
 export async function interruptedUploads(desk: Desk, say: (text: string) => void): Promise<HTMLElement[]> {
   const known = await desk.uploads.interrupted();
   return known.map((one) => {
@@ -117,4 +147,3 @@ export async function interruptedUploads(desk: Desk, say: (text: string) => void
     return row;
   });
 }
-

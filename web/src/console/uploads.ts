@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files on their way to the daemon (tus 1.0): one after the other, in pieces, and on where they were
-// after a lost connection, a pause, or a page that was closed.
+// Uploads files to the daemon (tus 1.0), one after the other and in pieces. An upload can be resumed after a
+// lost connection, a pause, or a closed page.
 import { DetailedError, Upload, defaultOptions, type PreviousUpload } from "tus-js-client";
 import { Problem } from "./problem.ts";
 
 const kEndpoint = "/api/v1/uploads";
-/** Proxies cap bodies; and between two pieces others get a word in. */
+/** Maximum number of bytes per request, because proxies limit the size of a request's body. */
 const kPiece = 8 << 20;
 const kRetries = [0, 1000, 3000, 5000, 10_000, 20_000, 30_000, 60_000];
 
 export type SendingState = "waiting" | "sending" | "paused" | "failed" | "whole";
 
-/** One file. `whole` resolves to the upload's id once all of it has come. */
+/** The upload of one file. `whole` resolves to the upload's ID when the server has the whole file. */
 export class Sending {
   state: SendingState = "waiting";
   sent = 0;
@@ -26,7 +26,7 @@ export class Sending {
     this.#upload = new Upload(file, {
       endpoint: kEndpoint, headers, chunkSize: kPiece, retryDelays: kRetries,
       metadata: { filename: file.name }, removeFingerprintOnSuccess: true,
-      onShouldRetry: (error) => mayPass(error instanceof DetailedError ? (error.originalResponse?.getStatus() ?? 0) : 0),
+      onShouldRetry: (error) => isRetryable(error instanceof DetailedError ? (error.originalResponse?.getStatus() ?? 0) : 0),
       onProgress: (sent) => this.#be("sending", sent),
       onSuccess: () => this.#finish(),
       onError: (error) => this.#fail(error),
@@ -46,16 +46,16 @@ export class Sending {
     this.ended();
   }
 
-  /** In its turn. */
+  /** Puts the upload back into the queue. */
   resume(): void {
     this.#be("waiting");
     this.ended();
   }
 
-  /** What has come is taken away again. */
+  /** Stops the upload and deletes the part that the server has received. */
   async cancel(): Promise<void> {
     this.#be("paused");
-    await this.#upload.abort(true).catch(() => undefined); // it expires by itself
+    await this.#upload.abort(true).catch(() => undefined); // if the deletion fails, the upload expires later
     this.ended();
   }
 
@@ -78,8 +78,8 @@ export class Sending {
   }
 }
 
-/** Whether the same piece may be taken at another time. */
-function mayPass(status: number): boolean {
+/** Whether sending the same piece again may succeed. */
+function isRetryable(status: number): boolean {
   return status === 0 || status === 409 || status === 423 || status === 429 || (status >= 500 && status !== 507);
 }
 
@@ -92,37 +92,40 @@ function problemOf(status: number, body: string): Problem {
   }
 }
 
-/** A file of which a part has come before this page was loaded. */
+/** An upload that was interrupted before this page was loaded. */
 export type Interrupted = PreviousUpload;
 
 export class Uploads {
-  readonly #lane: Sending[] = [];
+  readonly #queue: Sending[] = [];
 
   constructor(private readonly headers: Record<string, string>) {}
 
   add(file: File): Sending {
     const one = new Sending(file, this.headers, () => this.#next());
-    this.#lane.push(one);
+    this.#queue.push(one);
     this.#next();
     return one;
   }
 
   remove(one: Sending): void {
-    this.#lane.splice(this.#lane.indexOf(one), 1);
+    this.#queue.splice(this.#queue.indexOf(one), 1);
   }
 
   get all(): readonly Sending[] {
-    return this.#lane;
+    return this.#queue;
   }
 
   get isSending(): boolean {
-    return this.#lane.some(({ state }) => state === "sending" || state === "waiting");
+    return this.#queue.some(({ state }) => state === "sending" || state === "waiting");
   }
 
-  /** The browser has kept no file: the operator has to choose it again. */
+  /**
+   * Returns the interrupted uploads. Browsers do not keep the file, so the operator must choose the file again to
+   * resume.
+   */
   async interrupted(): Promise<Interrupted[]> {
     const known = await defaultOptions.urlStorage.findAllUploads();
-    return known.filter(({ metadata }) => !this.#lane.some(({ file }) => file.name === metadata["filename"]));
+    return known.filter(({ metadata }) => !this.#queue.some(({ file }) => file.name === metadata["filename"]));
   }
 
   async forget({ urlStorageKey, uploadUrl }: Interrupted): Promise<void> {
@@ -131,7 +134,7 @@ export class Uploads {
   }
 
   #next(): void {
-    if (this.#lane.some(({ state }) => state === "sending")) return;
-    void this.#lane.find(({ state }) => state === "waiting")?.start();
+    if (this.#queue.some(({ state }) => state === "sending")) return;
+    void this.#queue.find(({ state }) => state === "waiting")?.start();
   }
 }

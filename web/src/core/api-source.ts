@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daemon's HTTP interface: one request for the head, one URL per chunk, no Range. With a token it gives
-// models that are not public, too, whose chunks lie beside them.
+// Reads a model from the daemon's HTTP API: one request for the head, one URL per chunk, no Range requests.
+// With a token it also reads models that are not public; their chunk URLs are below the model's own URL.
 import { readAll, unreachable, type ByteRange, type Source } from "./source.ts";
 import { DamagedError, ModelError } from "./types.ts";
 
 export class ApiSource implements Source {
-  /** `api` is the address of /api/v1 without a slash at its end. */
+  /** `api` is the URL of /api/v1 without a trailing slash. */
   constructor(
     private readonly api: string,
     private readonly id: string,
@@ -23,7 +23,7 @@ export class ApiSource implements Source {
     throw new DamagedError(`a part of the model has ${bytes.length} bytes instead of ${range.length}`);
   }
 
-  /** Every request ends by its own signal. */
+  /** Does nothing: each request has its own abort signal. */
   close(): void {}
 
   async #get(url: string, what: string, signal: AbortSignal): Promise<Uint8Array> {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all models of a page may hold together. Each may take what the others leave, and never less
-// than an equal share: who holds more gives it back when it next asks what its camera needs.
+// Shares a page's memory budget among its models. Each model may use what the others leave free, but
+// at least an equal share. A model above its limit is coarsened at its next detail request.
 
-export interface Amount {
+export interface ModelSize {
   triangles: number;
-  /** Of the files. */
+  /** Bytes of .pmesh data. */
   bytes: number;
 }
 
 export class Budget {
-  readonly #held = new Map<object, Amount>();
+  readonly #held = new Map<object, ModelSize>();
 
-  constructor(public most: Amount = { triangles: Infinity, bytes: Infinity }) {}
+  constructor(public most: ModelSize = { triangles: Infinity, bytes: Infinity }) {}
 
-  /** What `model` holds now. */
-  hold(model: object, amount: Amount): void {
+  /** Records the triangles and bytes that `model` uses now. */
+  hold(model: object, amount: ModelSize): void {
     this.#held.set(model, amount);
   }
 
@@ -22,12 +22,12 @@ export class Budget {
     this.#held.delete(model);
   }
 
-  /** The most that `model` may hold. */
-  room(model: object): Amount {
+  /** Returns the maximum that `model` may use now. */
+  room(model: object): ModelSize {
     return { triangles: this.#room(model, "triangles"), bytes: this.#room(model, "bytes") };
   }
 
-  #room(model: object, what: keyof Amount): number {
+  #room(model: object, what: keyof ModelSize): number {
     const others = [...this.#held].filter(([other]) => other !== model);
     const share = this.most[what] / (others.length + 1);
     if (share === Infinity) return Infinity;

@@ -1,50 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is new of a surface: a page copies, uploads and moves that alone. It goes there in blocks of
-// a few kilobytes, so that none holds the page up.
-import type { Change, Part, Place, Surface } from "./types.ts";
+// Finds the changed ranges of a surface. The page copies, uploads and morphs only these, in blocks of
+// at most 64 KiB, so that no single task blocks the page.
+import { kAttributes } from "./attributes.ts";
+import type { Change, NumericArray, Place, Surface, SurfaceArray } from "./types.ts";
 
-/** Bytes of a buffer that carries a block. */
+/** Size in bytes of the buffer for one block. */
 export const kBlockBytes = 1 << 16;
 
-/** Vertices or faces that count as changed together. */
+/**
+ * Number of vertices or faces that change detection compares as one unit: if any of them differs, all count as
+ * changed.
+ */
 const kTogether = 2048;
 
-type Numbers = Float32Array | Int16Array | Uint16Array | Uint32Array;
-
 interface Pair {
-  now: Numbers;
-  before: Numbers;
-  /** Numbers of one vertex or face. */
+  now: NumericArray;
+  before: NumericArray;
+  /** Values per vertex or face. */
   width: number;
 }
 
-/** A block that is not written yet. */
+/** A block whose buffer has not been filled yet. */
 export interface Piece extends Place {
   write(buffer: ArrayBuffer): void;
 }
 
-/** Keeps the state that was shown last. */
+/** Stores the surface shown last and computes the change to the next surface. */
 export class Shown {
   #last: Surface | undefined;
   #number = 0;
 
   /**
-   * The way from the surface given before to this one. A vertex that was there moves from its old
-   * place, another from that of its nearest ancestor that was: `parents` names who split. With
-   * `anew` the numbers stand for other vertices than before, so nothing moves.
+   * Returns the change from the previous surface to `surface`. An existing vertex morphs from its
+   * previous position. A new vertex morphs from the position of its nearest ancestor in the previous
+   * surface, found through `parents` (for each vertex, the vertex that was split to create it).
+   * With `isRenumbered`, vertex indices do not match those of the previous surface, so nothing morphs.
    */
-  change(surface: Surface, parents: Uint32Array, anew: boolean): { change: Change; pieces: Piece[] } {
+  change(surface: Surface, parents: Uint32Array, isRenumbered: boolean): { change: Change; pieces: Piece[] } {
     const last = this.#last;
     this.#last = surface;
-    const { vertices, triangles, bytes, positions, normals, colours, indices } = surface;
+    const { vertices, triangles, bytes, positions, normals, attributes, indices } = surface;
     const vertexRuns = changed(vertices, last?.vertices ?? 0, pairs(surface, last));
     const faceRuns = changed(triangles, last?.triangles ?? 0, last ? [{ now: indices, before: last.indices, width: 3 }] : []);
-    const moved = origins(vertexRuns, parents, anew || !last ? 0 : last.vertices);
+    const moved = origins(vertexRuns, parents, isRenumbered || !last ? 0 : last.vertices);
     const number = ++this.#number;
     const pieces = [
       ...copied("positions", positions, 3, vertexRuns),
       ...copied("normals", normals, 4, vertexRuns),
-      ...(colours ? copied("colours", colours, 4, vertexRuns) : []),
+      ...attributes.flatMap(({ semantic, values }) => [...copied(semantic, values, kAttributes[semantic].width, vertexRuns)]),
       ...copied("indices", indices, 3, faceRuns),
       ...left("fromPositions", positions, last?.positions, 3, moved, vertexRuns, number),
       ...left("fromNormals", normals, last?.normals, 4, moved, vertexRuns),
@@ -53,8 +56,8 @@ export class Shown {
   }
 }
 
-/** Pieces that hold what the runs of `values` do. */
-function* copied(part: Part, values: Numbers, width: number, runs: Uint32Array): Generator<Piece> {
+/** Yields pieces that copy the given runs (first index and count) of `values`. */
+function* copied(part: SurfaceArray, values: NumericArray, width: number, runs: Uint32Array): Generator<Piece> {
   for (const { first, count } of places(runs, width * values.BYTES_PER_ELEMENT)) {
     const write = (buffer: ArrayBuffer) =>
       likeness(values, buffer).set(values.subarray(width * first, width * (first + count)));
@@ -62,9 +65,12 @@ function* copied(part: Part, values: Numbers, width: number, runs: Uint32Array):
   }
 }
 
-/** Pieces that hold where the vertices of the runs come from: `moved` has an origin for each, in their order. */
+/**
+ * Yields pieces with the values from which each vertex of the runs starts to morph. `moved` has, for each of
+ * these vertices, the index of the vertex in `before` whose values are used, or -1 if the vertex does not move.
+ */
 function* left(
-  part: Part, now: Numbers, before: Numbers | undefined, width: number, moved: Int32Array, runs: Uint32Array, number?: number,
+  part: SurfaceArray, now: NumericArray, before: NumericArray | undefined, width: number, moved: Int32Array, runs: Uint32Array, number?: number,
 ): Generator<Piece> {
   let behind = 0;
   for (const { first, count } of places(runs, 4 * now.BYTES_PER_ELEMENT)) {
@@ -83,7 +89,7 @@ function* left(
   }
 }
 
-/** The runs in places of which each fits into a block. */
+/** Splits the runs into ranges that fit into one block each. */
 function* places(runs: Uint32Array, elementBytes: number): Generator<Omit<Place, "part">> {
   const most = Math.floor(kBlockBytes / elementBytes);
   for (let i = 0; i < runs.length; i += 2) {
@@ -92,27 +98,30 @@ function* places(runs: Uint32Array, elementBytes: number): Generator<Omit<Place,
   }
 }
 
-/** `buffer` as numbers of the kind of `values`. */
-function likeness(values: Numbers, buffer: ArrayBuffer): Numbers {
-  return new (values.constructor as new (buffer: ArrayBuffer) => Numbers)(buffer);
+/** Returns a view on `buffer` of the same array type as `values`. */
+function likeness(values: NumericArray, buffer: ArrayBuffer): NumericArray {
+  return new (values.constructor as new (buffer: ArrayBuffer) => NumericArray)(buffer);
 }
 
 function pairs(now: Surface, before: Surface | undefined): Pair[] {
   if (!before) return [];
-  const colours = now.colours && before.colours && { now: now.colours, before: before.colours, width: 4 };
   return [
     { now: now.positions, before: before.positions, width: 3 },
     { now: now.normals, before: before.normals, width: 4 },
-    ...(colours ? [colours] : []),
+    ...now.attributes.map(({ semantic, values }, i) => (
+      { now: values, before: before.attributes[i]?.values ?? new Uint16Array(), width: kAttributes[semantic].width })),
   ];
 }
 
-/** Runs of changed elements, ascending: where each begins and how many it has. */
+/**
+ * Compares the first `count` elements of the arrays with the `known` elements before the change. Returns the runs
+ * of changed or added elements in ascending order, as pairs of first index and count.
+ */
 function changed(count: number, known: number, arrays: Pair[]): Uint32Array {
   const runs: number[] = [];
   for (let begin = 0; begin < count; begin += kTogether) {
     const end = Math.min(begin + kTogether, count);
-    if (end <= known && arrays.every((pair) => equal(pair, begin, end))) continue;
+    if (end <= known && arrays.every((pair) => isEqual(pair, begin, end))) continue;
     const last = runs.length - 2;
     if (last >= 0 && (runs[last] as number) + (runs[last + 1] as number) === begin) runs[last + 1] = end - (runs[last] as number);
     else runs.push(begin, end - begin);
@@ -120,12 +129,15 @@ function changed(count: number, known: number, arrays: Pair[]): Uint32Array {
   return Uint32Array.from(runs);
 }
 
-function equal({ now, before, width }: Pair, begin: number, end: number): boolean {
+function isEqual({ now, before, width }: Pair, begin: number, end: number): boolean {
   for (let i = width * begin; i < width * end; ++i) if (now[i] !== before[i]) return false;
   return true;
 }
 
-/** For each vertex of the runs the nearest ancestor below `known`, or -1. */
+/**
+ * Returns one index for each vertex of the runs: the vertex itself if its index is below `known`, else its nearest
+ * ancestor with such an index, or -1 if it has none.
+ */
 function origins(runs: Uint32Array, parents: Uint32Array, known: number): Int32Array {
   const out = new Int32Array(total(runs));
   let at = 0;

@@ -1,33 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's side of the worker. All models of a page share one worker; it ends with the last.
+// The page's interface to the worker. All models of a page share one worker, which is terminated when
+// the last model is closed.
 import workerText from "./worker.ts?text";
-import { Budget, type Amount } from "./budget.ts";
+import { Budget, type ModelSize } from "./budget.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import type { Transport } from "./source.ts";
 import { ModelError, type Block, type Change, type ModelInfo, type Progress, type Want } from "./types.ts";
 
 export interface ModelListener {
   opened(info: ModelInfo): void;
-  /** Its blocks follow. Call `shown` once it is on display: the next one comes after that. */
+  /**
+   * Called before the blocks of a change arrive. Call `shown` when the change is displayed; only then does the next
+   * one arrive.
+   */
   change(change: Change, shown: () => void): void;
-  /** Give its buffer back. */
+  /** Called for each block of the announced change. Return the block's buffer with `giveBack`. */
   block(block: Block): void;
   progress(progress: Progress): void;
-  /** The server does not answer, and why; undefined once it does again. */
+  /** Called with the reason when the server does not respond, and with undefined when it responds again. */
   stalled(reason: string | undefined): void;
   failed(error: ModelError): void;
 }
 
 interface Turn {
   want: Want;
-  resolve(reached: boolean): void;
+  resolve(isReached: boolean): void;
   reject(error: ModelError): void;
 }
 
 const budget = new Budget();
 
-/** The most that all models of the page may hold together of what their cameras see (ProgressiveMesh.refineFor). */
-export function setBudget(most: Amount): void {
+/** Sets the maximum that all models of the page may use together when refined for a camera (ProgressiveMesh.refineFor). */
+export function setBudget(most: ModelSize): void {
   budget.most = most;
 }
 
@@ -35,7 +39,7 @@ const models = new Map<number, RemoteModel>();
 let worker: Worker | undefined;
 let lastId = 0;
 
-/** The files of the viewer that lie beside the module at `moduleUrl`. */
+/** Returns the URLs of the viewer's files in the folder of the module at `moduleUrl`. */
 export function assetsBeside(moduleUrl: string): Assets {
   const beside = (name: string) => new URL(name, moduleUrl).href;
   return {
@@ -45,15 +49,15 @@ export function assetsBeside(moduleUrl: string): Assets {
   };
 }
 
-/** A model whose session lives in the worker, which starts at once; what it says waits for its listener. */
+/** A model whose session runs in the worker. It opens immediately; its messages are queued until a listener is set. */
 export class RemoteModel {
   readonly #id = ++lastId;
   readonly #url: string;
   readonly #turns = new Map<number, Turn>();
   #turn = 0;
   #last: Want | undefined;
-  #ready = false;
-  #stops = 0; // of its decoder, since it last reached what was wanted
+  #isReady = false;
+  #stops = 0; // number of decoder failures since a detail request was last reached
   #lost: ModelError | undefined;
   #listener: ModelListener | undefined;
   #unheard: ((listener: ModelListener) => void)[] = [];
@@ -79,7 +83,7 @@ export class RemoteModel {
     else this.#unheard.push(tell);
   }
 
-  /** Resolves with true when `want` is reached and shown, with false when superseded or closed. */
+  /** Resolves to true when `want` is reached and shown, to false if it is superseded or the model is closed. */
   refine(want: Want): Promise<boolean> {
     if (this.#lost) return Promise.reject(this.#lost);
     const turn = ++this.#turn;
@@ -101,26 +105,30 @@ export class RemoteModel {
     }
   }
 
-  /** Buffers of blocks. */
+  /** Returns the buffers of received blocks to the worker. */
   giveBack(buffers: ArrayBuffer[]): void {
     if (models.has(this.#id)) worker?.postMessage({ type: "taken", id: this.#id, buffers } satisfies ToWorker, buffers);
   }
 
   receive(message: FromWorker): void {
     if (message.type === "opened") this.#tell((listener) => listener.opened(message.info));
-    else if (message.type === "ready") this.#ready = true;
+    else if (message.type === "ready") this.#isReady = true;
     else if (message.type === "progress") this.#tell((listener) => listener.progress(message.progress));
     else if (message.type === "stalled") this.#tell((listener) => listener.stalled(message.reason));
     else if (message.type === "block") this.#tell((listener) => listener.block(message.block));
     else if (message.type === "change") this.#show(message.change);
-    else if (message.type === "settled") this.#reach(message.turn, message.reached);
+    else if (message.type === "settled") this.#reach(message.turn, message.isReached);
     else if (message.type === "failed") this.#fail(message.turn, new ModelError(message.message));
     else this.stop("a fault in the model");
   }
 
-  /** Its decoder has stopped. Once it has shown something, it gets a new one, and what it shows stays until that is as far. */
+  /**
+   * Handles a stopped decoder. A model that is already shown gets a new decoder; its current surface stays visible
+   * until the new decoder has reached the detail request. The model fails if it was not shown yet, or if the new
+   * decoder stops before it has reached the request.
+   */
   stop(reason: string | undefined): void {
-    if (this.#ready && ++this.#stops === 1) return this.#restart();
+    if (this.#isReady && ++this.#stops === 1) return this.#restart();
     this.#lost = new ModelError(`the viewer's decoder stopped${reason ? ` (${reason})` : ""}: reload the page`);
     models.delete(this.#id);
     budget.release(this);
@@ -130,14 +138,14 @@ export class RemoteModel {
     this.#tell((listener) => listener.failed(lost));
   }
 
-  #open(again: boolean): void {
+  #open(isRestart: boolean): void {
     const { transport, assets, token } = this;
-    send({ type: "open", id: this.#id, url: this.#url, transport, token, assets, again });
+    send({ type: "open", id: this.#id, url: this.#url, transport, token, assets, isRestart });
   }
 
   #restart(): void {
     this.#open(true);
-    if (!this.#turns.has(this.#turn) && this.#last) this.refine(this.#last).catch(() => undefined); // the listener is told
+    if (!this.#turns.has(this.#turn) && this.#last) this.refine(this.#last).catch(() => undefined); // the listener receives the error
     else for (const [turn, { want }] of this.#turns) this.#ask(turn, want);
   }
 
@@ -159,9 +167,9 @@ export class RemoteModel {
     return found;
   }
 
-  #reach(turn: number, reached: boolean): void {
-    if (reached) this.#stops = 0;
-    this.#settle(turn)?.resolve(reached);
+  #reach(turn: number, isReached: boolean): void {
+    if (isReached) this.#stops = 0;
+    this.#settle(turn)?.resolve(isReached);
   }
 
   #fail(turn: number | undefined, error: ModelError): void {
@@ -175,20 +183,23 @@ function send(message: ToWorker): void {
   worker.postMessage(message);
 }
 
-/** From a blob, because a worker's script must have the origin of the page that embeds it. */
+/** Starts the worker from a blob, because a worker script must have the same origin as the embedding page. */
 function startWorker(): Worker {
   const url = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
   const started = new Worker(url);
   URL.revokeObjectURL(url);
   started.onmessage = ({ data }: MessageEvent<FromWorker>) => models.get(data.id)?.receive(data);
   started.onerror = (event) => {
-    event.preventDefault(); // the models tell
+    event.preventDefault(); // the models report the error
     if (started === worker) stop(event.message);
   };
   return started;
 }
 
-/** The worker cannot start (the page's security policy forbids it) or has stopped (out of memory). */
+/**
+ * Ends the worker and reports the stop to all models. Called when the worker cannot start, for example because the
+ * page's security policy forbids it, or has crashed, for example for lack of memory.
+ */
 function stop(reason: string | undefined): void {
   worker?.terminate();
   worker = undefined;

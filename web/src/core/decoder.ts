@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++ decoder and planner (codec/wasm) behind a typed interface. Each model has an instance of
-// its own: closing it gives all its memory back, and a fault in one cannot reach another.
-import { linearColours } from "./colours.ts";
-import { DamagedError, ModelError, type ModelInfo, type Surface, type View, type Want } from "./types.ts";
+// Typed interface to the C++ decoder and planner (codec/wasm). Each model has its own WebAssembly
+// instance, so closing a model frees all its memory and a fault in one model cannot affect another.
+import { kAttributes, kSemantics } from "./attributes.ts";
+import { DamagedError, ModelError, type CameraView, type ModelInfo, type Surface, type Want } from "./types.ts";
 
 type Pointer = number;
 
@@ -19,7 +19,7 @@ interface Exports {
   unit(model: Pointer): Pointer;
   chunk_hash(model: Pointer, chunk: number): Pointer;
   check_base(model: Pointer, data: Pointer, size: number): number;
-  start(model: Pointer, positions: Pointer, vertices: number, faces: Pointer, count: number, colours: Pointer): number;
+  start(model: Pointer, positions: Pointer, vertices: number, faces: Pointer, count: number, attributes: Pointer): number;
   want(model: Pointer, kind: number, value: number): number;
   want_view(model: Pointer, numbers: Pointer): number;
   next_chunk(model: Pointer): number;
@@ -36,14 +36,17 @@ interface Exports {
   positions(model: Pointer): Pointer;
   normals(model: Pointer): Pointer;
   indices(model: Pointer): Pointer;
-  colours(model: Pointer): Pointer;
+  attribute_values(model: Pointer, index: number): Pointer;
 }
 
-/** The base mesh as Draco gives it: lattice coordinates, indices, YCoCg-R colours; 3 each. */
+/**
+ * The base mesh as decoded by Draco. `positions` has 3 lattice coordinates per vertex, `faces` 3 vertex indices per
+ * face. `attributes` has 3 numbers per vertex for the model's first attribute, then for the second, and so on.
+ */
 export interface BaseMesh {
   positions: Int32Array;
   faces: Uint32Array;
-  colours: Int32Array | undefined;
+  attributes: Int32Array;
 }
 
 export class Decoder {
@@ -51,7 +54,7 @@ export class Decoder {
   protected model: Pointer = 0;
   #info: ModelInfo | undefined;
   #parents = new Uint32Array(0);
-  #known = 0; // vertices that have a parent
+  #known = 0; // number of vertices whose parent is recorded
 
   protected constructor(instance: WebAssembly.Instance) {
     this.wasm = instance.exports as unknown as Exports;
@@ -62,7 +65,7 @@ export class Decoder {
     return new this(await WebAssembly.instantiate(module, {}));
   }
 
-  /** The length of the header that begins with `bytes`. */
+  /** Returns the length in bytes of the header, of which `bytes` is the beginning. */
   headerLength(bytes: Uint8Array): number {
     const length = this.#lend(bytes, (data, size) => this.wasm.header_length(data, size));
     if (length < 0) throw this.#error();
@@ -82,18 +85,17 @@ export class Decoder {
   }
 
   start(base: BaseMesh): void {
-    const { positions, faces, colours } = base;
+    const { positions, faces, attributes } = base;
     const started = this.#lend(positions, (points) =>
       this.#lend(faces, (corners) =>
-        this.#lend(colours ?? new Int32Array(0), (tints) =>
-          this.wasm.start(
-            this.model, points, positions.length / 3, corners, faces.length / 3, colours ? tints : 0))));
+        this.#lend(attributes, (values) =>
+          this.wasm.start(this.model, points, positions.length / 3, corners, faces.length / 3, values))));
     if (!started) throw this.#error();
     if (this.#info) this.#info.centre = this.#readInfo().centre;
     this.#adopt();
   }
 
-  /** Sets the goal. True where the surface went back to the base mesh to reach it. */
+  /** Sets the detail target. Returns true if the surface was reset to the base mesh to reach it. */
   want(want: Want): boolean {
     const answer = "view" in want ? this.#wantView(want.view) : this.#wantAmount(want);
     if (answer < 0) throw this.#error();
@@ -102,13 +104,13 @@ export class Decoder {
     return answer === 1;
   }
 
-  #wantView({ camera, fov, width, height, pixels, bytes = Infinity, triangles = Infinity }: View): number {
+  #wantView({ camera, fov, width, height, pixels, bytes = Infinity, triangles = Infinity }: CameraView): number {
     const numbers = Float64Array.of(...camera.slice(0, 16), fov, width, height, pixels, bytes, triangles);
     if (numbers.length !== 22) throw new ModelError("the camera must have 16 numbers");
     return this.#lend(numbers, (data) => this.wasm.want_view(this.model, data));
   }
 
-  #wantAmount(want: Exclude<Want, { view: View }>): number {
+  #wantAmount(want: Exclude<Want, { view: CameraView }>): number {
     const [kind, value] =
       "triangles" in want ? [0, want.triangles]
       : "bytes" in want ? [1, want.bytes]
@@ -117,31 +119,31 @@ export class Decoder {
     return this.wasm.want(this.model, kind, value);
   }
 
-  /** The next chunk on the way to the goal; it then counts as requested. */
+  /** Returns the next chunk needed for the detail target and marks it as requested. Undefined if there is none. */
   nextChunk(): number | undefined {
     const chunk = this.wasm.next_chunk(this.model);
     return chunk < 0 ? undefined : chunk;
   }
 
-  /** Throws DamagedError where the SHA-256 is another: fetch the chunk again. */
+  /** Throws DamagedError if the chunk's SHA-256 is wrong; the chunk should then be fetched again. */
   checkChunk(chunk: number, bytes: Uint8Array): void {
     const fits = this.#lend(bytes, (data, size) => this.wasm.check_chunk(this.model, chunk, data, size));
     if (!fits) throw new DamagedError(this.#error().message);
   }
 
-  /** Applies a checked chunk. Throws ModelError where its content is impossible: then want() starts over. */
+  /** Applies a checked chunk. Throws ModelError if its content is invalid; the next want() then starts over from the base mesh. */
   apply(chunk: number, bytes: Uint8Array): void {
     const applied = this.#lend(bytes, (data, size) => this.wasm.apply(this.model, chunk, data, size));
     if (!applied) throw this.#error();
     this.#adopt();
   }
 
-  /** Of each vertex the one whose split brought it; those of the base mesh, and what is born whole, name themselves. */
+  /** For each vertex, the vertex that was split to create it. Vertices of the base mesh and of inserted components are their own parents. */
   get parents(): Uint32Array {
     return this.#parents;
   }
 
-  /** Takes down who split, for the chunk applied last. */
+  /** Records the parents of the vertices that were added since the last call. */
   #adopt(): void {
     const count = this.wasm.vertex_count(this.model);
     if (count > this.#parents.length) {
@@ -152,7 +154,7 @@ export class Decoder {
     for (; this.#known < count; ++this.#known) this.#parents[this.#known] = this.wasm.parent_of(this.model, this.#known);
   }
 
-  /** At the goal: takes back the splits beyond it. */
+  /** Undoes the vertex splits beyond the detail target. Call when the target is reached. */
   trim(): void {
     this.wasm.trim(this.model);
   }
@@ -161,7 +163,7 @@ export class Decoder {
     return this.wasm.bytes_held(this.model);
   }
 
-  /** Memory in use, in pages of 64 KiB. */
+  /** Size of the WebAssembly memory, in pages of 64 KiB. */
   get pages(): number {
     return this.wasm.memory.buffer.byteLength >> 16;
   }
@@ -170,17 +172,24 @@ export class Decoder {
     const wasm = this.wasm, model = this.model;
     const vertices = wasm.vertex_count(model);
     const positions = new Float32Array(3 * vertices), normals = new Int16Array(4 * vertices);
-    const colours = this.#info?.coloured ? new Uint16Array(4 * vertices) : undefined;
+    const attributes = (this.#info?.attributes ?? []).map((semantic) => (
+      { semantic, values: new Uint16Array(kAttributes[semantic].width * vertices) }));
     this.#eachPiece((buffer, at, count) => {
       positions.set(new Float32Array(buffer, wasm.positions(model), 3 * count), 3 * at);
       normals.set(new Int16Array(buffer, wasm.normals(model), 4 * count), 4 * at);
-      colours?.set(linearColours(new Uint8Array(buffer, wasm.colours(model), 3 * count)), 4 * at);
+      attributes.forEach(({ semantic, values }, i) => {
+        const { bytes, width, shown } = kAttributes[semantic];
+        values.set(shown(new Uint8Array(buffer, wasm.attribute_values(model, i), bytes * count)), width * at);
+      });
     });
     const indices = this.#faces();
-    return { triangles: indices.length / 3, vertices, bytes: this.bytesHeld, positions, normals, colours, indices };
+    return { triangles: indices.length / 3, vertices, bytes: this.bytesHeld, positions, normals, attributes, indices };
   }
 
-  /** Takes the displayed surface: `use` gets `count` vertices from the `at`-th on, piece by piece. */
+  /**
+   * Reads the displayed vertices piece by piece. Calls `use` for each piece: `count` vertices, the first of which is
+   * vertex `at`.
+   */
   #eachPiece(use: (buffer: ArrayBuffer, at: number, count: number) => void): void {
     const wasm = this.wasm;
     wasm.display(this.model);
@@ -189,7 +198,7 @@ export class Decoder {
     }
   }
 
-  /** The faces of the surface that #eachPiece took. */
+  /** Reads the faces of the surface whose vertices #eachPiece has read. */
   #faces(): Uint32Array {
     const wasm = this.wasm;
     const faces = new Uint32Array(3 * wasm.face_count(this.model));
@@ -220,7 +229,7 @@ export class Decoder {
     return new TextDecoder().decode(bytes.slice(pointer, bytes.indexOf(0, pointer)));
   }
 
-  /** Reads the layout that Model::summary (codec/wasm/model.h) describes. */
+  /** Reads the model's summary. BrowserModel::summary (codec/wasm/browser_model.h) documents its layout. */
   #readInfo(): ModelInfo {
     const wasm = this.wasm;
     const pointer = wasm.summary(this.model);
@@ -241,7 +250,7 @@ export class Decoder {
       baseOffset: at(2),
       baseLength: at(3),
       fileBytes: at(4),
-      coloured: at(5) !== 0,
+      attributes: kSemantics.filter((_, i) => (at(5) >> i) & 1),
       bits: at(6),
       step: at(7),
       unit: this.#text(wasm.unit(this.model)),

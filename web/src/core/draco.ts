@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base mesh is a Draco buffer; npm's draco3d decodes it.
+// Decodes the base mesh, a Draco buffer, with the npm package draco3d.
+import { kAttributes, type Semantic } from "./attributes.ts";
 import type { BaseMesh } from "./decoder.ts";
-import { ModelError, type Level } from "./types.ts";
+import { ModelError, type ModelInfo } from "./types.ts";
 
-/** The part of draco3d that is used here. Pointers are numbers, objects are opaque. */
+/** The part of the draco3d API used here. Pointers are numbers; objects have no readable members. */
 export interface DracoModule {
   Decoder: new () => DracoDecoder;
   DecoderBuffer: new () => { Init(data: Int8Array, size: number): void };
@@ -32,20 +33,19 @@ interface DracoArray {
   GetValue(index: number): number;
 }
 
-/** Decodes a base mesh whose counts must be those of `level`. */
-export function decodeBase(draco: DracoModule, bytes: Uint8Array, level: Level): BaseMesh {
+/** Decodes a base mesh. Throws ModelError if its counts or attributes differ from the model's manifest. */
+export function decodeBase(draco: DracoModule, bytes: Uint8Array, { levels: [level], attributes: semantics }: ModelInfo): BaseMesh {
   const decoder = new draco.Decoder();
   const buffer = new draco.DecoderBuffer();
   const mesh = new draco.Mesh();
   try {
-    // Byte 7 is the geometry (1: mesh), byte 8 the method (1: edgebreaker).
+    // Byte 7 is the geometry type (1: triangular mesh), byte 8 the encoding method (1: edgebreaker).
     if (bytes[7] !== 1 || bytes[8] !== 1) throw damaged();
     buffer.Init(new Int8Array(bytes.buffer, bytes.byteOffset, bytes.length), bytes.length);
     if (!decoder.DecodeBufferToMesh(buffer, mesh).ok()) throw damaged();
-    if (mesh.num_points() !== level.vertices || mesh.num_faces() !== level.faces) throw damaged();
+    if (mesh.num_points() !== level?.vertices || mesh.num_faces() !== level.faces) throw damaged();
     const positions = integers(draco, decoder, mesh, draco.POSITION);
-    if (!positions) throw damaged();
-    return { positions, faces: faces(draco, decoder, mesh), colours: integers(draco, decoder, mesh, draco.COLOR) };
+    return { positions, faces: faces(draco, decoder, mesh), attributes: attributes(draco, decoder, mesh, semantics) };
   } finally {
     for (const object of [mesh, buffer, decoder]) draco.destroy(object);
   }
@@ -55,10 +55,17 @@ function damaged(): ModelError {
   return new ModelError("the base mesh is damaged: publish the model again");
 }
 
-/** An attribute's three integers a vertex; undefined where the mesh has none of that kind. */
-function integers(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh, kind: number): Int32Array | undefined {
+/** Returns the values of all attributes of the model, one attribute after the other. */
+function attributes(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh, semantics: Semantic[]): Int32Array {
+  return Int32Array.from(semantics.flatMap((semantic) => [...integers(draco, decoder, mesh, draco[kAttributes[semantic].draco])]));
+}
+
+/**
+ * Returns the values of an attribute, three integers per vertex. Throws ModelError if the mesh has no such attribute.
+ */
+function integers(draco: DracoModule, decoder: DracoDecoder, mesh: DracoMesh, kind: number): Int32Array {
   const id = decoder.GetAttributeId(mesh, kind);
-  if (id < 0) return undefined;
+  if (id < 0) throw damaged();
   const values = new draco.DracoInt32Array();
   try {
     const attribute = decoder.GetAttribute(mesh, id);

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bare .pmesh on any static host. With Range each part is one request; a host that ignores Range
-// sends the whole file once, and its parts are taken as they arrive: a prefix is a coarser model.
+// Reads a plain .pmesh file from any static host. If the host supports Range requests, each part of the file is
+// fetched with its own request. A host that ignores Range sends the whole file once; its parts are then used as
+// they arrive, without waiting for the end of the file.
 import { refused, unreachable, type ByteRange, type Source } from "./source.ts";
 import { ModelError } from "./types.ts";
 
-/** Header and base mesh of most models, in one request. */
+/** Bytes of the first request: enough for the header and base mesh of most models. */
 const kHeadBytes = 32 * 1024;
 
 export class FileSource implements Source {
-  readonly #life = new AbortController(); // of a download of the whole file
+  readonly #life = new AbortController(); // controller that can abort a download of the whole file
   #whole: Download | undefined;
-  #head: Uint8Array = new Uint8Array(0); // where that is all there is: the first chunks of most models are in it
+  // First bytes of the file, if the host supports Range; may include the first chunks.
+  #head: Uint8Array = new Uint8Array(0);
 
   constructor(private readonly url: string) {}
 
-  /** The file's first bytes, at most kHeadBytes. */
+  /** Returns the file's first bytes, at most kHeadBytes. */
   async head(signal: AbortSignal): Promise<Uint8Array> {
     const response = await this.#request(0, kHeadBytes, this.#life.signal);
     if (response.status === 206) return (this.#head = await body(response));
@@ -62,26 +64,26 @@ async function body(response: Response): Promise<Uint8Array> {
   }
 }
 
-/** A whole file on its way in. */
+/** A whole file being downloaded. */
 class Download {
   #bytes = new Uint8Array(1 << 16);
   #size = 0;
-  #ended = false;
+  #hasEnded = false;
   #failure: unknown;
   #wake: (() => void)[] = [];
 
   constructor(response: Response) {
     this.#read(response).catch((error) => (this.#failure = unreachable(error, "the model file"))).finally(() => {
-      this.#ended = true;
+      this.#hasEnded = true;
       this.#notify();
     });
   }
 
-  /** The bytes [begin, end) once they are here; fewer where the file ends before. */
+  /** Resolves to the bytes [begin, end) when they have arrived; fewer if the file ends earlier. */
   async slice(begin: number, end: number, signal: AbortSignal): Promise<Uint8Array> {
     const wake = () => this.#notify();
     signal.addEventListener("abort", wake);
-    while (this.#size < end && !this.#ended && !signal.aborted) {
+    while (this.#size < end && !this.#hasEnded && !signal.aborted) {
       await new Promise<void>((resolve) => this.#wake.push(resolve));
     }
     signal.removeEventListener("abort", wake);

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffers that go to the page with a block each and come back empty: however large a change is, no
-// more than these are on the way, and nobody's garbage collector hears of them.
+// Pool of the buffers that carry blocks to the page, which returns them. It bounds the memory in transit
+// for changes of any size, and saves allocating a buffer for each block.
 import { kBlockBytes } from "./change.ts";
 
-/** At most on the way at once: 4 MB. */
+/** Maximum number of buffers in transit; together they have 4 MiB. */
 const kBuffers = 64;
 
 export class Lending {
   readonly #idle: ArrayBuffer[] = [];
   #made = 0;
-  #closed = false;
+  #isClosed = false;
   #wake: (() => void) | undefined;
 
-  /** A buffer as soon as there is one; undefined once this is closed. */
+  /** Resolves to a buffer when one is free, or to undefined if the pool is closed. */
   async borrow(): Promise<ArrayBuffer | undefined> {
-    while (!this.#closed && this.#idle.length === 0 && this.#made === kBuffers) {
+    while (!this.#isClosed && this.#idle.length === 0 && this.#made === kBuffers) {
       await new Promise<void>((resolve) => (this.#wake = resolve));
     }
-    if (this.#closed) return undefined;
+    if (this.#isClosed) return undefined;
     const idle = this.#idle.pop();
     if (!idle) ++this.#made;
     return idle ?? new ArrayBuffer(kBlockBytes);
@@ -29,7 +29,7 @@ export class Lending {
   }
 
   close(): void {
-    this.#closed = true;
+    this.#isClosed = true;
     this.#wake?.();
   }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page and the worker say to each other. `id` names a model, `turn` a want.
+// The messages between page and worker. `id` identifies a model, `turn` a detail request.
 import type { Transport } from "./source.ts";
 import type { Block, Change, ModelInfo, Progress, Want } from "./types.ts";
 
-/** Absolute URLs of what the worker loads. */
+/** Absolute URLs of the files that the worker loads. */
 export interface Assets {
   wasm: string;
   dracoScript: string;
@@ -11,7 +11,7 @@ export interface Assets {
 }
 
 export type ToWorker =
-  | { type: "open"; id: number; url: string; transport: Transport; token: string; assets: Assets; again: boolean }
+  | { type: "open"; id: number; url: string; transport: Transport; token: string; assets: Assets; isRestart: boolean }
   | { type: "refine"; id: number; turn: number; want: Want }
   | { type: "taken"; id: number; buffers: ArrayBuffer[] }
   | { type: "shown"; id: number }
@@ -25,5 +25,5 @@ export type FromWorker =
   | { type: "progress"; id: number; progress: Progress }
   | { type: "ready"; id: number }
   | { type: "stopped"; id: number }
-  | { type: "settled"; id: number; turn: number; reached: boolean }
+  | { type: "settled"; id: number; turn: number; isReached: boolean }
   | { type: "failed"; id: number; turn: number | undefined; message: string };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One model being refined: asks the source for the chunks that the planner names, several at a
-// time, applies them in that order and offers each state for display. A new want supersedes the
-// one before at the next chunk; what was fetched is kept, so going back is free of charge.
+// Refines one model. Requests from the source the chunks that the planner chooses, several at a time, applies
+// them in the planner's order and offers each state for display. A new detail request supersedes the previous
+// one before the next chunk is applied. Fetched chunks are kept, so applying them again needs no download.
 import { Shown, type Piece } from "./change.ts";
 import type { BaseMesh } from "./decoder.ts";
 import type { Source } from "./source.ts";
@@ -10,7 +10,7 @@ import {
   type Change, type Chunk, type Level, type ModelInfo, type Progress, type Surface, type Want,
 } from "./types.ts";
 
-/** What a session needs of the WebAssembly decoder (decoder.ts). */
+/** The part of the decoder (decoder.ts) that a session uses. */
 export interface ModelDecoder {
   headerLength(bytes: Uint8Array): number;
   open(header: Uint8Array): ModelInfo;
@@ -26,32 +26,32 @@ export interface ModelDecoder {
   surface(): Surface;
 }
 
-/** Where a session shows what it has. */
+/** Receives the changes and reports of a session. */
 export interface Sink {
-  /** The header and base mesh are here; the first surface follows. */
+  /** Called when the header and base mesh have arrived; the first surface follows. */
   opened(info: ModelInfo): void;
-  /** Resolves when the change is on display; the next one is sent after that. */
+  /** Displays a change. Resolves when the change is displayed; only then does the session send the next one. */
   show(change: Change, pieces: Piece[]): Promise<void>;
   progress(progress: Progress): void;
-  /** Nobody answers, and why; undefined once somebody does again. */
+  /** Called with the reason when the server does not respond, and with undefined when it responds again. */
   stalled(reason: string | undefined): void;
 }
 
-export type Wait = (milliseconds: number) => Promise<void>;
+export type RetryDelay = (milliseconds: number) => Promise<void>;
 
-export type BaseDecoder = (bytes: Uint8Array, level: Level) => Promise<BaseMesh>;
+export type BaseDecoder = (bytes: Uint8Array, info: ModelInfo) => Promise<BaseMesh>;
 
-/** Requests under way at once. */
+/** Maximum number of concurrent requests. */
 const kWindow = 6;
-/** Bytes of a header and base mesh that a browser accepts. */
+/** Maximum size of header and base mesh, in bytes. */
 const kMaxHead = 256 * 1024 * 1024;
-/** Milliseconds before a lost request is tried again: twice as long each time. */
+/** Milliseconds before the first retry of a failed request. The wait doubles at each retry, up to kLongestWait. */
 const kFirstWait = 500, kLongestWait = 15_000;
 
 interface Fetch {
   bytes: Promise<Uint8Array>;
   abort: AbortController;
-  done: boolean;
+  isDone: boolean;
 }
 
 export class Session {
@@ -59,26 +59,27 @@ export class Session {
   #info: ModelInfo | undefined;
   #turn = 0;
   #showing: Promise<void> | undefined;
-  #stale = false;
+  #isStale = false;
   readonly #shown = new Shown();
-  #anew = false; // since the last state shown the decoder started over
-  #behind = false; // what is shown is further than the decoder
-  #stalled = false;
+  #isRenumbered = false; // whether the decoder was reset to the base mesh since the last state was shown
+  #isBehind = false; // whether the surface shown is finer than the decoder's surface
+  #isStalled = false;
 
   constructor(
     private readonly source: Source,
     private readonly decoder: ModelDecoder,
     private readonly decodeBase: BaseDecoder,
     private readonly sink: Sink,
-    /** Aborted by close(): what the source was asked for already ends with the rest. */
+    /** Aborted by close(); the caller may have started requests with its signal. */
     private readonly life = new AbortController(),
-    private readonly wait: Wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds)),
+    private readonly wait: RetryDelay = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds)),
   ) {}
 
-  /** Fetches header and base mesh and shows the base mesh: resolves when it is on display. Requests
-   * no enhancement layer. With `again` something finer is on display already, which stays until a
-   * want is reached. */
-  async open(again = false, asked = this.source.head(this.life.signal)): Promise<void> {
+  /**
+   * Fetches the header and base mesh. Resolves when the base mesh is displayed; requests no enhancement
+   * layer. With `isRestart`, a finer surface is displayed already and stays until a detail request is reached.
+   */
+  async open(isRestart = false, asked = this.source.head(this.life.signal)): Promise<void> {
     const { signal } = this.life;
     let head = await asked;
     head = await this.#extend(head, this.decoder.headerLength(head));
@@ -87,18 +88,18 @@ export class Session {
     head = await this.#extend(head, end);
     const base = head.subarray(info.baseOffset, end);
     this.decoder.checkBase(base);
-    this.decoder.start(await this.decodeBase(base, this.#level(0)));
+    this.decoder.start(await this.decodeBase(base, info));
     signal.throwIfAborted();
     this.sink.opened(info);
-    this.#behind = again;
+    this.#isBehind = isRestart;
     this.#present();
     await this.#showing;
   }
 
-  /** Refines (or coarsens) to `want`. True when it is reached and shown, false when superseded. */
+  /** Refines or coarsens to `want`. Resolves to true when it is reached and shown, to false if superseded. */
   async refine(want: Want): Promise<boolean> {
     const turn = ++this.#turn;
-    if (this.decoder.want(want)) this.#anew = this.#behind = true;
+    if (this.decoder.want(want)) this.#isRenumbered = this.#isBehind = true;
     const plan = this.#plan();
     const total = plan.reduce((sum, chunk) => sum + this.#chunk(chunk).length, this.decoder.bytesHeld);
     const ask = () => this.source.want?.("view" in want ? { view: { ...want.view, bytes: total } } : want, this.#held());
@@ -113,7 +114,7 @@ export class Session {
       if (turn !== this.#turn) return false;
     }
     this.decoder.trim();
-    this.#behind = false;
+    this.#isBehind = false;
     this.sink.progress({ bytes: this.decoder.bytesHeld, total });
     this.#present();
     while (this.#showing) await this.#showing;
@@ -137,16 +138,16 @@ export class Session {
     return joined;
   }
 
-  /** All chunks that are missing, in the planner's order. */
+  /** Returns the chunks that the detail request still needs, in the planner's order. */
   #plan(): number[] {
     const plan = [];
     for (let chunk = this.decoder.nextChunk(); chunk !== undefined; chunk = this.decoder.nextChunk()) plan.push(chunk);
     return plan;
   }
 
-  /** Chunks that need not come again, ascending. */
+  /** Returns the indices of the chunks already fetched, in ascending order. */
   #held(): number[] {
-    return [...this.#fetches].flatMap(([chunk, { done }]) => (done ? [chunk] : [])).sort((a, b) => a - b);
+    return [...this.#fetches].flatMap(([chunk, { isDone }]) => (isDone ? [chunk] : [])).sort((a, b) => a - b);
   }
 
   #fetch(chunk: number): Promise<Uint8Array> {
@@ -154,68 +155,72 @@ export class Session {
     if (known) return known.bytes;
     const abort = new AbortController();
     const bytes = this.source.getBytes(this.#chunk(chunk), abort.signal);
-    const fetch: Fetch = { bytes, abort, done: false };
+    const fetch: Fetch = { bytes, abort, isDone: false };
     this.#fetches.set(chunk, fetch);
     bytes.then(
-      () => (fetch.done = true),
+      () => (fetch.isDone = true),
       () => this.#fetches.get(chunk) === fetch && this.#fetches.delete(chunk),
     );
     return bytes;
   }
 
-  /** Ends the requests that `plan` has no use for. Finished ones stay: they can be applied again. */
+  /** Aborts the requests for chunks that are not in `plan`. Fetched chunks are kept; they can be applied again. */
   #abandon(plan: number[]): void {
     const wanted = new Set(plan);
-    for (const [chunk, { abort, done }] of this.#fetches) {
-      if (done || wanted.has(chunk)) continue;
+    for (const [chunk, { abort, isDone }] of this.#fetches) {
+      if (isDone || wanted.has(chunk)) continue;
       this.#fetches.delete(chunk);
       abort.abort();
     }
   }
 
-  /** False where the want was superseded meanwhile. A damaged chunk is fetched once more, a lost
-   * one until it comes. */
-  async #apply(chunk: number, ask: () => void, current: () => boolean): Promise<boolean> {
+  /**
+   * Fetches and applies a chunk. Resolves to false if the detail request was superseded meanwhile. If the chunk is
+   * damaged, fetches it a second time. If the server cannot be reached, retries until the chunk arrives.
+   */
+  async #apply(chunk: number, ask: () => void, isCurrent: () => boolean): Promise<boolean> {
     for (let damaged = 0, lost = 0; ; ) {
       try {
         const bytes = await this.#fetch(chunk);
-        if (!current()) return false;
+        if (!isCurrent()) return false;
         this.#stall(undefined);
         this.decoder.checkChunk(chunk, bytes);
         this.decoder.apply(chunk, bytes);
         return true;
       } catch (error) {
-        if (!current()) return false;
+        if (!isCurrent()) return false;
         this.#fetches.delete(chunk);
         if (error instanceof DamagedError ? ++damaged === 2 : !(error instanceof UnreachableError)) throw error;
         if (error instanceof DamagedError) continue;
         this.#stall((error as Error).message);
         await this.wait(Math.min(kFirstWait * 2 ** lost++, kLongestWait));
-        if (!current()) return false;
+        if (!isCurrent()) return false;
         ask();
       }
     }
   }
 
   #stall(reason: string | undefined): void {
-    if (this.#stalled || reason !== undefined) this.sink.stalled(reason);
-    this.#stalled = reason !== undefined;
+    if (this.#isStalled || reason !== undefined) this.sink.stalled(reason);
+    this.#isStalled = reason !== undefined;
   }
 
-  /** Shows the present state, or as soon as the one on its way to the screen is there; none that is
-   * coarser than what is shown, if it is only on the way to something. */
+  /**
+   * Shows the decoder's current state, immediately or after the state that is being displayed. Does nothing while
+   * that state is coarser than the surface shown.
+   */
   #present(): void {
-    if (this.#behind) return;
-    this.#stale = true;
+    if (this.#isBehind) return;
+    this.#isStale = true;
     this.#showing ??= this.#show().finally(() => (this.#showing = undefined));
-    this.#showing.catch(() => undefined); // whoever waits for the surface sees the failure
+    this.#showing.catch(() => undefined); // callers that wait for the surface receive the error
   }
 
   async #show(): Promise<void> {
-    while (this.#stale && !this.life.signal.aborted) {
-      this.#stale = false;
-      const { change, pieces } = this.#shown.change(this.decoder.surface(), this.decoder.parents, this.#anew);
-      this.#anew = false;
+    while (this.#isStale && !this.life.signal.aborted) {
+      this.#isStale = false;
+      const { change, pieces } = this.#shown.change(this.decoder.surface(), this.decoder.parents, this.#isRenumbered);
+      this.#isRenumbered = false;
       await this.sink.show(change, pieces);
     }
   }
@@ -231,7 +236,7 @@ export class Session {
   }
 }
 
-/** Lets messages in: another want, or the end. */
+/** Yields to the event loop, so that pending messages (a new detail request, close) are handled. */
 function breathe(): Promise<void> {
   return new Promise((resolve) => {
     const { port1, port2 } = new MessageChannel();

@@ -1,43 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the bytes of a model come from: the daemon's interface, or a bare .pmesh on any host.
-import { FileSource } from "./file-source.ts";
-import { ApiSource } from "./api-source.ts";
-import { StreamSource } from "./stream-source.ts";
+// The interface of the sources from which a model's bytes are read, and the errors that all sources share.
 import { ModelError, UnreachableError, type Want } from "./types.ts";
 
-/** How the daemon is asked: a URL per chunk, or a stream. "auto" is "http". */
+/** How to fetch from the daemon: one URL per chunk ("http"), or a WebSocket stream ("ws"). "auto" means "http". */
 export type Transport = "auto" | "http" | "ws";
 
 export interface ByteRange {
-  /** From the start of the .pmesh file. */
+  /** Position in bytes from the start of the .pmesh file. */
   offset: number;
   length: number;
-  /** The content's name, where it has one: 64 hexadecimal digits. */
+  /** SHA-256 of the content, if known: 64 hexadecimal digits. */
   sha256?: string;
-  /** Of a chunk. */
+  /** Level and region, if the range is a chunk. */
   level?: number;
   region?: number;
 }
 
 export interface Source {
-  /** The first bytes of the file: the header and, if that is one request, the base mesh. */
+  /** Resolves to the start of the file: the header and, if one request can fetch both, the base mesh. */
   head(signal: AbortSignal): Promise<Uint8Array>;
-  /** Exactly `range.length` bytes. Rejects with ModelError, or AbortError when aborted. */
+  /** Resolves to exactly `range.length` bytes. Rejects with ModelError, or with AbortError if aborted. */
   getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array>;
-  /** Tells a source that sends by itself what will be asked for; `have` is what need not come. */
+  /**
+   * Sends the detail request to the server, which then pushes the chunks that it needs. Missing in sources that only
+   * fetch chunks one by one. `have` lists the indices of the chunks that the client already has.
+   */
   want?(want: Want, have: number[]): void;
-  /** Ends what is under way. */
+  /** Ends pending transfers. */
   close(): void;
-}
-
-/** The source for the URL of a .pmesh file, of a model page or of an API model; a token goes to the daemon alone. */
-export function openSource(url: string, transport: Transport, token: string): Source {
-  const address = new URL(url);
-  // A model's id has no dot: /models/bust.pmesh is a file in a folder of that name.
-  const model = /^(.*?)\/(?:api\/v1\/)?models\/([^/.]+)\/?$/.exec(address.pathname);
-  if (!model) return new FileSource(url);
-  const api = `${address.origin}${model[1]}/api/v1`, id = model[2] ?? "";
-  return transport === "ws" && !token ? new StreamSource(api, id) : new ApiSource(api, id, token);
 }
 
 export async function readAll(response: Response, what: string): Promise<Uint8Array> {

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The daemon's WebSocket stream (server/stream/PROTOCOL.md): the server sends what the want needs,
-// without a request per chunk; the head comes first. What does not come that way is fetched over HTTP.
+// Client of the daemon's WebSocket stream (server/stream/PROTOCOL.md). The server sends the head first,
+// then the chunks that a detail request needs, without a request per chunk. Chunks that the stream does not send
+// are fetched over HTTP.
 import { ApiSource } from "./api-source.ts";
 import type { ByteRange, Source } from "./source.ts";
 import type { Want } from "./types.ts";
 
 const kSliceHeader = 16;
 const kMaxChunk = 64 * 1024 * 1024;
-const kMostRanges = 2048; // of one `have`: with them it is short enough for the server
+const kMostRanges = 2048; // maximum per `have` message, so that the message stays within the server's size limit
 const kHead = "0/0";
 
-/** A chunk of which slices have come: in order, but others may come in between. */
-interface Part {
+/** A partly received chunk. Its slices arrive in order, but slices of other chunks may arrive in between. */
+interface PartialChunk {
   bytes: Uint8Array;
   filled: number;
 }
 
 interface Waiter {
   take(bytes: Uint8Array): void;
-  /** It will not come. */
+  /** Called if the stream will not send the chunk. */
   miss(): void;
 }
 
@@ -29,10 +30,10 @@ export class StreamSource implements Source {
   readonly #waiting = new Map<string, Waiter>();
   #socket: WebSocket | undefined;
   #queue: object[] = [];
-  #busy = false; // a want is being served
-  #turn = 0; // of that want
-  #sha256 = ""; // of the model's file
-  readonly #parts = new Map<string, Part>();
+  #isBusy = false; // whether the server is still sending chunks for the current detail request
+  #turn = 0; // number of the current detail request
+  #sha256 = ""; // hash of the model's file
+  readonly #parts = new Map<string, PartialChunk>();
 
   constructor(
     private readonly api: string,
@@ -50,7 +51,7 @@ export class StreamSource implements Source {
 
   want(want: Want, have: number[]): void {
     if (!this.#socket || this.#socket.readyState > WebSocket.OPEN) this.#connect();
-    this.#busy = true;
+    this.#isBusy = true;
     const held = pairs(have);
     for (let at = 0; at < held.length; at += kMostRanges) this.#send({ type: "have", chunks: held.slice(at, at + kMostRanges) });
     this.#send({ type: "want", turn: ++this.#turn, ...want });
@@ -58,8 +59,8 @@ export class StreamSource implements Source {
 
   async getBytes(range: ByteRange, signal: AbortSignal): Promise<Uint8Array> {
     const key = `${range.level}/${range.region}`;
-    const streamed = this.#busy && !this.#taken.has(key);
-    const bytes = this.#arrived.get(key) ?? (streamed ? await this.#wait(key, signal) : undefined);
+    const isStreamed = this.#isBusy && !this.#taken.has(key);
+    const bytes = this.#arrived.get(key) ?? (isStreamed ? await this.#wait(key, signal) : undefined);
     if (bytes?.length !== range.length) return this.#http.getBytes(range, signal);
     this.#arrived.delete(key);
     this.#taken.add(key);
@@ -80,10 +81,10 @@ export class StreamSource implements Source {
     socket.onopen = () => this.#queue.splice(0).forEach((message) => this.#send(message));
     socket.onmessage = ({ data }) => {
       try {
-        if (typeof data === "string") this.#told(data);
+        if (typeof data === "string") this.#receiveText(data);
         else this.#receive(data as ArrayBuffer);
       } catch {
-        socket.close(1000); // no message of pmesh.v1: HTTP has the rest
+        socket.close(1000); // not a pmesh.v1 message: fetch the rest over HTTP
       }
     };
     socket.onclose = () => socket === this.#socket && this.#miss();
@@ -94,10 +95,10 @@ export class StreamSource implements Source {
     else this.#queue.push(message);
   }
 
-  #told(text: string): void {
+  #receiveText(text: string): void {
     const message = JSON.parse(text) as { type?: unknown; turn?: unknown; sha256?: unknown };
     if (message.type === "model") {
-      if (this.#sha256 && message.sha256 !== this.#sha256) return this.#socket?.close(1000); // its chunks are others
+      if (this.#sha256 && message.sha256 !== this.#sha256) return this.#socket?.close(1000); // the file was replaced, so its chunks differ
       this.#sha256 = String(message.sha256);
     }
     if (message.type === "done" && message.turn === this.#turn) this.#miss();
@@ -125,9 +126,9 @@ export class StreamSource implements Source {
     this.#waiting.get(key)?.take(bytes);
   }
 
-  /** The stream has nothing more to send: who still waits goes over HTTP. */
+  /** Called when the stream sends no more chunks for now. Chunks that are still awaited are then fetched over HTTP. */
   #miss(): void {
-    this.#busy = false;
+    this.#isBusy = false;
     for (const waiter of this.#waiting.values()) waiter.miss();
   }
 
@@ -146,7 +147,7 @@ export class StreamSource implements Source {
   }
 }
 
-/** Ascending indices as inclusive pairs. */
+/** Converts ascending indices to inclusive [first, last] ranges. */
 export function pairs(indices: number[]): [number, number][] {
   const out: [number, number][] = [];
   for (const index of indices) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** A module bundled on its own, as the text of a classic script (build.mjs). */
+/** The text of a file: a script that build.mjs bundles separately as a classic script, or a style sheet. */
 declare module "*?text" {
   const text: string;
   export default text;

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stages of the viewer hand to each other. Nothing here knows of three.js or the DOM.
+// The types that the stages of the viewer exchange; they depend on neither three.js nor the DOM.
+import type { Attribute, Semantic } from "./attributes.ts";
 
-/** What a perspective camera sees of a model. */
-export interface View {
-  /** From the camera's coordinates to the model's, 16 numbers column by column; the camera looks along its -z. */
+/** The view of a perspective camera on a model, with limits on the detail. */
+export interface CameraView {
+  /** 4x4 matrix from camera to model coordinates, 16 numbers in column-major order. The camera looks along its -z axis. */
   camera: number[];
-  /** From bottom to top, degrees. */
+  /** Vertical field of view, degrees. */
   fov: number;
-  /** Of the viewport, device pixels. */
+  /** Size of the viewport in device pixels. */
   width: number;
   height: number;
-  /** The error that may be seen, device pixels. */
+  /** Largest acceptable screen-space error, device pixels. */
   pixels: number;
-  /** The most to hold, header and base mesh included. */
+  /** Maximum size of the model in bytes and triangles, including header and base mesh. */
   bytes?: number;
   triangles?: number;
 }
 
-/** How much of a model is asked for. `error` is in model units; level 0 is the base mesh. */
-export type Want = { triangles: number } | { bytes: number } | { error: number } | { level: number } | { view: View };
+/** A detail request. `error` is in model units; level 0 is the base mesh. */
+export type Want = { triangles: number } | { bytes: number } | { error: number } | { level: number } | { view: CameraView };
 
 export interface Level {
   vertices: number;
   faces: number;
-  /** Model units. */
+  /** Errors in model units. */
   maxError: number;
   rmsError: number;
   /** Bytes of the file up to and including this level. */
@@ -33,7 +34,7 @@ export interface Level {
 export interface Chunk {
   level: number;
   region: number;
-  /** From the start of the file, bytes. */
+  /** Position in the file, in bytes from the start. */
   offset: number;
   length: number;
   /** 64 lower-case hexadecimal digits. */
@@ -41,19 +42,19 @@ export interface Chunk {
 }
 
 export interface ModelInfo {
-  /** From the base mesh (levels[0]) to full resolution. */
+  /** All levels: levels[0] is the base mesh, and the last one is full resolution. */
   levels: Level[];
   chunks: Chunk[];
   baseOffset: number;
   baseLength: number;
   fileBytes: number;
-  coloured: boolean;
-  /** Lattice bits per coordinate, and one lattice unit in model units. */
+  attributes: Semantic[];
+  /** Lattice bits per coordinate, and the lattice step in model units. */
   bits: number;
   step: number;
-  /** The unit of the model's coordinates, or "" where unknown. */
+  /** The unit of the model's coordinates, or "" if unknown. */
   unit: string;
-  /** Where the surface's origin lies in model coordinates. */
+  /** The surface's origin in model coordinates. */
   centre: [number, number, number];
 }
 
@@ -61,57 +62,62 @@ export interface ModelInfo {
 export interface Surface {
   triangles: number;
   vertices: number;
-  /** Bytes that this state took, header and base mesh included. */
+  /** Bytes downloaded for this state, including header and base mesh. */
   bytes: number;
-  /** 3 a vertex, model units from `ModelInfo.centre`. */
+  /** 3 coordinates per vertex, in model units relative to `ModelInfo.centre`. */
   positions: Float32Array;
-  /** 4 a vertex: the unit normal times 32767, and 0. */
+  /** 4 numbers per vertex: the unit normal times 32767, and 0. */
   normals: Int16Array;
-  /** 4 a vertex, linear light, 65535 is 1; absent where the model has no colours. */
-  colours: Uint16Array | undefined;
-  /** 3 a triangle. */
+  /** The model's attributes, each with the width given in attributes.ts. Colours are linear; 65535 stands for 1. */
+  attributes: Attribute<Uint16Array>[];
+  /** 3 vertex indices per triangle. */
   indices: Uint32Array;
 }
 
-/** The arrays of a surface; `from…` say where a vertex moves from: 4 numbers each, the change's number behind the place. */
-export type Part = "positions" | "normals" | "colours" | "indices" | "fromPositions" | "fromNormals";
+export type NumericArray = Float32Array | Int16Array | Uint16Array | Uint32Array;
 
-/** The next state of the surface: what is new in it comes in `blocks`. */
+/**
+ * Names of the arrays of a surface. The `from…` arrays have 4 numbers per vertex: the position or normal from which
+ * the vertex morphs. In `fromPositions`, the fourth is the number of the change that moves the vertex.
+ */
+export type SurfaceArray = "positions" | "normals" | Semantic | "indices" | "fromPositions" | "fromNormals";
+
+/** The next state of the surface. Its new data follow in `blocks` blocks. */
 export interface Change extends Pick<Surface, "triangles" | "vertices" | "bytes"> {
-  /** Counts the changes from 1 on. */
+  /** Number of the change, counted from 1. */
   number: number;
   blocks: number;
 }
 
-/** Vertices or faces of one array, from the `first` on, in the layout of Surface. */
+/** A range of vertices or faces in one array of a surface. */
 export interface Place {
-  part: Part;
+  part: SurfaceArray;
   first: number;
   count: number;
 }
 
-/** `buffer` begins with the numbers of that place and is lent: give it back. */
+/** The data of a range, at the start of `buffer`. The buffer is borrowed and must be given back. */
 export interface Block extends Place {
   buffer: ArrayBuffer;
 }
 
 export interface Progress {
-  /** Bytes of the state on the way, and of the state asked for. */
+  /** Bytes of the current state; `total` is the number of bytes of the requested state. */
   bytes: number;
   total: number;
 }
 
-/** A failure that a person can act on. */
+/** An error whose message tells the user what to do. */
 export class ModelError extends Error {
   override name: string = "ModelError";
 }
 
-/** Bytes that differ from what their name says: worth a second try. */
+/** The received bytes do not match their hash or length; a second attempt may succeed. */
 export class DamagedError extends ModelError {
   override name = "DamagedError";
 }
 
-/** Nobody answers, or with "later": worth a try once some time has passed. */
+/** The server does not respond or is overloaded (429, 5xx); a later attempt may succeed. */
 export class UnreachableError extends ModelError {
   override name = "UnreachableError";
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worker: fetches, decodes and plans for every model of a page, so that the page never waits.
+// The worker: fetches, decodes and plans for all models of a page, so that the page stays responsive.
 import type { Piece } from "./change.ts";
 import { Decoder } from "./decoder.ts";
 import { decodeBase, type DracoModule } from "./draco.ts";
 import { Lending } from "./lending.ts";
 import type { Assets, FromWorker, ToWorker } from "./messages.ts";
 import { Session, type Sink } from "./session.ts";
-import { openSource, readAll } from "./source.ts";
+import { openSource } from "./open-source.ts";
+import { readAll } from "./source.ts";
 import { ModelError } from "./types.ts";
 
 declare const self: {
@@ -18,16 +19,16 @@ declare const DracoDecoderModule: (options: { wasmBinary: Uint8Array }) => Promi
 
 type Address = Pick<Extract<ToWorker, { type: "open" }>, "url" | "transport" | "token">;
 
-interface Model {
+interface WorkerModel {
   session: Promise<Session>;
-  /** Its base mesh is there. */
+  /** Resolves when the base mesh is displayed. */
   opened: Promise<void>;
-  /** For the change that is on its way to the page. */
+  /** Buffers for the change that is being sent to the page. */
   lending: Lending;
   shown: () => void;
 }
 
-const models = new Map<number, Model>();
+const models = new Map<number, WorkerModel>();
 let wasm: Promise<WebAssembly.Module> | undefined;
 let draco: Promise<DracoModule> | undefined;
 
@@ -39,29 +40,29 @@ self.onmessage = ({ data }) => {
   else close(data.id);
 };
 
-function open({ id, again, assets, ...address }: Extract<ToWorker, { type: "open" }>): void {
+function open({ id, isRestart, assets, ...address }: Extract<ToWorker, { type: "open" }>): void {
   const session = create(id, address, assets);
-  const opened = session.then(({ session: created, head }) => created.open(again, head));
+  const opened = session.then(({ session: created, head }) => created.open(isRestart, head));
   models.set(id, { session: session.then((created) => created.session), opened, lending: new Lending(), shown: () => undefined });
   opened
     .then(() => self.postMessage({ type: "ready", id }))
     .catch((error) => fail(id, undefined, error));
 }
 
-/** Asks for everything at once: the model's head does not wait for what decodes it. */
+/** Starts all downloads in parallel: the model's head does not wait for the decoders. */
 async function create(id: number, { url, transport, token }: Address, assets: Assets): Promise<{ session: Session; head: Promise<Uint8Array> }> {
   const source = openSource(url, transport, token), life = new AbortController();
   const head = source.head(life.signal);
   wasm ??= compile(assets.wasm);
   draco ??= loadDraco(assets);
-  // Failures are reported where they are waited for; the next model tries again.
+  // Failures are reported where the promises are awaited. The next model that is opened loads the files again.
   head.catch(() => undefined);
   wasm.catch(() => (wasm = undefined));
   draco.catch(() => (draco = undefined));
   const loaded = draco;
   try {
     const decoder = await Decoder.create(await wasm);
-    return { session: new Session(source, decoder, async (bytes, level) => decodeBase(await loaded, bytes, level), sink(id), life), head };
+    return { session: new Session(source, decoder, async (bytes, info) => decodeBase(await loaded, bytes, info), sink(id), life), head };
   } catch (error) {
     life.abort();
     source.close();
@@ -85,7 +86,7 @@ function sink(id: number): Sink {
   };
 }
 
-/** Sends the pieces as fast as buffers come back. False where the model was closed meanwhile. */
+/** Sends the pieces as fast as buffers are returned. Resolves to false if the model was closed meanwhile. */
 async function lend(id: number, pieces: Piece[], lending: Lending): Promise<boolean> {
   for (const { part, first, count, write } of pieces) {
     const buffer = await lending.borrow();
@@ -100,8 +101,8 @@ async function refine({ id, turn, want }: Extract<ToWorker, { type: "refine" }>)
   try {
     const model = models.get(id);
     await model?.opened;
-    const reached = (await (await model?.session)?.refine(want)) ?? false;
-    self.postMessage({ type: "settled", id, turn, reached });
+    const isReached = (await (await model?.session)?.refine(want)) ?? false;
+    self.postMessage({ type: "settled", id, turn, isReached });
   } catch (error) {
     fail(id, turn, error);
   }
@@ -133,7 +134,7 @@ async function compile(url: string): Promise<WebAssembly.Module> {
 
 async function loadDraco(assets: Assets): Promise<DracoModule> {
   const binary = fetch(assets.dracoWasm).then((response) => readAll(response, "the decoder of base meshes"));
-  binary.catch(() => undefined); // told below, unless the script fails first
+  binary.catch(() => undefined); // a failure is reported below, unless the script fails first
   importScripts(assets.dracoScript);
   return DracoDecoderModule({ wasmBinary: await binary });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "/docs": the interface as its OpenAPI document tells it. Nothing is loaded from elsewhere.
-import { callsOf, type Call, type Document, type Field } from "./openapi.ts";
+// The page "/docs", which shows the API's OpenAPI document. It loads nothing from other servers.
+import { callsOf, type ApiOperation, type Document, type FieldRow } from "./openapi.ts";
 import { texts as words } from "./texts.ts";
 
 function element<Tag extends keyof HTMLElementTagNameMap>(
@@ -14,22 +14,22 @@ function element<Tag extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** `code` between backquotes. */
+/** Converts text with `code` in backquotes to nodes. */
 function prose(text: string): Node[] {
   return text.split("`").map((part, i) => (i % 2 ? element("code", part) : document.createTextNode(part)));
 }
 
-function table(caption: string, fields: Field[]): Node[] {
+function table(caption: string, fields: FieldRow[]): Node[] {
   if (fields.length === 0) return [];
-  const rows = fields.map(({ name, type, required, about }) => {
+  const rows = fields.map(({ name, type, isRequired, about }) => {
     const row = element("tr", "", [element("th", "", [element("code", name)]), element("td", type), element("td", "", prose(about))]);
-    row.className = required ? "required" : "";
+    row.className = isRequired ? "required" : "";
     return row;
   });
   return [element("table", "", [element("caption", caption), element("tbody", "", rows)])];
 }
 
-function article(call: Call): HTMLElement {
+function article(call: ApiOperation): HTMLElement {
   const method = element("span", call.method);
   method.className = "method";
   const heading = element("h3", "", [method, element("code", call.path)]);

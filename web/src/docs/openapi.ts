@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of an OpenAPI document that the page shows, as flat lists.
+// Converts an OpenAPI document to the flat lists that the page /docs shows.
 export interface Schema {
   $ref?: string;
   type?: string | string[];
@@ -44,31 +44,31 @@ export interface Document {
   components: { schemas: Record<string, Schema>; parameters: Record<string, Parameter> };
 }
 
-/** A row of a table: what is said or answered under a name. */
-export interface Field {
+/** A row of a table: a parameter, or a member of a request or response body. */
+export interface FieldRow {
   name: string;
   type: string;
-  required: boolean;
+  isRequired: boolean;
   about: string;
 }
 
-export interface Call {
+export interface ApiOperation {
   id: string;
   noun: string;
   method: string;
   path: string;
   summary: string;
   role: string | null;
-  parameters: Field[];
-  body: Field[];
+  parameters: FieldRow[];
+  body: FieldRow[];
   status: string;
   answer: string;
-  fields: Field[];
+  fields: FieldRow[];
 }
 
 const nameOf = (ref: string): string => ref.slice(ref.lastIndexOf("/") + 1);
 
-/** In words: "integer, 1 to 200, default 50", "list of Model". */
+/** Describes a schema in words: "integer, 1 to 200, default 50", "list of Model". */
 export function describe(schema: Schema): string {
   if (schema.$ref) return nameOf(schema.$ref);
   if (schema.const !== undefined) return JSON.stringify(schema.const);
@@ -85,26 +85,26 @@ function withDefault(text: string, schema: Schema): string {
   return schema.default === undefined ? text : `${text}, default ${String(schema.default)}`;
 }
 
-/** The members of an object, those of the schemas that it is made of included. */
-export function fieldsOf(schema: Schema | undefined, document: Document): Field[] {
+/** Returns the members of an object schema, including those of the schemas in its `allOf`. */
+export function fieldsOf(schema: Schema | undefined, document: Document): FieldRow[] {
   if (!schema) return [];
   if (schema.$ref) return fieldsOf(document.components.schemas[nameOf(schema.$ref)], document);
   const own = Object.entries(schema.properties ?? {}).map(([name, value]) => ({
     name,
     type: describe(value),
-    required: schema.required?.includes(name) ?? false,
+    isRequired: schema.required?.includes(name) ?? false,
     about: value.description ?? "",
   }));
   return [...own, ...(schema.allOf ?? []).flatMap((part) => fieldsOf(part, document))];
 }
 
-export function callsOf(document: Document): Call[] {
+export function callsOf(document: Document): ApiOperation[] {
   return Object.entries(document.paths).flatMap(([path, methods]) =>
     Object.entries(methods).map(([method, operation]) => callOf(path, method, operation, document)),
   );
 }
 
-function callOf(path: string, method: string, operation: Operation, document: Document): Call {
+function callOf(path: string, method: string, operation: Operation, document: Document): ApiOperation {
   const status = Object.keys(operation.responses).find((key) => key !== "default") ?? "";
   const [type, media] = Object.entries(operation.responses[status]?.content ?? {})[0] ?? ["", {}];
   const schema = (media as Media).schema;
@@ -123,13 +123,13 @@ function callOf(path: string, method: string, operation: Operation, document: Do
   };
 }
 
-function fieldOf(parameter: Parameter | undefined): Field {
+function fieldOf(parameter: Parameter | undefined): FieldRow {
   if (!parameter) throw new Error("a parameter is not in the document");
   const where = parameter.in === "query" ? "" : ` (${parameter.in})`;
   return {
     name: parameter.name,
     type: describe(parameter.schema) + where,
-    required: parameter.required ?? false,
+    isRequired: parameter.required ?? false,
     about: parameter.description ?? "",
   };
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a reader of the page /docs reads around the interface's own words, which are English.
+// The texts of the page /docs, in English like the documentation of the API itself.
 export const texts = {
-  title: "Interface",
+  title: "API",
   parameters: "Parameters",
   body: "Body (JSON)",
   fields: "Members",
-  role: (role: string) => `Needs a token with the role ${role}.`,
-  answer: (status: string, what: string) => `Answers ${status}: ${what}`,
-  answerOnly: (status: string) => `Answers ${status}.`,
-  failed: "The description cannot be reached. Reload the page to try again.",
+  role: (role: string) => `Requires a token with the role ${role}.`,
+  answer: (status: string, what: string) => `Returns ${status}: ${what}`,
+  answerOnly: (status: string) => `Returns ${status}.`,
+  failed: "The API description cannot be loaded. Reload the page to try again.",
 };

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of camera-orbit, camera-target and field-of-view, as model-viewer has them.
+// Parses the attributes camera-orbit, camera-target and field-of-view, with the syntax of model-viewer.
 
-/** Where a camera stands: around the upright axis, down from it (radians), and how far from its target (model units). */
-export interface Orbit {
+/** A camera position in spherical coordinates: azimuth theta and polar angle phi in radians, distance from the target in model units. */
+export interface CameraOrbit {
   theta: number;
   phi: number;
   radius: number;
 }
 
-export type Point = [number, number, number];
+export type Vec3 = [number, number, number];
 
 const kMetres: Record<string, number> = { m: 1, cm: 0.01, mm: 0.001, in: 0.0254 };
 const kRadians: Record<string, number> = { rad: 1, deg: Math.PI / 180 };
 
-/** "30deg 75deg 105%". What is `auto`, left out or no such word is as in `framed`, of which % is a part. */
-export function orbitOf(words: string | null, framed: Orbit, unit: string): Orbit {
+/**
+ * Parses a camera position such as "30deg 75deg 105%". A part that is `auto`, missing or malformed is taken from
+ * `framed`. A percentage is relative to the radius of `framed`.
+ */
+export function orbitOf(words: string | null, framed: CameraOrbit, unit: string): CameraOrbit {
   const [theta, phi, radius] = split(words);
   return {
     theta: angle(theta) ?? framed.theta,
@@ -23,13 +26,19 @@ export function orbitOf(words: string | null, framed: Orbit, unit: string): Orbi
   };
 }
 
-/** "0.1m 0m 20mm", in model coordinates; `auto` is the middle of the model. */
-export function targetOf(words: string | null, centre: Point, unit: string): Point {
+/**
+ * Parses a point such as "0.1m 0m 20mm" and returns it in model coordinates. A part that is `auto`, missing or
+ * malformed is taken from `centre`.
+ */
+export function targetOf(words: string | null, centre: Vec3, unit: string): Vec3 {
   const parts = split(words);
-  return centre.map((middle, axis) => length(parts[axis], unit) ?? middle) as Point;
+  return centre.map((middle, axis) => length(parts[axis], unit) ?? middle) as Vec3;
 }
 
-/** "30deg" as degrees, between 1 and 120. */
+/**
+ * Parses an angle such as "30deg" and returns it in degrees, limited to 1 to 120. Returns `otherwise` if it is missing
+ * or malformed.
+ */
 export function fieldOfViewOf(words: string | null, otherwise: number): number {
   const radians = angle(split(words)[0]);
   return radians === undefined ? otherwise : Math.min(Math.max(radians / (kRadians.deg as number), 1), 120);
@@ -49,7 +58,7 @@ function angle(word: string | undefined): number | undefined {
   return scaled(value, kRadians[unit ?? ""]);
 }
 
-/** In model units; a model without a unit is taken for one in metres. */
+/** Parses a length such as "20mm" and returns it in model units. A model without a unit is assumed to be in metres. */
 function length(word: string | undefined, unit: string): number | undefined {
   const [, value, given] = /^(.*?)(mm|cm|m)$/.exec(word ?? "") ?? [];
   return scaled(value, (kMetres[given ?? ""] ?? NaN) / (kMetres[unit] ?? 1));

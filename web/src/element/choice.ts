@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visitor's choice of detail: lowest, one level finer, or highest, each with its size and the wait
-// to expect; the slider in between; and the badge that tells what is shown.
+// The visitor's controls of detail. Buttons request the lowest level, the next finer one or the highest, and show its
+// size and estimated waiting time. A slider requests any detail between. A badge describes the surface shown.
 import type { ModelInfo, Want } from "../core/types.ts";
 import { inMillimetres } from "../texts/formats.ts";
-import type { Texts } from "../texts/index.ts";
+import type { ViewerTexts } from "../texts/index.ts";
 import { completeLevel, nextLevel, Throughput } from "./quality.ts";
 
 export const kChoice = `
@@ -17,15 +17,15 @@ export const kChoice = `
     <output aria-live="off"><span class="triangles"></span><span class="bytes"></span><span class="error"></span></output>
   </div>`;
 
-type Name = "lowest" | "refine" | "highest";
+type ChoiceName = "lowest" | "refine" | "highest";
 
 export class Choice {
   onChoose: (want: Want) => void = () => undefined;
   readonly #line = new Throughput();
   #info: ModelInfo | undefined;
-  #triangles = 0; // shown
-  #again: (() => void) | undefined; // writes what is shown
-  #texts: Texts | undefined; // which come on their own
+  #triangles = 0; // number of triangles shown now
+  #again: (() => void) | undefined; // function that repeats the last call of show()
+  #texts: ViewerTexts | undefined; // undefined until the texts have been loaded
 
   constructor(private readonly root: ParentNode) {
     this.#button("lowest").addEventListener("click", () => this.onChoose({ level: 0 }));
@@ -33,7 +33,7 @@ export class Choice {
     this.#button("highest").addEventListener("click", () => this.onChoose({ level: this.#finest }));
   }
 
-  set texts(texts: Texts) {
+  set texts(texts: ViewerTexts) {
     this.#texts = texts;
     if (this.#again) this.#again();
     else this.#tell();
@@ -43,7 +43,7 @@ export class Choice {
     return this.#triangles;
   }
 
-  /** From now on bytes are on their way. */
+  /** Called when a download begins; starts measuring the throughput. */
   begin(): void {
     this.#line.begin(performance.now());
   }
@@ -56,7 +56,7 @@ export class Choice {
   enable(info: ModelInfo): void {
     this.#info = info;
     this.#line.sample(this.#bytesOf(0), performance.now());
-    this.#again?.(); // the base mesh is shown already
+    this.#again?.(); // show() was called for the base mesh before the controls were enabled
   }
 
   disable(): void {
@@ -64,9 +64,12 @@ export class Choice {
     for (const name of ["lowest", "refine", "highest"] as const) this.#button(name).disabled = true;
   }
 
-  /** `bounded`: the model is refined everywhere alike, so that its level's error holds. */
-  show({ triangles, bytes }: { triangles: number; bytes: number }, bounded: boolean): void {
-    this.#again = () => this.show({ triangles, bytes }, bounded);
+  /**
+   * Shows the current state. `isBounded` is true if the model is refined uniformly, so that its level's error bound
+   * applies.
+   */
+  show({ triangles, bytes }: { triangles: number; bytes: number }, isBounded: boolean): void {
+    this.#again = () => this.show({ triangles, bytes }, isBounded);
     this.#triangles = triangles;
     const texts = this.#texts;
     if (!texts || !this.#info) return;
@@ -74,7 +77,7 @@ export class Choice {
     this.#write(".triangles", counted);
     this.#write(".bytes", texts.bytes(bytes, this.#info.fileBytes));
     const error = completeLevel(this.#info, triangles).maxError;
-    this.#write(".error", bounded ? texts.error(...inMillimetres(error, this.#info.unit)) : "");
+    this.#write(".error", isBounded ? texts.error(...inMillimetres(error, this.#info.unit)) : "");
     this.root.querySelector("[name=detail]")?.setAttribute("aria-valuetext", counted);
     this.#tell();
   }
@@ -88,10 +91,10 @@ export class Choice {
     const refine = next === undefined
       ? this.#offer("refine", texts.complete)
       : this.#offer("refine", texts.more(this.#bytesOf(next) - this.#bytesOf(next - 1)), this.#wait(texts, this.#bytesOf(next)));
-    refine.ariaDisabled = String(next === undefined); // not `disabled`: it would lose the focus
+    refine.ariaDisabled = String(next === undefined); // not `disabled`, which would lose the focus
   }
 
-  #offer(name: Name, ...facts: string[]): HTMLButtonElement {
+  #offer(name: ChoiceName, ...facts: string[]): HTMLButtonElement {
     const button = this.#button(name);
     const parts = facts.filter(Boolean).flatMap((fact) => [Object.assign(document.createElement("span"), { textContent: fact }), " "]);
     button.querySelector("small")?.replaceChildren(...parts.slice(0, -1));
@@ -99,8 +102,8 @@ export class Choice {
     return button;
   }
 
-  /** Until `bytes` are there, in words; nothing before the line has been measured. */
-  #wait(texts: Texts, bytes: number): string {
+  /** Returns the estimated time until `bytes` are downloaded, as text; empty before the throughput has been measured. */
+  #wait(texts: ViewerTexts, bytes: number): string {
     const seconds = this.#line.secondsTo(bytes);
     if (seconds === undefined) return "";
     return seconds < 0.5 ? texts.atOnce : texts.wait(seconds);
@@ -116,7 +119,7 @@ export class Choice {
     return (this.#info?.levels.length ?? 1) - 1;
   }
 
-  #button(name: Name): HTMLButtonElement {
+  #button(name: ChoiceName): HTMLButtonElement {
     return this.root.querySelector(`[name=${name}]`) as HTMLButtonElement;
   }
   #write(selector: string, text: string): void {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shadow tree of <progressive-mesh>: picture, poster, messages, the choice of detail, and the place
-// of the tools, which come later (tools/toolbox.ts).
+// The shadow tree of <progressive-mesh>: canvas, poster, messages, the controls of detail, and the container for
+// the tools (tools/toolbox.ts), which are loaded later.
 import type { ModelInfo, Want } from "../core/types.ts";
-import type { Texts } from "../texts/index.ts";
+import type { ViewerTexts } from "../texts/index.ts";
 import { Choice, kChoice } from "./choice.ts";
 import style from "./element.css?text";
 
@@ -21,11 +21,11 @@ const kTemplate = `
 export class Panel {
   onDetail: (fraction: number) => void = () => undefined;
   readonly choice: Choice;
-  #held = false;
+  #isHeld = false;
   #alt = "";
-  #texts: Texts | undefined;
+  #texts: ViewerTexts | undefined;
 
-  /** The place of the picture. */
+  /** The container of the canvas. */
   readonly view: HTMLElement;
 
   constructor(readonly root: ShadowRoot) {
@@ -33,7 +33,7 @@ export class Panel {
     this.view = this.#find(".view");
     this.choice = new Choice(root);
     this.#detail.addEventListener("input", () => {
-      this.#held = true;
+      this.#isHeld = true;
       this.onDetail(Number(this.#detail.value) / 1000);
     });
     this.#find("form").addEventListener("submit", (event) => event.preventDefault());
@@ -41,13 +41,13 @@ export class Panel {
 
   set onChoose(choose: (want: Want) => void) {
     this.choice.onChoose = (want) => {
-      this.#held = false;
+      this.#isHeld = false;
       choose(want);
     };
   }
 
   /** Writes all texts that do not depend on the model. */
-  set texts(texts: Texts) {
+  set texts(texts: ViewerTexts) {
     this.#texts = this.choice.texts = texts;
     const write = (name: string, use: (place: Element, text: string) => void) => {
       for (const place of this.root.querySelectorAll(`[data-${name}]`)) use(place, texts[place.getAttribute(`data-${name}`) as "keys"]);
@@ -62,7 +62,7 @@ export class Panel {
     if (this.#texts) this.#find("canvas").setAttribute("aria-label", this.#texts.viewOf(text));
   }
 
-  /** A canvas that has no WebGL context yet, in the place of the old one. */
+  /** Replaces the canvas by one that has no WebGL context yet, and returns it. */
   newCanvas(): HTMLCanvasElement {
     const old = this.#find("canvas");
     const fresh = old.cloneNode() as HTMLCanvasElement;
@@ -70,9 +70,9 @@ export class Panel {
     return fresh;
   }
 
-  /** As before the first model. */
+  /** Restores the panel's initial state, without a model. */
   reset(): void {
-    this.#held = false;
+    this.#isHeld = false;
     this.message = "";
     this.progress = 0;
     this.#detail.disabled = true;
@@ -92,16 +92,16 @@ export class Panel {
     this.#find("slot[name=poster]").hidden = true;
   }
 
-  /** The model is there: the controls make sense now. */
+  /** Enables the controls when the model is loaded. */
   enable(info: ModelInfo): void {
     this.#detail.disabled = false;
     this.choice.enable(info);
     this.#find("form").classList.add("ready");
   }
 
-  /** Moves the slider along with the model, until the visitor has taken hold of it. */
+  /** Moves the slider to the detail shown, unless the visitor has set the slider. */
   follow(fraction: number): void {
-    if (!this.#held) this.#detail.value = String(Math.round(1000 * fraction));
+    if (!this.#isHeld) this.#detail.value = String(Math.round(1000 * fraction));
   }
 
   set progress(fraction: number) {

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// <progressive-mesh src poster alt>
+// The custom element <progressive-mesh>.
 import { RemoteModel, assetsBeside } from "../core/client.ts";
 import type { Transport } from "../core/source.ts";
 import { ModelError, type Level, type Want } from "../core/types.ts";
-import { textsFor, type Texts } from "../texts/index.ts";
+import { textsFor, type ViewerTexts } from "../texts/index.ts";
 import { Panel } from "./panel.ts";
 import type { CameraWords, Stage } from "./stage.ts";
 import type { Toolbox } from "./tools/toolbox.ts";
 
-/** Milliseconds between two looks at what a moving camera needs. */
+/** Milliseconds between two detail requests while the camera moves. */
 const kLook = 200;
 
 const kCamera = ["camera-orbit", "camera-target", "field-of-view"];
 const kAmounts = ["max-triangles", "max-bytes", "target-error", "pixel-error"];
 
 /**
- * Shows one model and sharpens it. Attributes, all of which may change at any time; those without
- * a word about them are as in model-viewer:
- * - `src` (the URL of a .pmesh file, a model page or an API model), `poster`, `alt`, which are properties, too;
- * - `loading` (eager, or lazy: once it is near the viewport), `reveal` (auto, or manual: the poster stays until dismissPoster());
+ * Shows one model and refines it. All attributes may change at any time; those without a description work
+ * as in model-viewer:
+ * - `src` (the URL of a .pmesh file, a model page or an API model), `poster` and `alt`, which are also properties;
+ * - `loading` (eager, or lazy: loads when near the viewport), `reveal` (auto, or manual: the poster stays until dismissPoster());
  * - `camera-controls`, `touch-action` (pan-y), `camera-orbit`, `camera-target`, `field-of-view`, `auto-rotate`;
- * - `pixel-error` (1): fetches what its camera sees, to an error of so many device pixels, and goes on as that moves;
- *   0 is all there is. One of `max-triangles`, `max-bytes` and `target-error` (model units) asks for a fixed state instead;
+ * - `pixel-error` (default 1): fetches what the camera sees, to an error of this many device pixels, and continues as the camera
+ *   moves; 0 fetches the whole model. One of `max-triangles`, `max-bytes` and `target-error` (model units) requests a fixed state instead;
  * - `transport` (auto, http or ws).
- * Events: `first-paint` (the base mesh is on the screen, no enhancement layer has been asked for
+ * Events: `first-paint` (the base mesh is on the screen, no enhancement layer has been requested
  * yet), `progress` {bytes, total}, `refine` {triangles, vertices, bytes} for each state shown,
- * `load` (what was asked for is reached), `error` {message}, `camera-change` {source}.
+ * `load` (the requested detail is reached), `error` {message}, `camera-change` {source}.
  */
 export class ProgressiveMeshElement extends HTMLElement {
   static readonly observedAttributes = [
@@ -38,16 +38,16 @@ export class ProgressiveMeshElement extends HTMLElement {
   readonly #near = new IntersectionObserver((seen) => seen.some(({ isIntersecting }) => isIntersecting) && void this.#load(), { rootMargin: "50%" });
   #model: RemoteModel | undefined;
   #stage: Stage | undefined;
-  #painted = false; // the stage shows its base mesh: it can be refined and dressed
+  #isPainted = false; // whether the base mesh is on the screen, so that the model can be refined and the tools attached
   #loads = 0;
   #looking: ReturnType<typeof setTimeout> | undefined;
-  #chosen = false; // by the visitor: the camera does not ask for anything else
-  #spoken: Promise<Texts> | undefined; // in the language that it stands in
-  #texts: Texts | undefined;
+  #hasChosen = false; // whether the visitor has chosen a detail; camera movements then request no other detail
+  #spoken: Promise<ViewerTexts> | undefined; // texts in the element's language
+  #texts: ViewerTexts | undefined;
   #token = "";
   #tools: Toolbox | undefined;
 
-  /** Sent to the daemon, for a model that is not public. Never an attribute: pages are copied and stored. */
+  /** Token sent to the daemon for a model that is not public. Not an attribute, because a page's HTML may be copied and stored. */
   get token(): string {
     return this.#token;
   }
@@ -75,24 +75,24 @@ export class ProgressiveMeshElement extends HTMLElement {
     this.setAttribute("alt", text);
   }
 
-  /** Where the camera stands: radians, and model units from what it looks at. */
+  /** The camera position: angles in radians, distance from the target in model units. */
   getCameraOrbit(): { theta: number; phi: number; radius: number } | undefined {
-    return this.#painted ? this.#stage?.orbit : undefined;
+    return this.#isPainted ? this.#stage?.orbit : undefined;
   }
 
-  /** What the camera looks at, in model coordinates. */
+  /** The point that the camera looks at, in model coordinates. */
   getCameraTarget(): [number, number, number] | undefined {
-    return this.#painted ? this.#stage?.target : undefined;
+    return this.#isPainted ? this.#stage?.target : undefined;
   }
 
-  /** Degrees, from bottom to top. */
+  /** The vertical field of view, degrees. */
   getFieldOfView(): number | undefined {
-    return this.#painted ? this.#stage?.fieldOfView : undefined;
+    return this.#isPainted ? this.#stage?.fieldOfView : undefined;
   }
 
-  /** Shows the model where `reveal` is manual. */
+  /** Hides the poster if `reveal` is manual: immediately if the base mesh is on the screen, else as soon as it is. */
   dismissPoster(): void {
-    if (this.#painted) this.#panel.hidePoster();
+    if (this.#isPainted) this.#panel.hidePoster();
     else this.setAttribute("reveal", "auto");
   }
 
@@ -118,10 +118,10 @@ export class ProgressiveMeshElement extends HTMLElement {
     else if (name === "poster") this.#panel.poster = value;
     else if (!this.isConnected || before === value) return;
     else if (["src", "transport", "loading"].includes(name)) this.#begin();
-    else if (this.#painted) this.#obey(name);
+    else if (this.#isPainted) this.#obey(name);
   }
 
-  /** An attribute has changed while a model is shown. */
+  /** Applies an attribute that has changed while a model is shown. */
   #obey(name: string): void {
     const stage = this.#stage as Stage;
     if (kCamera.includes(name)) stage.frame(this.#camera);
@@ -130,7 +130,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     else this.#move(stage);
   }
 
-  /** Loads now, or once it comes near the viewport. */
+  /** Loads the model now or, if `loading` is lazy, when the element comes near the viewport. */
   #begin(): void {
     this.#near.disconnect();
     this.#clear();
@@ -138,7 +138,10 @@ export class ProgressiveMeshElement extends HTMLElement {
     else void this.#load();
   }
 
-  /** Properties that were set before this class was known hide the accessors. */
+  /**
+   * Applies properties that the page set before the element was defined. Such properties would otherwise hide the
+   * accessors.
+   */
   #adopt(): void {
     for (const name of ["src", "poster", "alt", "token"] as const) {
       if (!Object.hasOwn(this, name)) continue;
@@ -155,7 +158,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     const load = this.#loads;
     try {
       this.#model = new RemoteModel(src, this.#transport, assetsBeside(import.meta.url), this.#token);
-      // All at once: the model and its decoder, the texts, the stage and three.js, which the stage would ask for later.
+      // Loads everything in parallel: the model and its decoder, the texts, the stage, and three.js, which the stage imports.
       const [{ Stage }] = await Promise.all([import("./stage.ts"), import("three"), this.#spoken]);
       if (load !== this.#loads) return;
       const stage = this.#open(new Stage(this.#panel.newCanvas(), this.#model));
@@ -163,10 +166,10 @@ export class ProgressiveMeshElement extends HTMLElement {
       if (load !== this.#loads) return;
       await this.#firstPaint(stage);
       if (load !== this.#loads) return;
-      this.#painted = true;
+      this.#isPainted = true;
       this.#reveal();
       this.#emit("first-paint");
-      this.#equip(stage).catch(() => undefined); // the browser tells; the model is shown all the same
+      this.#equip(stage).catch(() => undefined); // the browser reports a failure; the model is then shown without tools
       await this.#sharpen();
     } catch (error) {
       if (load === this.#loads) this.#fail(error as Error);
@@ -180,7 +183,7 @@ export class ProgressiveMeshElement extends HTMLElement {
       this.#follow();
     };
     stage.mesh.addEventListener("stalled", ({ reason }) => (this.#panel.message = reason ?? ""));
-    stage.mesh.addEventListener("error", ({ error }) => this.#painted && this.#fail(error));
+    stage.mesh.addEventListener("error", ({ error }) => this.#isPainted && this.#fail(error));
     stage.mesh.addEventListener("progress", ({ bytes, total }) => this.#progress(bytes, total));
     stage.mesh.addEventListener("refine", ({ surface }) => this.#show(surface));
     return stage;
@@ -194,23 +197,26 @@ export class ProgressiveMeshElement extends HTMLElement {
     await stage.draw();
   }
 
-  /** In the language of where it stands, which may change. */
+  /**
+   * Loads the texts in the element's language, unless they are already loaded. Called again when the language may have
+   * changed.
+   */
   #speak(): void {
     const spoken = textsFor(this);
     if (spoken === this.#spoken) return;
     this.#spoken = spoken;
-    // Where they are not to be had, loading fails and tells.
+    // If the texts cannot be loaded, loading the model fails and reports the error.
     spoken.then((texts) => spoken === this.#spoken && this.#say(texts)).catch(() => undefined);
   }
 
-  #say(texts: Texts): void {
+  #say(texts: ViewerTexts): void {
     this.#panel.texts = this.#texts = texts;
     this.#tools?.remove();
     this.#tools = undefined;
-    if (this.#stage && this.#painted) this.#equip(this.#stage).catch(() => undefined);
+    if (this.#stage && this.#isPainted) this.#equip(this.#stage).catch(() => undefined);
   }
 
-  /** The visitor's tools come after the first picture. */
+  /** Loads the visitor's tools after the first paint. */
   async #equip(stage: Stage): Promise<void> {
     const { Toolbox } = await import("./tools/toolbox.ts");
     if (stage !== this.#stage || !this.#texts) return;
@@ -222,10 +228,10 @@ export class ProgressiveMeshElement extends HTMLElement {
     if (this.getAttribute("reveal") !== "manual") this.#panel.hidePoster();
   }
 
-  /** Who may move the camera: the visitor, or time. */
+  /** Applies the attributes that let the visitor or the auto-rotation move the camera. */
   #move(stage: Stage): void {
     stage.control(this.hasAttribute("camera-controls"), this.getAttribute("touch-action") ?? "pan-y");
-    stage.turning = this.hasAttribute("auto-rotate") && !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    stage.isTurning = this.hasAttribute("auto-rotate") && !matchMedia("(prefers-reduced-motion: reduce)").matches;
   }
 
   get #camera(): CameraWords {
@@ -233,25 +239,28 @@ export class ProgressiveMeshElement extends HTMLElement {
     return { orbit: orbit ?? null, target: target ?? null, fieldOfView: fieldOfView ?? null };
   }
 
-  /** Towards what the attributes ask for. */
+  /** Refines to the detail that the attributes request. */
   #sharpen(): Promise<void> {
-    this.#chosen = false;
+    this.#hasChosen = false;
     const goal = this.#goal();
     return this.#reach((stage) => (goal ? stage.mesh.refine(goal) : stage.refine(this.#pixels)));
   }
 
-  /** Where the camera decides what is fetched, it does so anew while it moves and once it rests. */
+  /**
+   * If the camera determines the detail, requests detail for the new view after kLook ms. Later movements within kLook
+   * share the request.
+   */
   #follow(): void {
-    if (!this.#painted || this.#chosen || this.#goal()) return;
+    if (!this.#isPainted || this.#hasChosen || this.#goal()) return;
     this.#looking ??= setTimeout(() => {
       this.#looking = undefined;
-      if (!this.#chosen) void this.#sharpen();
+      if (!this.#hasChosen) void this.#sharpen();
     }, kLook);
   }
 
-  /** What the visitor asks for holds wherever the camera goes. */
+  /** Refines to the visitor's choice of detail, which stays in force when the camera moves. */
   #choose(want: Want): Promise<void> {
-    this.#chosen = true;
+    this.#hasChosen = true;
     return this.#reach((stage) => stage.mesh.refine(want));
   }
 
@@ -266,12 +275,12 @@ export class ProgressiveMeshElement extends HTMLElement {
       this.#panel.progress = 1;
       this.#emit("load");
     } catch (error) {
-      if (!(error instanceof ModelError)) throw error; // of those the mesh's "error" event has told
+      if (!(error instanceof ModelError)) throw error; // the mesh's "error" event reports ModelErrors
     }
   }
 
   #show(surface: { triangles: number; vertices: number; bytes: number }): void {
-    this.#panel.choice.show(surface, this.#chosen || this.#goal() !== undefined);
+    this.#panel.choice.show(surface, this.#hasChosen || this.#goal() !== undefined);
     this.#panel.follow(this.#fractionOf(surface.triangles));
     this.#emit("refine", surface);
   }
@@ -298,13 +307,13 @@ export class ProgressiveMeshElement extends HTMLElement {
     ++this.#loads;
     clearTimeout(this.#looking);
     this.#looking = undefined;
-    this.#chosen = false;
+    this.#hasChosen = false;
     this.#tools?.detach();
     this.#stage?.dispose();
     this.#stage = undefined;
     this.#model?.close();
     this.#model = undefined;
-    this.#painted = false;
+    this.#isPainted = false;
     this.#panel.reset();
   }
 
@@ -317,13 +326,13 @@ export class ProgressiveMeshElement extends HTMLElement {
     return Number.parseFloat(this.getAttribute(name) ?? "");
   }
 
-  /** Device pixels of error that may be seen; 0: none at all. */
+  /** Acceptable screen-space error in device pixels; 0 requests the whole model. */
   get #pixels(): number {
     const pixels = this.#number("pixel-error");
     return pixels >= 0 ? pixels : 1;
   }
 
-  /** The state that the attributes ask for; undefined where the camera decides. */
+  /** Returns the fixed state that the attributes request, or undefined if the camera determines the detail. */
   #goal(): Want | undefined {
     const triangles = this.#number("max-triangles"), bytes = this.#number("max-bytes"), error = this.#number("target-error");
     if (triangles >= 0) return { triangles };
@@ -332,7 +341,7 @@ export class ProgressiveMeshElement extends HTMLElement {
     return this.#pixels > 0 ? undefined : { level: this.#info.levels.length - 1 };
   }
 
-  /** The slider runs over the logarithm of the triangle count. */
+  /** Converts a slider position from 0 to 1 to a detail request. The slider is logarithmic in the triangle count. */
   #wantAt(fraction: number): Want {
     if (fraction >= 1) return { level: this.#info.levels.length - 1 };
     if (fraction <= 0) return { level: 0 };

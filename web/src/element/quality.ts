@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each choice of detail costs: bytes from the manifest, seconds from the line as measured.
+// Estimates the cost of each choice of detail: bytes from the manifest, seconds from the measured throughput.
 import type { Level, ModelInfo } from "../core/types.ts";
 
-/** How much of the past a sample leaves standing. */
+/** Weight of earlier samples relative to a new one. */
 const kMemory = 0.8;
 
-/** Bytes a second of a line, measured while something new comes in. */
+/** Measures the throughput of a connection while new data arrive. */
 export class Throughput {
   #bytes = 0;
   #seconds = 0;
-  #most = 0; // of a state so far: what is below is held, and costs nothing
+  #most = 0; // bytes of the largest state so far; smaller states need no download
   #since: number | undefined;
 
-  /** `now` in milliseconds: the line has been idle until now. */
+  /** Starts a measurement at the time `now`, in milliseconds. The time before is not part of any measurement. */
   begin(now: number): void {
     this.#since = now;
   }
 
-  /** A state of `bytes` in all is there. */
+  /** Records that a state of `bytes` in total has arrived at the time `now`, in milliseconds. */
   sample(bytes: number, now: number): void {
     const since = this.#since ?? now;
     this.#since = now;
@@ -33,20 +33,23 @@ export class Throughput {
     return this.#most;
   }
 
-  /** 0 for what is held, undefined as long as nothing has been measured. */
+  /**
+   * Returns the estimated seconds until `bytes` are downloaded: 0 if they already are, undefined before the first
+   * measurement.
+   */
   secondsTo(bytes: number): number | undefined {
     if (bytes <= this.#most) return 0;
     return this.#seconds > 0 ? ((bytes - this.#most) * this.#seconds) / this.#bytes : undefined;
   }
 }
 
-/** The first level that is finer than `triangles`, or undefined at the finest. */
+/** Returns the index of the first level with more than `triangles` faces, or undefined if no level has more. */
 export function nextLevel({ levels }: Pick<ModelInfo, "levels">, triangles: number): number | undefined {
   const next = levels.findIndex(({ faces }) => faces > triangles);
   return next < 0 ? undefined : next;
 }
 
-/** The finest level of which all is there, in a model that is refined everywhere alike. */
+/** Returns the finest level that a uniformly refined model contains completely when it has `triangles` faces. */
 export function completeLevel({ levels }: Pick<ModelInfo, "levels">, triangles: number): Level {
   return levels.filter(({ faces }) => faces <= triangles).at(-1) ?? (levels[0] as Level);
 }

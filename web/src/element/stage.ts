@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene around one progressive mesh: camera, light, orbit controls. Draws only when something
+// The scene around one progressive mesh, with camera, light and orbit controls. A frame is drawn only if something
 // has changed.
 import {
   Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, Spherical, Vector3,
@@ -8,10 +8,10 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ProgressiveMesh } from "../three/progressive-mesh.ts";
 import type { RemoteModel } from "../core/client.ts";
-import { fieldOfViewOf, orbitOf, targetOf, type Orbit, type Point } from "./camera.ts";
+import { fieldOfViewOf, orbitOf, targetOf, type CameraOrbit, type Vec3 } from "./camera.ts";
 import { distanceFor, kFieldOfView, kViewpoint } from "./viewpoint.ts";
 
-/** The attributes that say where the camera stands; null where there is none. */
+/** The attributes that place the camera; null for an attribute that is missing. */
 export interface CameraWords {
   orbit: string | null;
   target: string | null;
@@ -20,9 +20,9 @@ export interface CameraWords {
 
 export class Stage {
   readonly mesh: ProgressiveMesh;
-  /** Called after each change of the camera. */
+  /** Called after each change of the camera. `byVisitor` is false if an attribute or the auto-rotation moved it. */
   onCamera: (byVisitor: boolean) => void = () => undefined;
-  /** Called after each picture. */
+  /** Called after each frame. */
   onDraw: () => void = () => undefined;
 
   readonly #renderer: WebGLRenderer;
@@ -32,21 +32,21 @@ export class Stage {
   readonly #lamp = new DirectionalLight(0xfffaf2, 2.2);
   readonly #wires: Mesh;
   #frame = 0;
-  #placing = false;
-  #turned = 0; // when the camera was last turned by itself
+  #isPlacing = false;
+  #turned = 0; // time of the last auto-rotation step, in milliseconds
   #drawn: (() => void)[] = [];
 
-  /** Throws where WebGL is missing. */
+  /** Throws if WebGL is not available. */
   constructor(canvas: HTMLCanvasElement, model: RemoteModel) {
-    // What is drawn once must stay, for print and screenshots too.
+    // The drawing buffer must be preserved for printing and screenshots.
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    // three.js sets its state up again when a lost context comes back, and leaves drawing to us.
+    // When a lost context is restored, three.js restores its state but does not draw.
     canvas.addEventListener("webglcontextrestored", () => void this.draw());
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.addEventListener("change", () => {
       this.draw();
-      this.onCamera(!this.#placing);
+      this.onCamera(!this.#isPlacing);
     });
     this.mesh = new ProgressiveMesh(model);
     this.mesh.drawBy(this.#renderer);
@@ -58,25 +58,25 @@ export class Stage {
     this.#scene.add(this.mesh, this.#wires, this.#camera);
   }
 
-  /** What the visitor's tools work on (tools/toolbox.ts). */
+  /** The objects that the visitor's tools use (tools/toolbox.ts). */
   get parts() {
     return { renderer: this.#renderer, scene: this.#scene, camera: this.#camera, controls: this.#controls, lamp: this.#lamp };
   }
 
-  /** Draws at the next frame; resolves when the picture has gone to the screen. */
+  /** Draws at the next frame; resolves when that frame is on the screen. */
   draw(): Promise<void> {
     const drawn = new Promise<void>((resolve) => this.#drawn.push(resolve));
     this.#frame ||= requestAnimationFrame(() => this.#render());
     return drawn;
   }
 
-  /** Resolves when all vertices are in their places and the picture of them is on the screen. */
+  /** Resolves when all morphs have finished and the result is on the screen. */
   async still(): Promise<void> {
     do await this.draw();
     while (this.mesh.morphing);
   }
 
-  /** Refines what the camera sees to an error of so many pixels. */
+  /** Refines what the camera sees to an error of this many device pixels. */
   refine(pixels: number): Promise<boolean> {
     const { width, height } = this.#renderer.domElement;
     return this.mesh.refineFor(this.#camera, width, height, pixels);
@@ -90,7 +90,7 @@ export class Stage {
     void this.draw();
   }
 
-  /** The camera looks at the whole model, or as the words say. */
+  /** Places the camera as the attributes say. Without attributes, the model fills the view. */
   frame(words: CameraWords = { orbit: null, target: null, fieldOfView: null }): void {
     const { centre, unit } = this.mesh.info;
     const radius = this.mesh.geometry.boundingSphere?.radius ?? 1;
@@ -106,55 +106,55 @@ export class Stage {
     this.#stand(orbit, targetOf(words.target, centre, unit));
   }
 
-  /** Where the camera stands. */
-  get orbit(): Orbit {
+  /** The camera's position relative to the point that it looks at. */
+  get orbit(): CameraOrbit {
     const { theta, phi, radius } = new Spherical().setFromVector3(this.#camera.position.clone().sub(this.#controls.target));
     return { theta, phi, radius };
   }
 
-  /** What it looks at, in model coordinates. */
-  get target(): Point {
+  /** The point that the camera looks at, in model coordinates. */
+  get target(): Vec3 {
     return this.#controls.target.clone().add(new Vector3(...this.mesh.info.centre)).toArray();
   }
 
-  /** Degrees, from bottom to top. */
+  /** The vertical field of view, degrees. */
   get fieldOfView(): number {
     return this.#camera.fov;
   }
 
-  /** Whether the visitor may move the camera, and which gestures are left to the page: a value of CSS' touch-action. */
-  control(on: boolean, touchAction: string): void {
-    this.#controls.enabled = on;
+  /** Sets whether the visitor may move the camera, and which gestures the page handles (a CSS touch-action value). */
+  control(isEnabled: boolean, touchAction: string): void {
+    this.#controls.enabled = isEnabled;
     const { style } = this.#renderer.domElement;
-    style.touchAction = on ? touchAction : "auto";
-    style.cursor = on ? "" : "default";
+    style.touchAction = isEnabled ? touchAction : "auto";
+    style.cursor = isEnabled ? "" : "default";
   }
 
-  /** The camera turns around the model by itself. */
-  set turning(on: boolean) {
+  /** Sets whether the camera rotates around the model automatically. */
+  set isTurning(on: boolean) {
     this.#controls.autoRotate = on;
     this.#turned = performance.now();
     void this.draw();
   }
 
-  #stand({ theta, phi, radius }: Orbit, target: Point): void {
+  #stand({ theta, phi, radius }: CameraOrbit, target: Vec3): void {
     this.#controls.target.fromArray(target).sub(new Vector3(...this.mesh.info.centre));
     this.#camera.position.setFromSphericalCoords(radius, phi, theta).add(this.#controls.target);
-    this.#placing = true;
+    this.#isPlacing = true;
     this.#controls.update();
-    this.#placing = false;
+    this.#isPlacing = false;
     void this.draw();
   }
 
   set colours(on: boolean) {
     const { material, info } = this.mesh;
-    material.vertexColors = on && info.coloured;
+    material.vertexColors = on && info.attributes.includes("colour");
     material.color.set(material.vertexColors ? 0xffffff : 0xd8d3cb);
     material.needsUpdate = true;
     void this.draw();
   }
 
-  /** Each facet by its own normal, as the printed figures of scanned surfaces show it. */
+  /** Turns flat shading on or off. Printed figures of scanned surfaces often use it. */
   set facets(on: boolean) {
     this.mesh.material.flatShading = on;
     this.mesh.material.needsUpdate = true;
@@ -174,12 +174,12 @@ export class Stage {
     (this.#wires.material as MeshBasicMaterial).dispose();
     this.mesh.dispose();
     this.#renderer.dispose();
-    this.#renderer.forceContextLoss(); // browsers grant few contexts
+    this.#renderer.forceContextLoss(); // browsers allow only a few contexts per page
   }
 
   #light(): void {
     this.#lamp.position.set(-0.6, 0.9, 0.6);
-    this.#camera.add(this.#lamp, this.#lamp.target); // the light follows the visitor, whatever the model's size
+    this.#camera.add(this.#lamp, this.#lamp.target); // a directional light that follows the camera
     this.#scene.add(new HemisphereLight(new Color(0xffffff), new Color(0x8a8178), 1.1));
   }
 
@@ -194,9 +194,9 @@ export class Stage {
 
   #turn(): void {
     const now = performance.now();
-    this.#placing = true;
+    this.#isPlacing = true;
     this.#controls.update((now - this.#turned) / 1000);
-    this.#placing = false;
+    this.#isPlacing = false;
     this.#turned = now;
     void this.draw();
   }

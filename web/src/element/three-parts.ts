@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of three.js that the pages use, as a file of its own: it changes rarely, so browsers keep
-// it (dist/three.js).
+// The part of three.js that the pages use. It is bundled into a separate file (dist/three.js), because it rarely
+// changes and browsers can cache it for a long time.
 export {
   Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, GLBufferAttribute, GLSL3, HemisphereLight, LinearSRGBColorSpace,
   Matrix4, Mesh, MeshBasicMaterial, MeshDepthMaterial, MeshStandardMaterial, PerspectiveCamera, Plane, Points, RGBADepthPacking, Scene,

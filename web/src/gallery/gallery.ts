@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "/": what is on display, a page at a time. The address has the words that are searched for.
-import { models, type ModelRecord } from "./api.ts";
-import { byId, h, square } from "./dom.ts";
-import { count, language, size, texts } from "./texts/index.ts";
+// The gallery, "/": the published models, of which a button loads more. The search words are in the URL's query.
+import { models, type ModelRecord } from "../ui/api.ts";
+import { byId, h, square } from "../ui/dom.ts";
+import { count, language, size, texts } from "../ui/texts/index.ts";
 
-/** Milliseconds without a letter after which a visitor has finished a word. */
+/** Milliseconds without input after which the search starts. */
 const kRest = 250;
 const kPosterSide = 480;
 
@@ -14,7 +14,8 @@ const input = h("input", { type: "search", name: "q", maxlength: 100, placeholde
 function card(model: ModelRecord): HTMLLIElement {
   const facts = [model.creator, texts.amount(count(model.faces), size(model.bytes)), model.licence].filter(Boolean);
   return h("li", {}, h("a", { href: model.links.page },
-    h("div", { class: "poster" }, square(model.links.poster, kPosterSide)), // decoration: the title below says what it shows
+    // No alternative text: the title below says what the poster shows.
+    h("div", { class: "poster" }, square(model.links.poster, kPosterSide)),
     h("h2", {}, model.title || texts.untitled), h("p", {}, facts.join(" · "))));
 }
 
@@ -22,7 +23,7 @@ class Display {
   #cursor: string | null = null;
   #asked = 0;
 
-  /** From the beginning. What was asked before is not wanted any more. */
+  /** Starts a new search, at its first page. Responses to earlier requests are ignored. */
   search(words: string): Promise<void> {
     this.#cursor = null;
     return this.#ask(words, true);
@@ -32,7 +33,7 @@ class Display {
     return this.#ask(input.value.trim(), false);
   }
 
-  async #ask(words: string, anew: boolean): Promise<void> {
+  async #ask(words: string, isFresh: boolean): Promise<void> {
     const question = ++this.#asked;
     more.disabled = true;
     try {
@@ -40,9 +41,9 @@ class Display {
       if (question !== this.#asked) return;
       this.#cursor = page.next;
       const cards = page.models.map(card);
-      if (anew) list.replaceChildren(...cards);
+      if (isFresh) list.replaceChildren(...cards);
       else list.append(...cards);
-      if (!anew) cards[0]?.querySelector("a")?.focus();
+      if (!isFresh) cards[0]?.querySelector("a")?.focus();
       this.#tell(words);
     } catch {
       if (question === this.#asked) say(texts.unreachable);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "/models/{id}": one object. The viewer starts at once; all that is said of it follows.
-import { about } from "./about.ts";
-import { model } from "./api.ts";
-import { byId } from "./dom.ts";
-import { language, texts } from "./texts/index.ts";
+// The page "/models/{id}", which shows one object. The viewer and the description are loaded in parallel.
+import { about } from "../ui/about.ts";
+import { model } from "../ui/api.ts";
+import { byId } from "../ui/dom.ts";
+import { language, texts } from "../ui/texts/index.ts";
 
 const id = decodeURIComponent(location.pathname.split("/").filter(Boolean).pop() ?? "");
 const viewer = document.querySelector("progressive-mesh") as HTMLElement;
@@ -12,9 +12,9 @@ const title = byId("title"), aside = byId("about");
 document.documentElement.lang = language;
 byId("back").textContent = texts.collection;
 byId("down").textContent = texts.about;
-// In a frame of another site there is the object alone.
+// In an iframe of another site, only the object is shown.
 document.body.classList.toggle("framed", window.parent !== window);
-// A link may name the way the bytes take: ?transport=ws.
+// A link may choose the transport: ?transport=ws.
 viewer.setAttribute("transport", new URLSearchParams(location.search).get("transport") ?? "auto");
 viewer.setAttribute("src", `/api/v1/models/${encodeURIComponent(id)}`);
 

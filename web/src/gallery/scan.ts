@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page "/scans/{id}": an object as it is measured. Its points grow where the model will stand.
-import { scan, scanPoints, type ScanRecord } from "./api.ts";
-import { CloudView } from "./cloud-view.ts";
-import { watchScan, type ScanSight } from "./scan-watch.ts";
-import { count, language, scanState, texts, timeLeft } from "./texts/index.ts";
+// The page "/scans/{id}", which shows the growing point cloud of a scan, and later the model in its place.
+import { scan, scanPoints, type ScanRecord } from "../ui/api.ts";
+import { CloudView } from "../ui/cloud-view.ts";
+import { watchScan, type ScanSight } from "../ui/scan-watch.ts";
+import { count, language, scanState, texts, timeLeft } from "../ui/texts/index.ts";
 
 const id = decodeURIComponent(location.pathname.split("/").filter(Boolean).pop() ?? "");
 const find = <T extends HTMLElement>(selector: string) => document.querySelector(selector) as T;
 
-class ScanPage implements ScanSight {
+class LiveScan implements ScanSight {
   readonly #main = find("main");
   readonly #growth = find("#growth");
   readonly #viewer = find("progressive-mesh");
@@ -63,21 +63,21 @@ class ScanPage implements ScanSight {
 
   #tell(scan: ScanRecord): void {
     const { state, step, steps, progress, eta } = scan;
-    const underWay = state !== "done" && state !== "failed" && state !== "cancelled";
+    const isUnderWay = state !== "done" && state !== "failed" && state !== "cancelled";
     this.#say(scanState(scan));
     find("#step").textContent = steps > 0 ? texts.scan.step(count(step), count(steps)) : "";
-    find("#left").textContent = underWay && state !== "paused" && eta !== null ? timeLeft(eta) : "";
+    find("#left").textContent = isUnderWay && state !== "paused" && eta !== null ? timeLeft(eta) : "";
     find("#progress").setAttribute("aria-valuenow", String(Math.round(100 * progress)));
     (find("#progress").firstElementChild as HTMLElement).style.transform = `scaleX(${progress})`;
   }
 
-  /** A screen reader says what is new, and only that. */
+  /** Updates the text only if it has changed, so that screen readers announce only changes. */
   #say(text: string): void {
     if (find("#state").textContent !== text) find("#state").textContent = text;
     if (text === texts.scan.lost || text === "") find("#left").textContent = "";
   }
 
-  /** The base mesh is on the screen: the points go. */
+  /** Called when the model's base mesh is on the screen. Replaces the points by the model. */
   async #unveil(): Promise<void> {
     this.#main.classList.add("modelled");
     await Promise.allSettled(this.#growth.getAnimations().map(({ finished }) => finished));
@@ -86,4 +86,4 @@ class ScanPage implements ScanSight {
   }
 }
 
-await watchScan({ scan: () => scan(id), points: (from) => scanPoints(id, from) }, new ScanPage());
+await watchScan({ scan: () => scan(id), points: (from) => scanPoints(id, from) }, new LiveScan());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a visitor of the viewer reads and hears, in German.
-import type { Texts } from "./en.ts";
+// The viewer's visible and spoken texts in German.
+import type { ViewerTexts } from "./en.ts";
 import type { Formats } from "./formats.ts";
 
 const units = "Einheiten";
@@ -11,7 +11,7 @@ const sides = {
 };
 const heights = { above: " oben", level: "", below: " unten" };
 
-export const de = ({ count, size, length, bound }: Formats): Texts => ({
+export const de = ({ count, size, length, bound }: Formats): ViewerTexts => ({
   loading: "Wird geladen",
   viewOf: (title) => title || "Dreidimensionales Modell",
   keys: "Pfeiltasten drehen, Plus und Minus zoomen, Pos1 stellt die Ansicht zurück.",

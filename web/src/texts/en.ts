@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a visitor of the viewer reads and hears, in English. Other languages have the same shape.
+// The viewer's visible and spoken texts in English. Other languages have the same type.
 import type { Formats } from "./formats.ts";
 
-const units = "units"; // of a model that does not say which
+const units = "units"; // shown instead of a unit's name for a model without a unit
 
 const sides = {
   front: "the front", "front-right": "the front right", right: "the right", "back-right": "the back right",
@@ -50,7 +50,7 @@ export const en = ({ count, size, length, bound }: Formats) => ({
   percent: (fraction: number) => `${count(100 * fraction)} %`,
 
   measure: "Measure",
-  measureFirst: "Click a point on the surface, or press Enter for the one in the middle of the view.",
+  measureFirst: "Click a point on the surface, or press Enter to choose the one in the middle of the view.",
   measureSecond: "Now the second point.",
   measured: (distance: number, unit: string) => length(distance, unit || units),
   distance: (distance: number, unit: string) => `Distance: ${length(distance, unit || units)}`,
@@ -58,7 +58,7 @@ export const en = ({ count, size, length, bound }: Formats) => ({
 
   notes: "Notes",
   noteMarker: (number: number, title: string) => `Note ${number}: ${title}`,
-  notesMissing: "The notes cannot be read.",
+  notesMissing: "The notes cannot be loaded.",
 
   surface: "Surface",
   colours: "Colours",
@@ -69,7 +69,7 @@ export const en = ({ count, size, length, bound }: Formats) => ({
   screenshot: "Save a picture",
   link: "Link to this view",
   copy: "Copy",
-  copied: "The link is copied.",
+  copied: "Link copied.",
   copyByHand: "The link is selected: copy it with the keyboard.",
   download: "Download the model",
   format: "Format",
@@ -81,9 +81,9 @@ export const en = ({ count, size, length, bound }: Formats) => ({
   fullScreen: "Full screen",
 
   seenFrom: (side: keyof typeof sides, height: keyof typeof heights) => `Seen from ${sides[side]}${heights[height]}.`,
-  firstShape: (triangles: number) => `The first shape is shown, ${count(triangles)} triangles.`,
+  firstShape: (triangles: number) => `The coarse shape is shown, ${count(triangles)} triangles.`,
   halfway: "Half of the detail is shown.",
-  reached: (triangles: number) => `The detail asked for is shown, ${count(triangles)} triangles.`,
+  reached: (triangles: number) => `The requested detail is shown, ${count(triangles)} triangles.`,
 });
 
-export type Texts = ReturnType<typeof en>;
+export type ViewerTexts = ReturnType<typeof en>;

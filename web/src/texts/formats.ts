@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as a language writes them.
+// Formats numbers, sizes and lengths for a language.
 
 const kMillimetres: Record<string, number> = { mm: 1, cm: 10, m: 1000, in: 25.4 };
 
@@ -26,7 +26,7 @@ export function formats(language: string) {
 
 export type Formats = ReturnType<typeof formats>;
 
-/** In millimetres where the unit is known. */
+/** Converts a length to millimetres if its unit is known. Returns the length and its unit. */
 export function inMillimetres(value: number, unit: string): [number, string] {
   const millimetres = kMillimetres[unit];
   return millimetres === undefined ? [value, unit] : [value * millimetres, "mm"];

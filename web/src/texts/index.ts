@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer's texts in the language of where it stands: a file for each, fetched once it is read.
-import type { Texts } from "./en.ts";
+// The viewer's texts in the language of the page around it. Each language is a separate file that is fetched on demand.
+import type { ViewerTexts } from "./en.ts";
 import { formats, type Formats } from "./formats.ts";
 
-export type { Texts };
+export type { ViewerTexts };
 
-const kLanguages: Record<string, () => Promise<(formats: Formats) => Texts>> = {
+const kLanguages: Record<string, () => Promise<(formats: Formats) => ViewerTexts>> = {
   en: async () => (await import("./en.ts")).en,
   de: async () => (await import("./de.ts")).de,
 };
 
-const fetched = new Map<string, Promise<Texts>>();
+const fetched = new Map<string, Promise<ViewerTexts>>();
 
-async function fetchTexts(language: string): Promise<Texts> {
+async function fetchTexts(language: string): Promise<ViewerTexts> {
   const say = await kLanguages[language]?.();
   return (say as NonNullable<typeof say>)(formats(language));
 }
 
-/** For "de-AT", those of "de"; English where there are none. The same promise for the same language. */
-export function textsIn(tag: string): Promise<Texts> {
+/** Loads the texts for a language tag: "de-AT" gets German, an unknown language English. Calls for the same language share one promise. */
+export function textsIn(tag: string): Promise<ViewerTexts> {
   const wanted = tag.toLowerCase().split("-")[0] ?? "";
   const language = wanted in kLanguages ? wanted : "en";
   const texts = fetched.get(language) ?? fetchTexts(language);
@@ -26,7 +26,7 @@ export function textsIn(tag: string): Promise<Texts> {
   return texts;
 }
 
-/** By the `lang` of the element itself, or of what it stands in. */
-export function textsFor(element: Element): Promise<Texts> {
+/** Loads the texts for an element, by the nearest `lang` attribute of the element or its ancestors. */
+export function textsFor(element: Element): Promise<ViewerTexts> {
   return textsIn(element.closest<HTMLElement>("[lang]")?.lang ?? "");
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// New vertices part from their parents, and old ones leave their places, over a quarter of a second
-// instead of popping: in the vertex shader, by attributes that are there only meanwhile.
+// Geomorphs: for a quarter of a second, new vertices move from their parents' positions and existing ones
+// from their previous positions, to avoid popping. The vertex shader interpolates between attributes that
+// exist only during the morph.
 import type { Material } from "three";
 import { evenOutline } from "./outline.ts";
 
 const kDuration = 250; // milliseconds
-/** Changes under way at once; when there are more, the oldest ends early. */
+/** Maximum number of changes that morph at the same time; if there are more, the oldest morph ends early. */
 const kChanges = 16;
 
 const kDeclarations = `
-attribute vec4 fromPosition; // w: number of the change that brought it, or 0
+attribute vec4 fromPosition; // w: number of the change that moves the vertex, or 0
 attribute vec4 fromNormal;
 uniform float newestChange;
 uniform float changeProgress[${kChanges}];
@@ -23,7 +24,7 @@ export class Geomorph {
   readonly #progress = { value: new Float32Array(kChanges).fill(1) };
   readonly #began = new Map<number, number>();
 
-  /** Makes `material` draw vertices on their way. */
+  /** Makes `material` draw vertices at their interpolated positions. */
   apply(material: Material): void {
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, { newestChange: this.#newest, changeProgress: this.#progress });
@@ -42,14 +43,16 @@ export class Geomorph {
     this.#progress.value[change % kChanges] = 0;
   }
 
-  /** Sets the vertices to where they are at `now`. False once all have arrived. */
+  /** Sets the morph progress for the time `now`, in milliseconds. Returns false when all morphs have finished. */
   advance(now: number): boolean {
     for (const [change, began] of this.#began) {
       const t = Math.min((now - began) / kDuration, 1);
       if (this.#newest.value - change < kChanges) this.#progress.value[change % kChanges] = t * t * (3 - 2 * t);
       if (t === 1) this.#began.delete(change);
     }
-    if (this.#began.size === 0) this.#newest.value = -1; // without attributes the shader reads (0, 0, 0, 1)
+    // Without morphs, the `from…` attributes are removed, and the shader reads (0, 0, 0, 1) instead. -1 makes it ignore
+    // this value.
+    if (this.#began.size === 0) this.#newest.value = -1;
     return this.#began.size > 0;
   }
 }

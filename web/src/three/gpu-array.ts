@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// An array in the GPU's memory that changes between two frames. Its next state is a copy that the
-// GPU makes itself, into which what is new goes slice by slice, frame after frame, and which then
-// takes the place of the present one. So a large change costs no long task, and nobody sees half of it.
+// A double-buffered array in GPU memory. The GPU copies the current state to the next one, new data are
+// uploaded in slices over several frames, and then the next state replaces the current one. So a large
+// change needs no long task, and a partial change is never drawn.
 
-/** Work in slices. After each step the next may follow at once, must have a frame of its own, or waits for more to come. */
-export type Steps = Generator<"go on" | "next frame" | "wait", void>;
+/**
+ * Work in steps. Each yielded value says when the next step may run: immediately, in the next frame, or after more
+ * data have arrived.
+ */
+export type Steps = Generator<"continue" | "next frame" | "wait", void>;
 
-export type Target = "ARRAY_BUFFER" | "ELEMENT_ARRAY_BUFFER";
+export type BufferTarget = "ARRAY_BUFFER" | "ELEMENT_ARRAY_BUFFER";
 
 export class GpuArray {
   #buffer: WebGLBuffer | undefined;
@@ -16,15 +19,15 @@ export class GpuArray {
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
-    private readonly target: Target,
+    private readonly target: BufferTarget,
   ) {}
 
-  /** The present state. */
+  /** The buffer with the current state; undefined before the first commit(). */
   get buffer(): WebGLBuffer | undefined {
     return this.#buffer;
   }
 
-  /** The next state will have so many bytes: those of the present one as far as they go, then zeros. */
+  /** Starts the next state with a size of `bytes`: a copy of the current state, padded with zeros. */
   begin(bytes: number): void {
     const { gl } = this;
     gl.deleteBuffer(this.#next ?? null);
@@ -36,14 +39,14 @@ export class GpuArray {
     gl.copyBufferSubData(gl.COPY_READ_BUFFER, gl.COPY_WRITE_BUFFER, 0, 0, Math.min(bytes, this.#bytes));
   }
 
-  /** Puts `values` into the next state, `at` bytes from its start. */
+  /** Writes `values` into the next state, starting at byte `at`. */
   put(at: number, values: ArrayBufferView): void {
     const { gl } = this;
     gl.bindBuffer(gl.COPY_WRITE_BUFFER, this.#next as WebGLBuffer);
     gl.bufferSubData(gl.COPY_WRITE_BUFFER, at, values);
   }
 
-  /** The next state is the present one from now on. */
+  /** Replaces the current state by the next one. */
   commit(): void {
     this.gl.deleteBuffer(this.#buffer ?? null);
     this.#buffer = this.#next;
@@ -55,7 +58,10 @@ export class GpuArray {
     for (const buffer of [this.#buffer, this.#next]) this.gl.deleteBuffer(buffer ?? null);
   }
 
-  /** Zeros. A buffer is bound first as what it is for; the vertex array of whoever draws stays as it is. */
+  /**
+   * Allocates a buffer of zeros and binds it to its target, because WebGL fixes a buffer's type at the first
+   * binding. The caller's vertex array object stays unchanged.
+   */
   #allocate(bytes: number): WebGLBuffer {
     const { gl } = this;
     const buffer = gl.createBuffer() as WebGLBuffer;

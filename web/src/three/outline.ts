@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// At an outline a back face may win pixels from the front face whose edge it shares. Turned towards the viewer,
-// as the inside of an open scan is, it would speckle the outline: there its normal stays as it is.
+// Avoids speckles at silhouettes. There, a back face may cover pixels of an adjacent front face. three.js flips the
+// normals of back faces towards the viewer. This is right for the inside of an open scan, but makes the silhouette
+// speckled. This patch keeps the original normals of back faces near a silhouette.
 
-/** A fragment shader of three.js; `0.2` is the cosine of how far a normal at the outline turns away. */
+/**
+ * Returns the patched source of a fragment shader of three.js. A back face counts as near a silhouette if the cosine of
+ * the angle between its flipped normal and the direction to the viewer is below 0.2.
+ */
 export function evenOutline(shader: string): string {
   return shader.replace("#include <normal_fragment_begin>", `$&
 #if defined STANDARD && !defined FLAT_SHADED

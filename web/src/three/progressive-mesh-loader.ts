@@ -5,14 +5,14 @@ import type { Assets } from "../core/messages.ts";
 import { ProgressiveMesh } from "./progressive-mesh.ts";
 
 /**
- * Loads like GLTFLoader: `load` and `loadAsync` give a ProgressiveMesh that shows its base mesh;
- * `mesh.refine({ triangles: 50_000 })` sharpens it. The URL is that of a .pmesh file, of a model
- * page or of an API model.
+ * Has the interface of GLTFLoader: `load` and `loadAsync` give a ProgressiveMesh that shows its base mesh;
+ * `mesh.refine({ triangles: 50_000 })` refines it. The URL is that of a .pmesh file, a model page or an
+ * API model.
  */
 export class ProgressiveMeshLoader extends Loader<ProgressiveMesh> {
   #assets: Assets = assetsBeside(import.meta.url);
 
-  /** Where progressive-mesh.wasm and draco_decoder.{js,wasm} lie, if not beside this module. */
+  /** Sets the URLs of progressive-mesh.wasm and draco_decoder.{js,wasm}, if they are not in this module's folder. */
   setAssets(assets: Assets): this {
     this.#assets = assets;
     return this;

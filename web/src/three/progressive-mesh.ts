@@ -9,29 +9,29 @@ import { Geomorph } from "./geomorph.ts";
 import type { Steps } from "./gpu-array.ts";
 import { SurfaceBuffers, type Inbox } from "./surface-buffers.ts";
 
-/** Milliseconds of a frame that a change on its way into the buffers may take. */
+/** Milliseconds per frame for uploading a change. */
 const kFrameBudget = 2;
 
 export interface ProgressiveMeshEventMap extends Object3DEventMap {
-  /** Another state of the surface is in the geometry: draw again. */
+  /** Dispatched when the geometry has a new state of the surface, so that the page can draw again. */
   refine: { surface: Pick<Surface, "triangles" | "vertices" | "bytes"> };
-  /** Vertices are on their way to their places: draw again. */
+  /** Dispatched when a geomorph has advanced, so that the page can draw again. */
   morph: object;
   progress: Progress;
-  /** The server does not answer, and why; undefined once it does again. */
+  /** Dispatched with a reason when the server does not respond, and with undefined when it responds again. */
   stalled: { reason: string | undefined };
   error: { error: ModelError };
 }
 
 /**
- * A mesh that sharpens in place. Its origin is the centre of the model's bounding box
- * (`info.centre` in model coordinates). Add it to a scene, call `refine` or, where the camera rests,
- * `refineFor`; draw on `refine` and `morph` events or all the time; `dispose` frees everything.
+ * A mesh that is refined in place. Its origin is the centre of the model's bounding box
+ * (`info.centre` in model coordinates). Add it to a scene and call `refine` or, when the camera rests,
+ * `refineFor`. Draw on `refine` and `morph` events or continuously. `dispose` frees everything.
  */
 export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, ProgressiveMeshEventMap> {
   readonly #model: RemoteModel;
   readonly #geomorph = new Geomorph();
-  #jobs: Steps[] = []; // what goes into the buffers, a slice at a time
+  #jobs: Steps[] = []; // uploads to GPU buffers, done one slice at a time
   #inbox: Inbox = { blocks: [], taken: [] };
   #taking: Steps | undefined;
   #buffers: SurfaceBuffers | undefined;
@@ -45,10 +45,10 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   readonly ready: Promise<void>;
 
   constructor(model: RemoteModel) {
-    // Scans are open as often as not: who looks into one sees its inside.
+    // Double-sided, because scans are often open and show their inside.
     super(new BufferGeometry(), new MeshStandardMaterial({ color: 0xd8d3cb, roughness: 0.85, metalness: 0, side: DoubleSide }));
     this.morph(this.material);
-    this.geometry.boundingSphere = new Sphere(); // empty, until there is something
+    this.geometry.boundingSphere = new Sphere(); // empty until the base mesh is loaded
     this.ready = new Promise((resolve, reject) => (this.#base = { resolve, reject }));
     this.onBeforeRender = (renderer) => this.drawBy(renderer);
     this.#model = model;
@@ -62,25 +62,25 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     };
   }
 
-  /** The manifest; known once `ready`. */
+  /** The manifest; available after `ready`. */
   get info(): ModelInfo {
     if (!this.#info) throw new Error("wait for `ready` first");
     return this.#info;
   }
 
-  /** Vertices are still on their way to their places. */
+  /** Whether any vertices are moving in a geomorph. */
   get morphing(): boolean {
     return this.#moving !== 0;
   }
 
-  /** True when `want` is reached and in the geometry, false when superseded. */
+  /** Resolves to true when `want` is reached and in the geometry, to false if superseded. */
   refine(want: Want): Promise<boolean> {
     return this.#model.refine(want);
   }
 
   /**
-   * Refines what `camera` sees in a viewport of `width` x `height` device pixels until no error there is above
-   * `pixels`, or the page's budget is spent. What it does not see is left as it is: call this again when the camera
+   * Refines what `camera` sees in a viewport of `width` x `height` device pixels until no screen-space error exceeds
+   * `pixels`, or the page's budget is spent. Regions outside the view do not change: call this again when the camera
    * has moved.
    */
   refineFor(camera: PerspectiveCamera, width: number, height: number, pixels = 1): Promise<boolean> {
@@ -91,12 +91,15 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     return this.refine({ view: { camera: placed.toArray(), fov: camera.getEffectiveFOV(), width, height, pixels } });
   }
 
-  /** Makes another material that draws this geometry move along with it. */
+  /** Adds geomorphs to another material that draws this geometry. */
   morph(material: Material): void {
     this.#geomorph.apply(material);
   }
 
-  /** Draws by `renderer`, the only one. Called by itself at the first frame, which then shows nothing yet. */
+  /**
+   * Sets the renderer that draws the mesh; there can be only one. Called automatically at the first frame if it
+   * has not been called before; that frame then shows nothing.
+   */
   drawBy(renderer: WebGLRenderer): void {
     if (this.#canvas) return;
     this.#canvas = renderer.domElement;
@@ -128,19 +131,19 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   #open(info: ModelInfo): void {
-    if (this.#info) return; // its decoder has been started again
+    if (this.#info) return; // already set if the decoder was restarted
     this.#info = info;
     const finest = info.levels[info.levels.length - 1];
-    if (finest) this.#buffers = new SurfaceBuffers(this.geometry, finest, info.coloured);
+    if (finest) this.#buffers = new SurfaceBuffers(this.geometry, finest, info.attributes);
     this.#attach();
-    if (info.coloured) {
+    if (info.attributes.includes("colour")) {
       this.material.vertexColors = true;
       this.material.color.set(0xffffff);
     }
   }
 
   #accept(change: Change, shown: () => void): void {
-    if (this.#taking) this.#jobs = this.#jobs.filter((job) => job !== this.#taking); // its decoder has been started again
+    if (this.#taking) this.#jobs = this.#jobs.filter((job) => job !== this.#taking); // the decoder was restarted
     this.#inbox = { blocks: [], taken: [] };
     this.#work((this.#taking = this.#taken(change, this.#inbox, shown)));
   }
@@ -176,19 +179,20 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.#working ||= requestAnimationFrame(() => this.#continue());
   }
 
-  /** Goes on until the frame's budget is spent, a change is drawn, or what is to come has not come yet. */
+  /** Runs jobs until the frame's budget is spent, a change is ready to be drawn, or data are missing. */
   #continue(): void {
     performance.mark("progressive-mesh:begin");
     const end = performance.now() + kFrameBudget;
-    let pause: IteratorResult<"go on" | "next frame" | "wait", void> | undefined;
+    let pause: IteratorResult<"continue" | "next frame" | "wait", void> | undefined;
     for (let job = this.#jobs[0]; job && performance.now() < end; job = this.#jobs[0]) {
       pause = job.next();
       if (pause.done) this.#jobs.shift();
-      else if (pause.value !== "go on") break;
+      else if (pause.value !== "continue") break;
     }
     this.#giveBack();
     performance.mark("progressive-mesh:end");
-    for (const mark of ["begin", "end"]) performance.clearMarks(`progressive-mesh:${mark}`); // traces have them
+    // A performance trace has recorded the marks by now, so they need not stay in the page's memory.
+    for (const mark of ["begin", "end"]) performance.clearMarks(`progressive-mesh:${mark}`);
     this.#working = 0;
     if (this.#jobs.length > 0 && pause?.value !== "wait") this.#goOn();
   }
@@ -216,7 +220,10 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
     this.dispatchEvent({ type: "error", error });
   }
 
-  /** The base mesh's box bounds all levels, but for what refinement adds: some slack. */
+  /**
+   * Sets the bounds from the base mesh. The sphere's radius is half the diagonal of the box plus 10 %, because
+   * refinement may add vertices outside the box.
+   */
   #bound(): void {
     if (!this.#base) return;
     const box = new Box3().setFromArray(this.geometry.getAttribute("position").array);

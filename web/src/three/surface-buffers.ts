@@ -1,69 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface in two places: as arrays, for whoever picks or measures, and in the GPU's memory.
+// The buffers of a surface: arrays in main memory, which ray casting reads, and their copies in GPU memory.
 import { BufferAttribute, GLBufferAttribute, type BufferGeometry } from "three";
-import type { Block, Change, Level, Part } from "../core/types.ts";
+import type { Semantic } from "../core/attributes.ts";
+import type { Block, Change, Level, NumericArray, SurfaceArray } from "../core/types.ts";
 import { GpuArray, type Steps } from "./gpu-array.ts";
 
-/** Bytes uploaded between two looks at the clock, where they do not come in blocks. */
+/** Bytes uploaded per step, for uploads that are not split into blocks. */
 const kSlice = 1 << 16;
 
-type Numbers = Float32Array | Int16Array | Uint16Array | Uint32Array;
+/** Names of the attributes in three.js, and their numbers of values per vertex in Surface. */
+const kAttributes: Readonly<Record<Semantic, { name: string; width: 3 | 4 }>> = { colour: { name: "color", width: 4 } };
 
-/** An attribute whose array three.js leaves to its owner to upload. */
+/** An attribute whose array SurfaceBuffers uploads to the GPU; three.js must not upload it. */
 class MirroredAttribute extends BufferAttribute {
   readonly isGLBufferAttribute = true;
   readonly elementSize: number;
 
-  constructor(values: Numbers, width: number, readonly buffer: WebGLBuffer | undefined, readonly type: number) {
+  constructor(values: NumericArray, width: number, readonly buffer: WebGLBuffer | undefined, readonly type: number) {
     super(values, width, values instanceof Int16Array || values instanceof Uint16Array);
     this.elementSize = values.BYTES_PER_ELEMENT;
   }
 }
 
-/** One kind of numbers. `values` has room for the finest level, a page of memory is taken when it is written to; or the GPU alone has them. */
+/**
+ * One array of the surface. `values` has room for the finest level; the operating system provides the memory of each
+ * page when it is first written. Without `values`, the array exists only on the GPU.
+ */
 interface Kind {
-  /** As three.js calls it. */
+  /** Name of the attribute in three.js. */
   name: string;
   width: 3 | 4;
-  Numbers: { new (buffer: ArrayBuffer, offset: number, length: number): Numbers; BYTES_PER_ELEMENT: number };
-  values?: Numbers;
+  ArrayType: { new (buffer: ArrayBuffer, offset: number, length: number): NumericArray; BYTES_PER_ELEMENT: number };
+  values?: NumericArray;
   type: number;
 }
 
-/** Blocks that have come, and buffers of those that were taken over. */
+/** Received blocks, and the buffers of blocks already processed. */
 export interface Inbox {
   blocks: Block[];
   taken: ArrayBuffer[];
 }
 
 export class SurfaceBuffers {
-  readonly #kinds = new Map<Part, Kind>();
-  readonly #gpu = new Map<Part, GpuArray>();
+  readonly #kinds = new Map<SurfaceArray, Kind>();
+  readonly #gpu = new Map<SurfaceArray, GpuArray>();
   #gl: WebGL2RenderingContext | undefined;
   #vertices = 0;
   #triangles = 0;
   #version = 0;
-  #taking = false;
+  #isTaking = false;
 
   constructor(
     private readonly geometry: BufferGeometry,
     finest: Level,
-    coloured: boolean,
+    attributes: readonly Semantic[],
   ) {
     const { FLOAT, SHORT, UNSIGNED_SHORT, UNSIGNED_INT } = WebGL2RenderingContext;
     const { vertices, faces } = finest, kinds = this.#kinds;
-    kinds.set("positions", { name: "position", width: 3, Numbers: Float32Array, values: new Float32Array(3 * vertices), type: FLOAT });
-    kinds.set("normals", { name: "normal", width: 4, Numbers: Int16Array, values: new Int16Array(4 * vertices), type: SHORT });
-    if (coloured) {
-      kinds.set("colours", { name: "color", width: 4, Numbers: Uint16Array, values: new Uint16Array(4 * vertices), type: UNSIGNED_SHORT });
+    kinds.set("positions", { name: "position", width: 3, ArrayType: Float32Array, values: new Float32Array(3 * vertices), type: FLOAT });
+    kinds.set("normals", { name: "normal", width: 4, ArrayType: Int16Array, values: new Int16Array(4 * vertices), type: SHORT });
+    for (const semantic of attributes) {
+      const { name, width } = kAttributes[semantic];
+      kinds.set(semantic, { name, width, ArrayType: Uint16Array, values: new Uint16Array(width * vertices), type: UNSIGNED_SHORT });
     }
-    kinds.set("indices", { name: "index", width: 3, Numbers: Uint32Array, values: new Uint32Array(3 * faces), type: UNSIGNED_INT });
-    kinds.set("fromPositions", { name: "fromPosition", width: 4, Numbers: Float32Array, type: FLOAT });
-    kinds.set("fromNormals", { name: "fromNormal", width: 4, Numbers: Int16Array, type: SHORT });
+    kinds.set("indices", { name: "index", width: 3, ArrayType: Uint32Array, values: new Uint32Array(3 * faces), type: UNSIGNED_INT });
+    kinds.set("fromPositions", { name: "fromPosition", width: 4, ArrayType: Float32Array, type: FLOAT });
+    kinds.set("fromNormals", { name: "fromNormal", width: 4, ArrayType: Int16Array, type: SHORT });
     this.#describe();
   }
 
-  /** Draws by `gl` from now on; what there is goes there in slices, and is drawn after the last. */
+  /** Uses `gl` from now on. Uploads the current surface in slices; it is drawn after the last one. */
   *attach(gl: WebGL2RenderingContext): Steps {
     this.#gl = gl;
     for (const [part, kind] of this.#kinds) {
@@ -72,7 +78,7 @@ export class SurfaceBuffers {
       const array = this.#begin(part, this.#count(part));
       for (let at = 0; at < values.byteLength; at += kSlice) {
         array.put(at, new Uint8Array(values.buffer, at, Math.min(kSlice, values.byteLength - at)));
-        yield "go on";
+        yield "continue";
         if (!this.#gl) return;
       }
     }
@@ -80,16 +86,19 @@ export class SurfaceBuffers {
     if (this.#gl) this.#commit();
   }
 
-  /** The context is lost, and all arrays with it: nothing is drawn until attach(). */
+  /** Handles a lost WebGL context, whose arrays are gone. Nothing is drawn until attach() is called. */
   detach(): void {
     this.#gl = undefined;
     this.#gpu.clear();
     this.#describe();
   }
 
-  /** Takes over a change block by block; it is drawn after the last step. With `morph` its vertices start where they come from. */
+  /**
+   * Applies a change block by block; it is drawn after the last step. With `morph`, its vertices move from their
+   * `from…` positions.
+   */
   *take(change: Change, inbox: Inbox, morph: boolean): Steps {
-    this.#taking = true;
+    this.#isTaking = true;
     for (const part of this.#gl ? this.#kinds.keys() : []) {
       if (morph || !isOrigin(part)) this.#begin(part, part === "indices" ? change.triangles : change.vertices);
     }
@@ -98,19 +107,19 @@ export class SurfaceBuffers {
       const block = inbox.blocks.shift() as Block;
       if (morph || !isOrigin(block.part)) this.#put(block);
       inbox.taken.push(block.buffer);
-      yield "go on";
+      yield "continue";
     }
     yield "next frame";
     this.#vertices = change.vertices;
     this.#triangles = change.triangles;
-    this.#taking = false;
+    this.#isTaking = false;
     if (!morph) this.#forget();
     this.#commit();
   }
 
-  /** All vertices have arrived: what they came from is given back, unless more are about to start. */
+  /** Called when all morphs have finished. Frees the `from…` arrays, unless another change is being applied. */
   settle(): void {
-    if (this.#taking || !this.#gpu.has("fromPositions")) return;
+    if (this.#isTaking || !this.#gpu.has("fromPositions")) return;
     this.#forget();
     this.#describe();
   }
@@ -127,22 +136,22 @@ export class SurfaceBuffers {
     }
   }
 
-  #count(part: Part): number {
+  #count(part: SurfaceArray): number {
     return part === "indices" ? this.#triangles : this.#vertices;
   }
 
-  #begin(part: Part, count: number): GpuArray {
-    const { width, Numbers } = this.#kinds.get(part) as Kind;
+  #begin(part: SurfaceArray, count: number): GpuArray {
+    const { width, ArrayType } = this.#kinds.get(part) as Kind;
     const array = this.#gpu.get(part) ?? new GpuArray(this.#gl as WebGL2RenderingContext, part === "indices" ? "ELEMENT_ARRAY_BUFFER" : "ARRAY_BUFFER");
     this.#gpu.set(part, array);
-    array.begin(count * width * Numbers.BYTES_PER_ELEMENT);
+    array.begin(count * width * ArrayType.BYTES_PER_ELEMENT);
     return array;
   }
 
   #put({ part, first, count, buffer }: Block): void {
     const kind = this.#kinds.get(part);
     if (!kind) return;
-    const news = new kind.Numbers(buffer, 0, kind.width * count);
+    const news = new kind.ArrayType(buffer, 0, kind.width * count);
     kind.values?.set(news, kind.width * first);
     this.#gpu.get(part)?.put(first * kind.width * news.BYTES_PER_ELEMENT, news);
   }
@@ -152,29 +161,33 @@ export class SurfaceBuffers {
     this.#describe();
   }
 
-  /** Tells the geometry of the present state. Fresh attributes each time: three.js asks for the buffers of those that it does not know. */
+  /** Updates the geometry to the current state. Creates new attributes each time, because three.js looks up an attribute's buffer only once. */
   #describe(): void {
     ++this.#version;
     for (const [part, kind] of this.#kinds) {
       if (kind.values) this.#mirror(part, kind, kind.values);
       else this.#lendOut(part, kind);
     }
-    this.geometry.setDrawRange(0, this.#gpu.size > 0 ? 3 * this.#triangles : -1); // three.js draws even 0, which needs buffers
+    // -1 draws nothing; with 0, three.js would still issue a draw call, which needs buffers.
+    this.geometry.setDrawRange(0, this.#gpu.size > 0 ? 3 * this.#triangles : -1);
   }
 
-  #mirror(part: Part, { name, width, type }: Kind, values: Numbers): void {
+  #mirror(part: SurfaceArray, { name, width, type }: Kind, values: NumericArray): void {
     const present = values.subarray(0, width * this.#count(part));
     const attribute = new MirroredAttribute(present, part === "indices" ? 1 : width, this.#gpu.get(part)?.buffer, type);
-    attribute.version = this.#version; // so three's wireframe knows that the index is another one
+    attribute.version = this.#version; // a new version, which makes three.js rebuild its wireframe index
     if (part === "indices") this.geometry.setIndex(attribute);
     else this.geometry.setAttribute(name, attribute);
   }
 
-  /** What the GPU alone has. */
-  #lendOut(part: Part, { name, width, type, Numbers }: Kind): void {
+  /**
+   * Sets the geometry's attribute for an array that exists only on the GPU; deletes the attribute if there is no such
+   * array.
+   */
+  #lendOut(part: SurfaceArray, { name, width, type, ArrayType }: Kind): void {
     const buffer = this.#gpu.get(part)?.buffer;
     if (!buffer) return void this.geometry.deleteAttribute(name);
-    const size = Numbers.BYTES_PER_ELEMENT as 2 | 4; // as three.js' types want it
+    const size = ArrayType.BYTES_PER_ELEMENT as 2 | 4; // required by the types of three.js
     const attribute = Object.assign(new GLBufferAttribute(buffer, type, width, size, this.#vertices), {
       normalized: type !== WebGL2RenderingContext.FLOAT,
     });
@@ -182,6 +195,6 @@ export class SurfaceBuffers {
   }
 }
 
-function isOrigin(part: Part): boolean {
+function isOrigin(part: SurfaceArray): boolean {
   return part === "fromPositions" || part === "fromNormals";
 }

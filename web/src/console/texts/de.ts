@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Texts } from "./en.ts";
+import type { ConsoleTexts } from "./en.ts";
 
-export const de: Texts = {
+export const de: ConsoleTexts = {
   title: "Vitrine-Konsole",
   navigation: "Bereiche",
   gallery: "Sammlung",
@@ -22,7 +22,7 @@ export const de: Texts = {
   problem: {
     silent: "Der Server antwortet nicht. Bitte das Netz prüfen und es noch einmal versuchen.",
     interrupted: "Ein Not-Halt kam dazwischen. Bitte noch einmal versuchen.",
-    failed: "Der Server ist daran gescheitert. Sein Protokoll sagt unter der Anfrage unten, warum.",
+    failed: "Auf dem Server ist ein Fehler aufgetreten. Das Protokoll nennt ihn unter der Anfragenummer unten.",
     refused: (status, title) => `Der Server hat das abgelehnt (${status} ${title}).`,
     request: (id) => `Anfrage ${id}`,
     expected: (what) => `Erwartet: ${what}`,
@@ -45,7 +45,7 @@ export const de: Texts = {
   uploads: {
     drop: "Scans hier ablegen",
     choose: "Dateien wählen",
-    formats: "PLY, OBJ, STL, OFF, GLB oder PMESH",
+    formats: (names: string[]) => `${names.slice(0, -1).join(", ")} oder ${names.at(-1)}`,
     progress: (name) => `Hochladen von ${name}`,
     states: { waiting: "Wartet, bis es an der Reihe ist", sending: "Wird hochgeladen", paused: "Angehalten", failed: "Unterbrochen", whole: "Hochgeladen" },
     sent: (sent, all) => `${sent} von ${all}`,

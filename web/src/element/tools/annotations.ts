@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Notes on places of a model, as a page's JSON file states them: a list of
-// {"position": [x, y, z], "normal": [x, y, z], "title": "...", "text": "..."}, `normal` and `text` optional,
-// or an object with that list as `annotations`. Model coordinates.
+// Reads notes on points of a model from a page's JSON file: a list of
+// {"position": [x, y, z], "normal": [x, y, z], "title": "...", "text": "..."} in model coordinates, or an
+// object with that list as `annotations`. `normal` and `text` are optional.
 
 export type Triple = [number, number, number];
 
@@ -12,13 +12,16 @@ export interface Annotation {
   text: string;
 }
 
-/** Three numbers of a list or, as model-viewer writes them, of a text: "0.1m 2cm 3" (the unit is the model's). */
+/**
+ * Parses three numbers from a list, or from a text as in model-viewer, such as "0.1m 2cm 3". Units in the text are
+ * ignored: all numbers are in model units. Returns undefined if `value` is malformed.
+ */
 export function triple(value: unknown): Triple | undefined {
   const parts = typeof value === "string" ? value.trim().split(/\s+/).map(Number.parseFloat) : value;
   return Array.isArray(parts) && parts.length === 3 && parts.every(Number.isFinite) ? (parts as Triple) : undefined;
 }
 
-/** Throws where it is no such file; the message names the entry. */
+/** Returns the notes in `json`. Throws if `json` is malformed; the message names the faulty entry. */
 export function readAnnotations(json: unknown): Annotation[] {
   const list = Array.isArray(json) ? json : (json as { annotations?: unknown } | null)?.annotations;
   if (!Array.isArray(list)) throw new Error("no list of annotations");

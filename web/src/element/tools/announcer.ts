@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells those who listen what the others see: where the camera has come to rest, and how far the model has
-// come, at milestones only.
+// Announces two things to screen readers: from where the visitor sees the model, when the camera has come to rest, and
+// how far the model has been refined, at milestones only.
 import type { Bench, Tool } from "./bench.ts";
 import { heightOf, sideOf } from "./view.ts";
 
-/** Milliseconds without a move after which a camera rests. */
+/** Milliseconds without movement after which the camera counts as at rest. */
 const kRest = 600;
 
-/** Whether a model of `total` bytes passes its half, but not its end, between two states. */
+/**
+ * Whether a model of `total` bytes reaches half of them, but does not become complete, between a state of `before`
+ * bytes and a state of `now` bytes.
+ */
 export function passesHalf(before: number, now: number, total: number): boolean {
   return before < total / 2 && now >= total / 2 && now < total;
 }
@@ -15,7 +18,8 @@ export function passesHalf(before: number, now: number, total: number): boolean 
 export class Announcer implements Tool {
   #seen = "";
   #bytes = 0;
-  #asked = false; // for a level of detail: one that a camera asks for is worth no word
+  // Whether the next `load` event is announced: the first one, and each that the visitor has requested.
+  #hasAsked = false;
   #resting: ReturnType<typeof setTimeout> | undefined;
 
   constructor(private readonly bench: Bench) {}
@@ -31,17 +35,17 @@ export class Announcer implements Tool {
       if (passesHalf(this.#bytes, bytes, info.fileBytes)) this.bench.say(texts.halfway);
       this.#bytes = bytes;
     }, options);
-    host.addEventListener("load", () => this.#asked && this.#reached(), options);
-    this.#asked = true;
-    const ask = ({ target }: Event) => (this.#asked ||= (target as Element).closest(".choice, .detail") !== null);
+    host.addEventListener("load", () => this.#hasAsked && this.#reached(), options);
+    this.#hasAsked = true;
+    const ask = ({ target }: Event) => (this.#hasAsked ||= (target as Element).closest(".choice, .detail") !== null);
     for (const sign of ["click", "input"]) this.bench.view.parentElement?.addEventListener(sign, ask, options);
     until.addEventListener("abort", () => clearTimeout(this.#resting));
-    if (this.bench.triangles === info.levels.at(-1)?.faces) this.#reached(); // before the tools were there
+    if (this.bench.triangles === info.levels.at(-1)?.faces) this.#reached(); // full detail was reached before the tools were loaded
     else this.bench.say(texts.firstShape(this.bench.triangles));
   }
 
   #reached(): void {
-    this.#asked = false;
+    this.#hasAsked = false;
     this.bench.say(this.bench.texts.reached(this.bench.triangles));
   }
 

@@ -1,36 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tools share.
+// The interfaces between the viewer and its tools.
 import type { Stage } from "../stage.ts";
-import type { Texts } from "../../texts/index.ts";
-import type { Orbit } from "./orbit.ts";
+import type { ViewerTexts } from "../../texts/index.ts";
+import type { OrbitController } from "./orbit.ts";
 import type { Overlay } from "./overlay.ts";
 
-/** The view and the detail that the page asks for. */
-export interface Page {
+/** Restores the view and the level of detail that the page's attributes define. */
+export interface ViewerDefaults {
   frame(): void;
   sharpen(): void;
 }
 
 export interface Bench {
   readonly host: HTMLElement & { token: string };
-  /** The place of the picture. */
+  /** The container of the canvas. */
   readonly view: HTMLElement;
-  readonly texts: Texts;
+  readonly texts: ViewerTexts;
   readonly overlay: Overlay;
-  readonly orbit: Orbit;
-  /** With a model whose base mesh is shown: there is one between attach() and detach(). */
+  readonly orbit: OrbitController;
+  /** The stage of a model whose base mesh is shown; available between attach() and detach(). */
   readonly stage: Stage;
-  /** What the page has asked for. */
-  readonly page: Page;
-  /** Shown now. */
+  readonly page: ViewerDefaults;
+  /** Number of triangles shown now. */
   readonly triangles: number;
-  /** Says something to those who listen to the page. */
+  /** Announces a text to screen readers. */
   say(text: string): void;
 }
 
 export interface Tool {
-  /** A model is on the stage; what begins here ends with `until`. */
+  /** Called when a model is on the stage. Listeners and timers must end when `until` is aborted. */
   attach?(until: AbortSignal): void;
-  /** As before the visitor came. */
+  /** Restores the initial settings. */
   reset?(): void;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-type Attributes = Record<string, string | boolean | EventListener>;
+type AttributeValues = Record<string, string | boolean | EventListener>;
 
-/** An element: listeners as functions ("onclick"), flags as booleans, all else as attributes. */
+/** Creates an element. Functions become listeners ("onclick"), booleans set or omit an attribute, strings are attribute values. */
 export function make<K extends keyof HTMLElementTagNameMap>(
-  tag: K, attributes: Attributes = {}, ...content: (Node | string)[]
+  tag: K, attributes: AttributeValues = {}, ...content: (Node | string)[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -15,7 +15,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** A radio group of `name`; the first value is chosen at first. */
+/** Creates a radio group called `name`; the first value is selected initially. */
 export function choices<T extends string>(
   name: string, label: string, labels: Record<T, string>, chosen: (value: T) => void,
 ): HTMLElement {

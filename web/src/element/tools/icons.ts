@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines on a field of 24 x 24.
+// Icons as SVG paths in a 24 x 24 view box.
 const kPaths = {
   light: "M12 7a5 5 0 1 0 0 10a5 5 0 0 0 0-10M12 1.8v2M12 20.2v2M1.8 12h2M20.2 12h2M4.8 4.8l1.4 1.4M17.8 17.8l1.4 1.4M4.8 19.2l1.4-1.4M17.8 6.2l1.4-1.4",
   section: "M12 2.5l8 4.5v9.8l-8 4.7l-8-4.7V7zM12 2.5v19M12 12l8-5M12 17l8-5",
@@ -15,7 +15,7 @@ export type Icon = keyof typeof kPaths;
 
 const kSvg = "http://www.w3.org/2000/svg";
 
-/** Decoration: what it stands on has a name. */
+/** Creates an icon. It is hidden from screen readers, because the button around it has a label. */
 export function icon(name: Icon): SVGSVGElement {
   const svg = document.createElementNS(kSvg, "svg");
   svg.setAttribute("viewBox", "0 0 24 24");

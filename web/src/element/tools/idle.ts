@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For kiosks: so many seconds (`idle-reset`) after a visitor has left, all is as before.
+// Resets the viewer `idle-reset` seconds after the last input. Kiosks use this for the next visitor.
 import type { Bench, Tool } from "./bench.ts";
 
 const kSigns = ["pointerdown", "pointermove", "wheel", "keydown", "focusin"] as const;

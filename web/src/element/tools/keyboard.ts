@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera for those who use no pointer.
+// Camera control by keyboard.
 import type { Bench, Tool } from "./bench.ts";
 
 const kTurn = 10; // degrees
 const kZoom = 1.15;
 
-/** What a key does: degrees to the right, degrees up, a factor of the distance. */
+/** The effect of each key: degrees to the right, degrees up, factor for the distance. */
 const kMoves: Record<string, [number, number, number]> = {
   ArrowLeft: [-kTurn, 0, 1], ArrowRight: [kTurn, 0, 1], ArrowUp: [0, kTurn, 1], ArrowDown: [0, -kTurn, 1],
   "+": [0, 0, 1 / kZoom], "=": [0, 0, 1 / kZoom], "-": [0, 0, kZoom],

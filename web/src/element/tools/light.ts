@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lighting presets. Raking light comes from the side, nearly along the surface, so that every tool
-// mark throws its shadow tone; the visitor turns where it comes from.
+// Lighting presets. Raking light comes from the side, nearly parallel to the surface, so that shading
+// reveals every tool mark; the visitor can turn its direction.
 import { HemisphereLight } from "three";
 import type { Bench, Tool } from "./bench.ts";
 import { choices, make } from "./dom.ts";
 
 interface Lighting {
-  /** From the object to the lamp: right, up, towards the visitor. */
+  /** Direction from the object to the lamp: right, up, towards the visitor. */
   from: [number, number, number];
   lamp: number;
   sky: number;
@@ -14,9 +14,12 @@ interface Lighting {
 
 export type Preset = "studio" | "soft" | "front" | "raking";
 
-/** How far raking light is lifted off the picture's plane. */
+/**
+ * Component of the raking light's direction towards the visitor. The component in the plane of the screen has length
+ * 1.
+ */
 const kLift = 0.14;
-const kFirstAngle = 315; // clockwise from above: from the upper left, as relief is drawn
+const kFirstAngle = 315; // degrees clockwise from the top: light from the upper left, the convention for reliefs
 
 export const kLightings: Record<Preset, Lighting> = {
   studio: { from: [-0.6, 0.9, 0.6], lamp: 2.2, sky: 1.1 },
@@ -25,7 +28,7 @@ export const kLightings: Record<Preset, Lighting> = {
   raking: { from: rakingFrom(kFirstAngle), lamp: 4.2, sky: 0.16 },
 };
 
-/** The direction of raking light, `angle` degrees clockwise from above. */
+/** Returns the direction of raking light that comes from `angle` degrees clockwise from the top. */
 export function rakingFrom(angle: number): [number, number, number] {
   const radians = (angle * Math.PI) / 180;
   return [Math.sin(radians), Math.cos(radians), kLift];

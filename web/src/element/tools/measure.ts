@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The straight distance between two points of the surface, in the model's unit.
+// Measures the straight distance between two points of the surface, in the model's unit.
 import type { Bench, Tool } from "./bench.ts";
 import { make } from "./dom.ts";
 import type { Mark } from "./overlay.ts";
 import { pick } from "./pick.ts";
 
-/** Pixels that a pointer may move while it clicks. */
+/** Maximum pointer movement of a click, in pixels. */
 const kStill = 5;
 
 export class Measure implements Tool {
@@ -15,7 +15,7 @@ export class Measure implements Tool {
   readonly #line = make("div", { class: "ruler", hidden: true });
   readonly #label = make("div", { class: "length", hidden: true });
   #points: Mark[] = [];
-  #active = false;
+  #isActive = false;
 
   constructor(private readonly bench: Bench) {
     const clear = make("button", { type: "button", class: "framed", onclick: () => this.reset() }, bench.texts.measureClear);
@@ -25,9 +25,9 @@ export class Measure implements Tool {
     this.#tell();
   }
 
-  /** While its sheet is open, clicks set points. */
-  set active(on: boolean) {
-    this.#active = on;
+  /** Set to true while the tool's sheet is open. Only then do clicks set points. */
+  set isActive(on: boolean) {
+    this.#isActive = on;
     this.bench.view.classList.toggle("measuring", on);
     if (on) this.bench.say(this.bench.texts.measureFirst);
   }
@@ -51,7 +51,7 @@ export class Measure implements Tool {
   }
 
   #pick(x: number, y: number): void {
-    const point = this.#active ? pick(this.bench.stage, x, y) : undefined;
+    const point = this.#isActive ? pick(this.bench.stage, x, y) : undefined;
     if (!point) return;
     if (this.#points.length === 2) this.reset();
     const mark = { element: make("div", { class: "point" }), point };

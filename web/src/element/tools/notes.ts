@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Notes on the model: hotspots of the page (slot="hotspot-…" data-position data-normal, as
-// model-viewer has them) and those of the file that the attribute `annotations` names.
+// Notes on the model: the page's hotspots (slot="hotspot-…" data-position data-normal, as in
+// model-viewer) and the notes in the file named by the attribute `annotations`.
 import { Vector3 } from "three";
 import { readAnnotations, triple, type Annotation, type Triple } from "./annotations.ts";
 import type { Bench, Tool } from "./bench.ts";
@@ -11,9 +11,9 @@ const kWatched = { childList: true, subtree: true, attributeFilter: ["slot", "da
 
 export class Notes implements Tool {
   readonly content = make("ol", { class: "notes" });
-  /** Opens the sheet that holds `content`. */
+  /** Called when a note is chosen; opens the sheet with `content`. */
   onChosen: () => void = () => undefined;
-  /** Whether there is anything to read. */
+  /** Called when `content` has changed; `any` is whether it has anything to read. */
   onFilled: (any: boolean) => void = () => undefined;
   #marks: Mark[] = [];
   #hotspots: Mark[] = [];
@@ -83,7 +83,8 @@ export class Notes implements Tool {
   #choose(i: number): void {
     const { point, normal } = this.#marks[i] as Mark;
     this.#mark(i);
-    this.bench.orbit.flyTo(normal ?? point); // from without, where nothing says which side
+    // Without a normal, the camera moves to the side of the model on which the point is.
+    this.bench.orbit.flyTo(normal ?? point);
     this.onChosen();
     this.content.children[i]?.scrollIntoView({ block: "nearest" });
   }
@@ -96,7 +97,7 @@ export class Notes implements Tool {
     this.#marks.forEach(({ element }, i) => element.classList.toggle("chosen", i === chosen));
   }
 
-  /** The page's own hotspots: its elements, held in place by a slot of ours. */
+  /** Places the page's own hotspots: each is an element of the page, shown through a slot. */
   #pin(): void {
     this.#clear(this.#hotspots);
     for (const hotspot of this.bench.host.querySelectorAll<HTMLElement>(":scope > [slot^=hotspot-]")) {

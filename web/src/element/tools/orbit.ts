@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the camera about what it looks at, at once or in a flight.
+// Moves the camera around the point that it looks at, immediately or animated.
 import { Vector3 } from "three";
 import type { Stage } from "../stage.ts";
-import { anglesOf, offsetOf, type View } from "./view.ts";
+import { anglesOf, offsetOf, type OrbitView } from "./view.ts";
 
 const kFlight = 600; // milliseconds
 
-export class Orbit {
+export class OrbitController {
   #flight = 0;
 
   constructor(private readonly stage: () => Stage) {}
 
-  get view(): View {
+  get view(): OrbitView {
     const { camera, controls } = this.stage().parts, [x, y, z] = this.stage().mesh.info.centre;
     const target = controls.target;
     return { ...anglesOf(camera.position.clone().sub(target)), target: [target.x + x, target.y + y, target.z + z] };
   }
 
-  set view(view: View) {
+  set view(view: OrbitView) {
     this.stop();
     this.#place(view);
   }
 
-  /** Degrees, and a factor of the distance. */
+  /** Turns the camera by angles in degrees, and multiplies its distance by `zoom`. */
   turn(azimuth: number, elevation: number, zoom = 1): void {
     const { view } = this;
     this.view = { ...view, azimuth: view.azimuth + azimuth, elevation: view.elevation + elevation, distance: view.distance * zoom };
   }
 
-  /** To where `direction` points, seen from the target; at once for those who want no motion. */
+  /** Moves the camera to the side of the target to which `direction` points; without animation if reduced motion is preferred. */
   flyTo(direction: Vector3): void {
     const from = this.view, { azimuth, elevation } = anglesOf(direction);
     const turn = ((((azimuth - from.azimuth) % 360) + 540) % 360) - 180;
@@ -49,8 +49,8 @@ export class Orbit {
     cancelAnimationFrame(this.#flight);
   }
 
-  /** The controls keep to their limits. */
-  #place(view: View): void {
+  /** Places the camera, within the limits of the orbit controls. */
+  #place(view: OrbitView): void {
     const { camera, controls } = this.stage().parts, [x, y, z] = this.stage().mesh.info.centre;
     controls.target.set(view.target[0] - x, view.target[1] - y, view.target[2] - z);
     const { x: right, y: up, z: front } = offsetOf({ ...view, elevation: Math.max(-89.9, Math.min(89.9, view.elevation)) });

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds marks over points of the model while the camera moves.
+// Keeps HTML elements in front of points of the model while the camera moves.
 import { Vector3, type PerspectiveCamera } from "three";
 
 export interface Mark {
   element: HTMLElement;
-  /** From the model's centre, as the mesh has it. */
+  /** Position relative to the model's centre, in model units. */
   point: Vector3;
-  /** Where the surface looks: a mark that it turns away is `behind`. */
+  /** Surface normal. A mark whose normal points away from the camera gets the class `behind`. */
   normal?: Vector3;
 }
 
 export class Overlay {
   readonly #marks = new Set<Mark>();
-  /** Called with each picture, after the marks are placed. */
+  /** Functions called at each frame, after the marks have been placed. */
   readonly followers = new Set<() => void>();
 
   constructor(private readonly place: HTMLElement) {}
@@ -32,15 +32,15 @@ export class Overlay {
     for (const follow of this.followers) follow();
   }
 
-  /** Pixels from the place's upper left corner. */
-  project(point: Vector3, camera: PerspectiveCamera): { x: number; y: number; visible: boolean } {
+  /** Projects a point to CSS pixels from the container's upper left corner. */
+  project(point: Vector3, camera: PerspectiveCamera): { x: number; y: number; isVisible: boolean } {
     const { x, y, z } = point.clone().project(camera);
-    return { x: ((1 + x) / 2) * this.place.clientWidth, y: ((1 - y) / 2) * this.place.clientHeight, visible: z < 1 };
+    return { x: ((1 + x) / 2) * this.place.clientWidth, y: ((1 - y) / 2) * this.place.clientHeight, isVisible: z < 1 };
   }
 
   #put({ element, point, normal }: Mark, camera: PerspectiveCamera): void {
-    const { x, y, visible } = this.project(point, camera);
+    const { x, y, isVisible } = this.project(point, camera);
     element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-    element.classList.toggle("behind", !visible || (normal !== undefined && normal.dot(camera.position.clone().sub(point)) < 0));
+    element.classList.toggle("behind", !isVisible || (normal !== undefined && normal.dot(camera.position.clone().sub(point)) < 0));
   }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a visitor takes along: a picture, a link to this view, the model at a level of detail.
+// Lets the visitor save a picture, a link to the current view, and the model at a level of detail.
 import type { Bench, Tool } from "./bench.ts";
 import { make } from "./dom.ts";
-import { apiOf, exportOf, kFormats, linkTo, viewIn, type Amount } from "./links.ts";
+import { apiOf, exportOf, kFormats, linkTo, viewIn, type ExportDetail } from "./links.ts";
 
-type Level = "shown" | "highest" | "lowest";
+type DownloadLevel = "shown" | "highest" | "lowest";
 
 export class Save implements Tool {
   readonly content: HTMLElement;
@@ -41,7 +41,9 @@ export class Save implements Tool {
     restore();
   }
 
-  /** Its sheet opens: all addresses are those of now. */
+  /**
+   * Updates all links to the current state. Called when the sheet opens, and when the camera moves while it is open.
+   */
   refresh(): void {
     const { host, orbit, stage, texts, triangles } = this.bench, { levels } = stage.mesh.info;
     const coarse = levels[0]?.faces ?? 0, fine = levels.at(-1)?.faces ?? 0;
@@ -56,10 +58,10 @@ export class Save implements Tool {
 
   #aim(): void {
     const { host, texts } = this.bench, src = new URL(host.getAttribute("src") ?? "", document.baseURI).href, api = apiOf(src);
-    const level = this.#level.value as Level;
-    const amount: Amount = level === "shown" ? { triangles: this.bench.triangles } : { level };
+    const level = this.#level.value as DownloadLevel;
+    const amount: ExportDetail = level === "shown" ? { triangles: this.bench.triangles } : { level };
     this.#download.hidden = api === undefined || host.token !== "";
-    this.#file.hidden = host.token !== ""; // a link does not send it
+    this.#file.hidden = host.token !== ""; // a link does not send the token
     this.#file.textContent = api === undefined ? texts.fileAlone : texts.download;
     this.#file.href = api === undefined ? src : exportOf(api, this.#format.value, amount);
   }
@@ -78,11 +80,11 @@ export class Save implements Tool {
   async #copy(): Promise<void> {
     const { texts } = this.bench;
     this.#link.select();
-    // Pages without TLS have no clipboard.
-    const copied = await (navigator.clipboard?.writeText(this.#link.value) ?? Promise.reject()).then(() => true, () => false);
-    this.#said.textContent = copied ? texts.copied : texts.copyByHand;
+    // Pages without TLS have no access to the clipboard.
+    const isCopied = await (navigator.clipboard?.writeText(this.#link.value) ?? Promise.reject()).then(() => true, () => false);
+    this.#said.textContent = isCopied ? texts.copied : texts.copyByHand;
     this.bench.say(this.#said.textContent);
-    if (!copied) this.#link.focus();
+    if (!isCopied) this.#link.focus();
   }
 
   get #name(): string {

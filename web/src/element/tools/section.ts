@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plane that cuts the model open. What looks through the cut at the inside sees one even tone, so
-// that a closed model looks solid there, and an open one clean.
+// A clipping plane that cuts the model open. Back faces that become visible get one flat colour, so that a closed
+// model looks solid at the cut.
 import { Color, Plane, type Box3, type MeshStandardMaterial, type WebGLProgramParametersWithUniforms } from "three";
 import type { Bench, Tool } from "./bench.ts";
 import { checkbox, choices, make } from "./dom.ts";
@@ -10,12 +10,15 @@ type Axis = "x" | "y" | "z";
 const kTone = new Color(0xa9836b);
 const kSteps = 200;
 
-/** The plane across `axis` at `fraction` of the box; what is above it is cut away, or below where `flipped`. */
-export function cuttingPlane(box: Box3, axis: Axis, fraction: number, flipped: boolean): Plane {
+/**
+ * Returns the plane perpendicular to `axis` at `fraction` (0 to 1) of the box. It cuts away the side with larger
+ * coordinates or, if `isFlipped`, the side with smaller ones.
+ */
+export function cuttingPlane(box: Box3, axis: Axis, fraction: number, isFlipped: boolean): Plane {
   const at = box.min[axis] + fraction * (box.max[axis] - box.min[axis]);
   const plane = new Plane();
-  plane.normal[axis] = flipped ? 1 : -1;
-  plane.constant = flipped ? -at : at;
+  plane.normal[axis] = isFlipped ? 1 : -1;
+  plane.constant = isFlipped ? -at : at;
   return plane;
 }
 
@@ -43,7 +46,7 @@ export class Section implements Tool {
   }
 
   attach(until: AbortSignal): void {
-    until.addEventListener("abort", () => (this.#undress = undefined)); // its material has gone
+    until.addEventListener("abort", () => (this.#undress = undefined)); // the patched material is disposed of with the model
     this.#cut();
   }
 
@@ -75,7 +78,7 @@ function box(label: HTMLLabelElement): HTMLInputElement {
   return label.querySelector("input") as HTMLInputElement;
 }
 
-/** Paints what is seen from behind in one tone; returns how to take that back. */
+/** Paints back faces in one flat colour; returns a function that undoes this. */
 function evenInside(material: MeshStandardMaterial): () => void {
   const { onBeforeCompile, customProgramCacheKey } = material;
   const tone = `vec4(${kTone.toArray().map((part) => part.toFixed(4)).join(", ")}, 1.0)`;

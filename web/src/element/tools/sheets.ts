@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bar of tools and the sheets that they open, one at a time.
+// The toolbar and the sheets that its buttons open, one at a time.
 import { make } from "./dom.ts";
 import { icon, type Icon } from "./icons.ts";
 
@@ -15,14 +15,14 @@ export class Sheets {
   constructor(private readonly bar: HTMLElement, private readonly closeLabel: string) {
     bar.addEventListener("keydown", (event) => {
       if (event.key !== "Escape" || !this.#open) return;
-      event.stopPropagation(); // a page's dialog stays
+      event.stopPropagation(); // otherwise Escape would also close a dialog of the page
       const { button } = this.#open;
       this.close();
       button.focus();
     });
   }
 
-  /** A button that acts at once. */
+  /** Adds a button that calls `act` when it is clicked. */
   action(name: Icon, label: string, act: () => void): HTMLButtonElement {
     const shown = [icon(name), make("span", {}, label)];
     const button = make("button", { type: "button", name, title: label, "aria-label": label, onclick: act }, ...shown);
@@ -30,7 +30,7 @@ export class Sheets {
     return button;
   }
 
-  /** A button that opens a sheet with `content`, and closes it. */
+  /** Adds a button that opens and closes a sheet with `content`. */
   add(name: Icon, label: string, content: HTMLElement, onOpen: (open: boolean) => void = () => undefined): HTMLButtonElement {
     const button = this.action(name, label, () => this.#toggle(sheet));
     const leave = () => (this.close(), button.focus());

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the surface is drawn. What the visitor has switched holds for the next model, too.
+// Settings for drawing the surface. The visitor's settings also apply to the next model.
 import type { Bench, Tool } from "./bench.ts";
 import { checkbox, make } from "./dom.ts";
 
 const kToggles = { colours: true, facets: false, wireframe: false };
 type Toggle = keyof typeof kToggles;
 
-export class Surface implements Tool {
+export class SurfaceStyle implements Tool {
   readonly content: HTMLElement;
 
   constructor(private readonly bench: Bench) {
@@ -16,7 +16,7 @@ export class Surface implements Tool {
 
   attach(): void {
     const colours = this.#box("colours").closest("label") as HTMLElement;
-    colours.hidden = !this.bench.stage.mesh.info.coloured;
+    colours.hidden = !this.bench.stage.mesh.info.attributes.includes("colour");
     this.#each((name, first) => this.#box(name).checked !== first && (this.bench.stage[name] = !first));
   }
 

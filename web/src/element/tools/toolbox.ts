@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visitor's tools around a model. A chunk of its own that comes after the first picture, and that shares
-// no code with the others: what it needs of them is handed to it.
-import type { Texts } from "../../texts/index.ts";
+// The visitor's tools. They are a separate bundle that is loaded after the first paint and shares no code with
+// the viewer's other bundles: it gets the objects that it needs as arguments.
+import type { ViewerTexts } from "../../texts/index.ts";
 import type { Panel } from "../panel.ts";
 import type { Stage } from "../stage.ts";
 import { Announcer } from "./announcer.ts";
-import type { Bench, Page, Tool } from "./bench.ts";
+import type { Bench, Tool, ViewerDefaults } from "./bench.ts";
 import { make } from "./dom.ts";
 import { Idle } from "./idle.ts";
 import { Keyboard } from "./keyboard.ts";
 import { Light } from "./light.ts";
 import { Measure } from "./measure.ts";
 import { Notes } from "./notes.ts";
-import { Orbit } from "./orbit.ts";
+import { OrbitController } from "./orbit.ts";
 import { Overlay } from "./overlay.ts";
 import { Save } from "./save.ts";
 import { Section } from "./section.ts";
 import { Sheets } from "./sheets.ts";
-import { Surface } from "./surface.ts";
+import { SurfaceStyle } from "./surface.ts";
 import style from "./tools.css?text";
 
 export class Toolbox implements Bench {
   readonly view: HTMLElement;
   readonly overlay: Overlay;
-  readonly orbit = new Orbit(() => this.stage);
+  readonly orbit = new OrbitController(() => this.stage);
   readonly #choice: Panel["choice"];
   readonly #heard = make("p", { class: "heard", role: "status" });
   readonly #bar: HTMLElement;
@@ -31,10 +31,10 @@ export class Toolbox implements Bench {
   readonly #tools: Tool[];
   readonly #made: HTMLElement[];
   #stage: Stage | undefined;
-  #page: Page | undefined;
+  #page: ViewerDefaults | undefined;
   #until = new AbortController();
 
-  constructor(readonly host: Bench["host"], { root, view, choice }: Panel, readonly texts: Texts) {
+  constructor(readonly host: Bench["host"], { root, view, choice }: Panel, readonly texts: ViewerTexts) {
     const marks = make("div", { class: "marks" });
     this.#made = [make("style", {}, style), marks, this.#heard];
     root.append(this.#made[0] as HTMLElement);
@@ -50,8 +50,8 @@ export class Toolbox implements Bench {
   get stage(): Stage {
     return this.#stage as Stage;
   }
-  get page(): Page {
-    return this.#page as Page;
+  get page(): ViewerDefaults {
+    return this.#page as ViewerDefaults;
   }
   get triangles(): number {
     return this.#choice.triangles;
@@ -61,7 +61,7 @@ export class Toolbox implements Bench {
     this.#heard.textContent = text;
   }
 
-  attach(stage: Stage, page: Page): void {
+  attach(stage: Stage, page: ViewerDefaults): void {
     this.#stage = stage;
     this.#page = page;
     this.#until = new AbortController();
@@ -72,7 +72,7 @@ export class Toolbox implements Bench {
     void stage.draw();
   }
 
-  /** The stage goes. */
+  /** Detaches the tools from the stage, which is about to be disposed of. */
   detach(): void {
     this.#bar.inert = true;
     this.orbit.stop();
@@ -82,7 +82,7 @@ export class Toolbox implements Bench {
     this.#stage = undefined;
   }
 
-  /** Makes room for another toolbox. */
+  /** Removes the toolbox, so that another one can take its place. */
   remove(): void {
     if (this.#stage) for (const tool of this.#tools) tool.reset?.();
     this.detach();
@@ -90,16 +90,16 @@ export class Toolbox implements Bench {
     this.#bar.replaceWith(this.#bar.cloneNode());
   }
 
-  /** The bar, in the order in which one looks, studies and takes along. */
+  /** Adds the buttons to the toolbar, in the order in which visitors need them. Returns the tools. */
   #fill(): Tool[] {
     const { texts } = this, sheets = this.#sheets;
-    const light = new Light(this), surface = new Surface(this), section = new Section(this);
+    const light = new Light(this), surface = new SurfaceStyle(this), section = new Section(this);
     const measure = new Measure(this), notes = new Notes(this), save = new Save(this);
     sheets.action("reset", texts.reset, () => this.page.frame());
     sheets.add("light", texts.light, light.content);
     sheets.add("surface", texts.surface, surface.content);
     sheets.add("section", texts.section, section.content);
-    sheets.add("measure", texts.measure, measure.content, (open) => (measure.active = open));
+    sheets.add("measure", texts.measure, measure.content, (open) => (measure.isActive = open));
     const reader = sheets.add("notes", texts.notes, notes.content);
     reader.hidden = true;
     notes.onFilled = (any) => (reader.hidden = !any);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a camera stands, as numbers for a link and as words for the ear. Degrees; azimuth 0 is the
-// front and 90 the right, elevation 90 is above.
+// Camera positions as numbers for links and as words for screen readers. Angles are in degrees: azimuth 0 is
+// the front and 90 the right, elevation 90 is above.
 
-export interface View {
+export interface OrbitView {
   azimuth: number;
   elevation: number;
-  /** From the target, model units. */
+  /** Distance from the target, in model units. */
   distance: number;
-  /** What the camera looks at, model coordinates. */
+  /** The point that the camera looks at, in model coordinates. */
   target: [number, number, number];
 }
 
@@ -24,7 +24,7 @@ export function anglesOf({ x, y, z }: Vector): { azimuth: number; elevation: num
   return { azimuth: Math.atan2(x, z) * kDegrees, elevation: Math.asin(distance > 0 ? y / distance : 0) * kDegrees, distance };
 }
 
-export function offsetOf({ azimuth, elevation, distance }: Omit<View, "target">): Vector {
+export function offsetOf({ azimuth, elevation, distance }: Omit<OrbitView, "target">): Vector {
   const flat = distance * Math.cos(elevation / kDegrees);
   return {
     x: flat * Math.sin(azimuth / kDegrees),
@@ -41,13 +41,13 @@ export function heightOf(elevation: number): Height {
   return elevation > 25 ? "above" : elevation < -25 ? "below" : "level";
 }
 
-/** As it stands in a link: six numbers with as many digits as a screen can tell apart. */
-export function formatView({ azimuth, elevation, distance, target }: View): string {
+/** Formats a view for a link as six numbers, rounded to a precision that makes no visible difference. */
+export function formatView({ azimuth, elevation, distance, target }: OrbitView): string {
   return [azimuth.toFixed(1), elevation.toFixed(1), ...[distance, ...target].map((value) => Number(value.toPrecision(5)))].join(",");
 }
 
-/** Undefined where the text is no view. */
-export function parseView(text: string): View | undefined {
+/** Parses a view from a link. Returns undefined if the text is malformed. */
+export function parseView(text: string): OrbitView | undefined {
   const numbers = text.split(",").map(Number);
   const [azimuth = NaN, elevation = NaN, distance = NaN, x = NaN, y = NaN, z = NaN] = numbers;
   if (numbers.length !== 6 || !numbers.every(Number.isFinite) || distance <= 0 || Math.abs(elevation) > 90) return undefined;

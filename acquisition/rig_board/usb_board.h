@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Simulates a controller board as a USB device. Unmodified libusb programs find the device if they
+// are started as children with environment(). The simulation answers the kernel's usbfs calls
+// through umockdev.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "acquisition/rig_board/firmware.h"
+#include "acquisition/rig_board/usb_wire.h"
+#include "codec/core/expected.h"
+
+namespace vitrine::acquisition::rig {
+
+struct UsbBoardSettings {
+  bool is_fabscan = false;  // whether the firmware is FabScan instead of Horus
+  UsbTransport transport = UsbTransport::kCdcAcm;
+  std::string serial = "RIG0001";
+  FirmwareSettings firmware;
+};
+
+// Functions that the board calls from its own threads, one at a time. They must not call the board.
+struct UsbBoardEvents {
+  // Receives the target of a motion. Called first.
+  std::function<void(double degrees)> on_goal = [](double) {};
+  // Receives the table's angle during the motion.
+  std::function<void(double degrees)> on_move = [](double) {};
+  // Receives the table's angle at the end of the motion.
+  std::function<void(double degrees)> on_turn = [](double) {};
+  std::function<void(bool on)> on_laser = [](bool) {}, on_motor = [](bool) {};
+  // Receives each command to the board.
+  std::function<void(std::string_view text)> on_command = [](std::string_view) {};
+};
+
+// Restarts this program under umockdev's library if needed. Without that library, other programs
+// are not notified of devices that come or go. Call it first in main(). It returns only if no
+// restart is needed or the restart fails.
+void enter_testbed(char** argv);
+
+// A simulated board. All functions may be called from any thread.
+class UsbBoard {
+ public:
+  // Creates the board unplugged. Also sets UMOCKDEV_DIR in this process, which has no other effect.
+  explicit UsbBoard(UsbBoardEvents events);
+  ~UsbBoard();
+  UsbBoard(const UsbBoard&) = delete;
+  UsbBoard& operator=(const UsbBoard&) = delete;
+
+  // Returns "NAME=value" for each environment variable that child processes need.
+  std::vector<std::string> environment() const;
+
+  // Powers the board on in port 2 of bus 1 ("1-2"). The board keeps only the table's angle. A board
+  // that is already plugged in is unplugged first.
+  Expected<void> plug(const UsbBoardSettings& settings);
+  // Powers the board off: transfers in progress fail, and the device disappears.
+  void unplug();
+
+  // Stalls the motor until the board restarts.
+  void stall();
+  // Makes the board send these bytes in addition to its own output.
+  void babble(const std::string& bytes);
+
+  double table() const;  // returns the table's angle in degrees
+  bool laser() const;
+  bool motor() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vitrine::acquisition::rig

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The empty turntable's top.
+#pragma once
+
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine::acquisition::rig {
+
+// Returns a disc about the axis at z = 0, in mm.
+TriangleMesh plate();
+
+}  // namespace vitrine::acquisition::rig

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mesh that the rig can scan. It casts rays with Embree. Its albedo changes in sharp-edged
+// patches, as if painted.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <vector>
+
+#include "acquisition/rig_optics/subject.h"
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine::acquisition::rig {
+
+struct Finish {
+  bool is_painted = true;  // whether patches have another albedo than the rest
+  double gloss = 0.25;     // 0 means fully matt
+};
+
+class Solid final : public Subject {
+ public:
+  explicit Solid(const TriangleMesh& mesh, const Finish& finish = {});
+
+  std::optional<RayHit> first_hit(const Vec3& from, const Vec3& direction) const override;
+  bool shadowed(const RayHit& point, const Vec3& source) const override;
+  void near_plane(const Vec3& normal, double offset, double half,
+                  const std::function<void(ConvexPolygon)>& visit) const override;
+  // Ambient light is faint and equal in both frames of a pair, so an eighth of the resolution is
+  // enough.
+  int ambient_step() const override { return 8; }
+  double ambient_light() const override { return 14; }
+
+  // Returns whether anything blocks the straight line between two points. Obstacles within `margin`
+  // mm of its ends do not count.
+  bool blocked(const Vec3& from, const Vec3& to, double margin) const;
+
+ private:
+  struct Release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+  std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> scene_;
+  std::vector<Vec3> positions_;
+  std::vector<Triangle> faces_;
+  Finish finish_;
+};
+
+}  // namespace vitrine::acquisition::rig

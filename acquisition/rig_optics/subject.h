@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The object or target of which pictures are rendered, in a frame of its own, in mm.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "codec/core/vec.h"
+
+namespace vitrine::acquisition::rig {
+
+struct RayHit {
+  Vec3 at, normal;    // unit normal, of either orientation
+  double albedo = 0;  // share of light reflected, 0 to 1
+  double gloss = 0;   // share of light reflected as a blurred highlight
+};
+
+class Subject {
+ public:
+  using ConvexPolygon = std::span<const Vec3>;  // corners of a planar convex polygon
+
+  virtual ~Subject() = default;
+
+  // Returns the first hit of a ray, or nullopt. `direction` is a unit vector.
+  virtual std::optional<RayHit> first_hit(const Vec3& from, const Vec3& direction) const = 0;
+  // Returns whether the subject shadows its own `point` from the light at `source`.
+  virtual bool shadowed(const RayHit& point, const Vec3& source) const = 0;
+  // Visits all parts with |dot(normal, p) - offset| <= half. It may visit others too.
+  virtual void near_plane(const Vec3& normal, double offset, double half,
+                          const std::function<void(ConvexPolygon)>& visit) const = 0;
+
+  // ambient_step() is the distance in pixels between samples of the ambient light. ambient_light()
+  // is the strength of that light.
+  virtual int ambient_step() const = 0;
+  virtual double ambient_light() const = 0;
+};
+
+}  // namespace vitrine::acquisition::rig

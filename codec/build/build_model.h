@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builds the bytes of a `.pmesh` from those of a mesh file: reads, repairs, quantises, simplifies,
+// encodes and measures the mesh. Needs no files and no other process, so it can run in a sandboxed
+// child.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/core/progress.h"
+#include "codec/format/manifest.h"
+#include "codec/import/read_mesh.h"
+#include "codec/simplify/simplify.h"
+
+namespace vitrine::inline codec {
+
+// Default size of a region. Slightly less than half of a level's vertices are new, and each costs
+// one to two bytes in the finest level. Regions of this size therefore have chunks of 10 to 30 KB.
+inline constexpr std::uint32_t kRegionVertices = 30'000;
+
+struct BuildOptions {
+  ReadOptions reading = {};
+  int bits = 0;  // bits per coordinate, kMinBits to kMaxBits; 0 chooses them from the median edge
+                 // length
+  Placement placement = Placement::kMidpoint;
+  CollapseOrder order = CollapseOrder::kBatch;
+  // See SimplifyOptions. A model with at most twice this many vertices is one region.
+  std::uint32_t region_vertices = kRegionVertices;
+  unsigned threads = 1;  // at least 1; does not change the output
+};
+
+struct BuildReport {
+  struct Input {
+    std::uint64_t vertices = 0, faces = 0;  // counts after repair
+    std::uint64_t boundary_edges = 0, components = 0;
+    std::vector<std::string> repairs;
+  };
+  struct Seconds {
+    // `encode` includes the computation of error bounds
+    double read = 0, simplify = 0, encode = 0, write = 0;
+  };
+
+  Input input;
+  Manifest manifest;  // manifest of the finished file
+  Seconds seconds;
+};
+
+struct BuildResult {
+  std::vector<std::uint8_t> file;
+  BuildReport report;
+};
+
+// Builds a model from the bytes of a mesh file. `progress` receives the stages "read", "simplify",
+// "encode" and "write". Fails (kBadInput, kUnsupported, kLimit) with the message of the reader or
+// of the repair.
+Expected<BuildResult> build_model(std::span<const std::uint8_t> input, const BuildOptions& options,
+                                  const ProgressReport& progress = {});
+
+// Builds a model from a mesh in memory. Ignores `options.reading`.
+Expected<BuildResult> build_model(ImportedMesh imported, const BuildOptions& options,
+                                  const ProgressReport& progress = {});
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+# One folder is one target. codec/ARCHITECTURE.md lists the folders with the modules and libraries that
+# each uses. The headers of a folder are reached only through a symlink that belongs to its target, so an
+# include that the table does not permit does not compile.
+include(${CMAKE_CURRENT_LIST_DIR}/libraries.cmake)
+set(VITRINE_ARCHITECTURE ${CMAKE_CURRENT_LIST_DIR}/../ARCHITECTURE.md)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${VITRINE_ARCHITECTURE})
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+
+# In builds with tests, archives of link-time optimised code also hold machine code. With gcc's plugin the
+# index of such an archive names functions that were inlined away, and a linker that looks for one loads
+# the same member twice. Writing the index without the plugin avoids that.
+if(VITRINE_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(CMAKE_CXX_ARCHIVE_CREATE_IPO "<CMAKE_AR> --plugin=/dev/null cr <TARGET> <LINK_FLAGS> <OBJECTS>")
+  set(CMAKE_CXX_ARCHIVE_FINISH_IPO "<CMAKE_RANLIB> --plugin=/dev/null <TARGET>")
+endif()
+
+add_library(vitrine_flags INTERFACE)
+# -ffp-contract=off: a fused multiply-add would make the decoder differ between machines.
+# -fno-tree-slp-vectorize: g++ 12.2 drops the rounding of paired double -> float -> double
+# conversions when it vectorises straight-line code.
+# -fno-math-errno: a square root is one instruction, without a branch to a call.
+target_compile_options(vitrine_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                               -Wno-sign-conversion -Wno-missing-field-initializers -Werror -ffp-contract=off
+                                               -fno-math-errno -fno-tree-slp-vectorize)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+  target_compile_definitions(vitrine_flags INTERFACE VITRINE_SANITISED)
+endif()
+target_link_options(vitrine_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Werror=odr>)
+
+# Compiles all files of a target as one if VITRINE_UNITY is on.
+function(vitrine_unity target)
+  if(VITRINE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    # The compiler takes included source files for headers, and warns about the coroutines in them.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
+# vitrine_rows(codec rows): the rows of the table whose modules lie below that folder.
+function(vitrine_rows top out)
+  file(STRINGS ${VITRINE_ARCHITECTURE} rows REGEX "^\\| `${top}/")
+  set(${out} "${rows}" PARENT_SCOPE)
+endfunction()
+
+# vitrine_libraries_of(codec libraries): the libraries that any module below that folder uses.
+function(vitrine_libraries_of top out)
+  vitrine_rows(${top} rows)
+  foreach(row IN LISTS rows)
+    string(REGEX REPLACE "^.*\\|([^|]*)\\|$" "\\1" row "${row}")
+    separate_arguments(row)
+    list(APPEND libraries ${row})
+  endforeach()
+  list(REMOVE_DUPLICATES libraries)
+  set(${out} ${libraries} PARENT_SCOPE)
+endfunction()
+
+# vitrine_modules(codec): makes a target of each module that ARCHITECTURE.md lists below this folder.
+function(vitrine_modules top)
+  vitrine_rows(${top} rows)
+  foreach(row IN LISTS rows)
+    string(REGEX MATCH "^\\| `([^`]+)` \\|[^|]*\\|([^|]*)\\|([^|]*)\\|$" matched "${row}")
+    if(NOT matched)
+      message(FATAL_ERROR "codec/ARCHITECTURE.md: this row has other than four columns: ${row}")
+    endif()
+    set(folder ${CMAKE_MATCH_1})
+    string(STRIP "${CMAKE_MATCH_2}" modules)
+    string(STRIP "${CMAKE_MATCH_3}" libraries)
+    separate_arguments(modules)
+    separate_arguments(libraries)
+    vitrine_module(${folder} MODULES ${modules} LIBRARIES ${libraries})
+  endforeach()
+endfunction()
+
+# A static library of the folder's sources without its programs (main.cpp, *_main.cpp).
+function(vitrine_module folder)
+  cmake_parse_arguments(module "" "" "MODULES;LIBRARIES" ${ARGN})
+  vitrine_module_target(${folder} target)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "main\\.cpp$")
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE vitrine_flags)
+    vitrine_unity(${target})
+    # The server's modules wait more than they compute, and most of a sanitised build is compiling.
+    if(folder MATCHES "^server/" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+      target_compile_options(${target} PRIVATE -O0)
+    endif()
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  vitrine_give_headers(${folder} ${target} ${scope})
+  foreach(name IN LISTS module_MODULES)
+    vitrine_module_target(${name} used)
+    target_link_libraries(${target} ${scope} ${used})
+  endforeach()
+  foreach(name IN LISTS module_LIBRARIES)
+    vitrine_find_library(${name} found)
+    target_link_libraries(${target} ${scope} ${found})
+  endforeach()
+  # The codec's hot loops cross files: link-time optimisation saves 5 % of a build's time.
+  if(sources AND folder MATCHES "^codec/" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
+    if(VITRINE_TESTS)  # otherwise the link of each test would optimise the codec again
+      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-ffat-lto-objects>)
+    endif()
+  endif()
+endfunction()
+
+function(vitrine_give_headers folder target scope)
+  set(root ${CMAKE_BINARY_DIR}/modules/${target})
+  get_filename_component(parent ${folder} DIRECTORY)
+  file(MAKE_DIRECTORY ${root}/${parent})
+  file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${root}/${folder} SYMBOLIC)
+  target_include_directories(${target} ${scope} ${root})
+endfunction()
+
+function(vitrine_module_target folder out)
+  string(REPLACE "/" "_" name "vitrine_${folder}")
+  set(${out} ${name} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes one chunk: the vertex splits and component insertions of one level in one region.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/coding/layer_pass.h"
+#include "codec/core/expected.h"
+#include "codec/format/region_tree.h"
+
+namespace vitrine::inline codec {
+
+// The changes made by a chunk, in coded order.
+struct LayerChange {
+  ChunkSplits splits;
+  std::vector<InsertedComponent> components;  // inserted after all splits
+};
+
+// Decodes one chunk into `mesh`. `node` is the chunk's region in `tree`. If this region forks in
+// the next level, the chunk also states the child region of each vertex. Safe on hostile bytes.
+// After an error, `mesh` can be destroyed safely but must not be used.
+Expected<LayerChange> decode_layer(MeshState& mesh, const ChunkFrame& frame, const RegionTree& tree,
+                                   std::uint32_t node, std::span<const std::uint8_t> bytes);
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The trained start values of the models of a chunk. The program `train-tables` (tests/training)
+// writes them and names the meshes used. Changing them changes the format. They are stored in the
+// form that takes the least space in the browser's compressed module.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "codec/core/range_coder.h"
+
+namespace vitrine::inline codec::trained {
+
+// Numbers as text, such as "-.0386 7.9e-18 ".
+extern const char kCutWeights[];         // CutModel::kFeatures numbers
+extern const char kTangentialWeights[];  // DisplacementModel::kKinds * kFeatures numbers
+extern const char kNormalWeights[];      // DisplacementModel::kKinds * kFeatures numbers
+extern const char kEvidence[];  // DisplacementModel::kClues * kLevels * 4 members of Evidence
+
+// Two numbers per bit: kHalf plus eight times the logit of the bit's probability, and an index into
+// kSeen.
+extern const std::uint8_t kFlagBits[];      // FlagModel::kBits pairs
+extern const std::uint8_t kCutBits[];       // CutModel::kBits pairs
+extern const std::uint8_t kResidualBits[];  // ResidualCoder::kBits pairs
+
+inline constexpr std::size_t kHalf = 64;
+inline constexpr std::array<std::uint8_t, 14> kSeen = {0,  1,  2,  3,  4,  6,  8,
+                                                       11, 16, 23, 32, 45, 64, 90};
+
+void load(const char* text, std::span<double> numbers);
+void load(const std::uint8_t* packed, std::span<AdaptiveBit> bits);
+
+template <std::size_t kCount>
+std::array<double, kCount> numbers_of(const char* text) {
+  std::array<double, kCount> numbers;
+  load(text, numbers);
+  return numbers;
+}
+
+}  // namespace vitrine::inline codec::trained

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measures how far each displayed level is from the original surface.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "codec/distance/hausdorff_bound.h"
+#include "codec/distance/surface_sampler.h"
+#include "codec/distance/witness_surface.h"
+#include "codec/mesh/triangle_bvh.h"
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine::inline codec {
+
+struct LevelError {
+  double max_error = 0;  // model units; no point of either surface is farther from the other
+                         // surface
+  // The larger rms distance of the two directions, in model units. Each is computed from 2,000
+  // samples.
+  double rms_error = 0;
+  std::vector<double> region_errors;  // max_error per region; the largest entry equals max_error
+};
+
+// The region of each vertex of a level and of the original, numbered from 0. Empty vectors mean
+// that there is only one region.
+struct LevelRegions {
+  std::vector<std::uint16_t> of_level, of_original;
+  std::uint32_t count = 1;
+};
+
+// Measures levels against one original. Several threads may measure at the same time.
+class ErrorMeter {
+ public:
+  // `original` is the input mesh before quantisation. It must have at least one face, finite
+  // positions and valid indices.
+  explicit ErrorMeter(TriangleMesh original);
+  ErrorMeter(const ErrorMeter&) = delete;
+
+  // Measures the displayed mesh of a level, in model units. `mesh` must have at least one face.
+  // max_error exceeds the true maximum by at most 2 % or 1e-6 of the diagonal, except for tangled
+  // surfaces (see HausdorffBound).
+  LevelError measure(TriangleMesh mesh, const LevelRegions& regions = {}) const;
+  // Measures a copy of the original whose vertices are moved by `move`, for example rounded to a
+  // lattice. Fast if the vertices move little.
+  using PointMap = std::function<Vec3(const Vec3&)>;
+  LevelError measure_moved(const PointMap& move, const LevelRegions& regions = {}) const;
+
+  const TriangleBvh& original() const { return bvh_; }
+
+ private:
+  // Samples both surfaces and adds the samples with the largest distances, and the triangles that
+  // contain them, to `bound`. Returns the larger rms distance of the two directions.
+  double sample_both(const RegionedSurface& level, const RegionedSurface& original,
+                     const WitnessSurface& surface, HausdorffBound& bound) const;
+
+  TriangleBvh bvh_;
+  WitnessSurface surface_;
+  std::vector<SurfaceSample> samples_;
+  double negligible_;
+};
+
+}  // namespace vitrine::inline codec

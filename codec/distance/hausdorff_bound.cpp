@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/distance/hausdorff_bound.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vitrine::inline codec {
+namespace {
+
+// A piece counts as much larger than its witness if radius^4 > kManyWitnesses * (2 * area of the
+// witness)^2. Such a piece is not cut along the edges of the witness.
+constexpr double kManyWitnesses = 16;
+// The source counts as finer if it has at least kFine times as many triangles as the target. In
+// that case one witness may bound a whole triangle of the source.
+constexpr std::size_t kFine = 2;
+// One exact distance can settle a piece if the piece's radius is at most this share of the limit.
+constexpr double kOneDistance = 0.9;
+// A piece is not cut at an edge beyond which it reaches by at most this share of the limit.
+constexpr double kSlack = 1e-6;
+// The limit counts as wide if it exceeds kWide times the width of the target's triangles. In that
+// case a few exact distances settle a triangle of the source faster than a patch of the target
+// does.
+constexpr double kWide = 4;
+
+Vec3 centre_of(const TrianglePoints& t) {
+  return (t.a + t.b + t.c) * (1.0 / 3);
+}
+
+// Returns the squared area of the parallelogram of which the triangle is one half.
+double squared_area(const TrianglePoints& t) {
+  const Vec3 normal = normal_of(t);
+  return dot(normal, normal);
+}
+
+// Returns the square root of twice the mean triangle area, computed from a sample of the triangles.
+double typical_width(const WitnessSurface& surface) {
+  constexpr std::uint32_t kStride = 64;
+  double area = 0, count = 0;
+  for (std::uint32_t t = 0; t < surface.size(); t += kStride)
+    area += std::sqrt(squared_area(surface.triangle(t))), ++count;
+  return std::sqrt(area / std::max(count, 1.0));
+}
+
+constexpr std::uint16_t kSeveral = 0xFFFF;
+
+// Returns the number of distinct regions in `r`. They come first in `r`, as in the result of
+// RegionedSurface::regions().
+std::size_t count_distinct(const std::array<std::uint16_t, 3>& r) {
+  return r[0] == r[1] ? 1 : r[1] == r[2] ? 2 : 3;
+}
+
+// Returns the region of all triangles in a leaf, or kSeveral if they differ.
+std::uint16_t leaf_region(const RegionedSurface& surface, const TriangleBvh::Node& leaf) {
+  const std::uint16_t first = surface.regions(leaf.first)[0];
+  for (std::uint32_t t = leaf.first; t < leaf.first + leaf.count; ++t) {
+    const auto regions = surface.regions(t);
+    if (count_distinct(regions) > 1 || regions[0] != first) return kSeveral;
+  }
+  return first;
+}
+
+// Computes the region of each node from its children. Runs backwards because children come after
+// their parents.
+std::vector<std::uint16_t> node_regions(const RegionedSurface& surface) {
+  const std::span<const TriangleBvh::Node> nodes = surface.bvh.nodes();
+  std::vector<std::uint16_t> out(nodes.size(), 0);
+  if (surface.region.empty()) return out;
+  for (std::size_t i = out.size(); i-- > 0;) {
+    const TriangleBvh::Node& node = nodes[i];
+    if (node.count > 0) {
+      out[i] = leaf_region(surface, node);
+    } else {
+      out[i] = out[node.first] == out[node.first + 1] ? out[node.first] : kSeveral;
+    }
+  }
+  return out;
+}
+
+struct OverhungEdge {
+  std::uint32_t index = 0;
+  double overhang = 0;
+};
+
+// Returns the edge of the witness beyond which the piece reaches farthest.
+OverhungEdge most_overhung(const ConvexPiece& piece, const WitnessSurface& target,
+                           std::uint32_t witness) {
+  OverhungEdge most;
+  for (const Vec3& p : piece.corners()) {
+    const std::array<double, 3> overhang = target.overhang(p, witness);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (overhang[k] > most.overhang) most = {k, overhang[k]};
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+void HausdorffBound::add(const TrianglePoints& triangle, const WitnessSurface& target,
+                         std::uint32_t near) {
+  target_ = &target;
+  last_ = target.closest(centre_of(triangle), near).triangle;
+  cover(ConvexPiece(triangle), last_);
+}
+
+void HausdorffBound::know(double distance) {
+  regions_[region_].known = std::max(regions_[region_].known, distance);
+  known_ = std::max(known_, distance);
+}
+
+double HausdorffBound::bound() const {
+  double most = 0;
+  for (std::size_t k = 0; k < regions_.size(); ++k)
+    most = std::max(most, bound(k));
+  return most;
+}
+
+// The distance between corresponding points of two triangles is at most the largest distance
+// between corresponding corners.
+void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& other,
+                               const RegionedSurface& surface) {
+  for (std::uint32_t t = 0; t < one.size(); ++t) {
+    const TrianglePoints a = one.triangle(t), b = other.triangle(t);
+    const double apart = std::max({length(a.a - b.a), length(a.b - b.b), length(a.c - b.c)});
+    const auto regions = surface.regions(t);
+    for (std::size_t k = 0; k < count_distinct(regions); ++k) {
+      region_ = regions[k];
+      if (apart <= limit()) {
+        raise(apart);
+      } else {
+        add(a, other, t);
+        add(b, one, t);
+      }
+    }
+  }
+}
+
+struct HausdorffBound::Visit {
+  const RegionedSurface& source;
+  const Overlaps& known;
+  std::vector<std::uint16_t> node_regions;  // per node: the region of all triangles below it, or
+                                            // kSeveral
+  PatchCover patches;
+};
+
+Overlaps HausdorffBound::add(const RegionedSurface& source, const WitnessSurface& target,
+                             const Overlaps& known) {
+  target_ = &target;
+  is_source_finer_ = source.bvh.size() >= kFine * target.size();
+  wide_ = kWide * typical_width(target);
+  last_ = 0;
+  Visit all{source, known, node_regions(source), PatchCover(target)};
+  visit(all, 0);
+  return std::move(all.patches).overlaps();
+}
+
+void HausdorffBound::visit(Visit& all, std::uint32_t index) {
+  const TriangleBvh::Node& node = all.source.bvh.nodes()[index];
+  if (all.node_regions[index] != kSeveral) {
+    region_ = all.node_regions[index];
+    if (settle_box(node)) return;
+  }
+  if (node.count != 0) return visit_leaf(all, node);
+  visit(all, node.first);
+  visit(all, node.first + 1);
+}
+
+void HausdorffBound::visit_leaf(Visit& all, const TriangleBvh::Node& node) {
+  bool near = false;
+  for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+    const auto regions = all.source.regions(t);
+    for (std::size_t k = 0; k < count_distinct(regions); ++k) {
+      region_ = regions[k];
+      if (!all.known.mark.empty() && all.known.mark[t] == region_ + 1) continue;
+      if (const auto start = all.known.near(t)) {
+        last_ = *start;
+      } else if (!near) {
+        approach(centre_of(all.source.bvh.triangle(t)));
+      }
+      near = true;
+      visit_triangle(all, t);
+    }
+  }
+}
+
+void HausdorffBound::visit_triangle(Visit& all, std::uint32_t t) {
+  const TrianglePoints triangle = all.source.bvh.triangle(t);
+  const Vec3 centre = centre_of(triangle);
+  last_ = target_->stroll(centre, last_);
+  if (is_source_finer_ && settle(std::array{triangle.a, triangle.b, triangle.c}, last_)) return;
+  if (limit() > wide_) return cover(ConvexPiece(triangle), last_);
+  if (lay_patch(all, triangle, t)) return;
+  // The walk may have ended on another sheet of the surface, so search for the closest triangle.
+  const ClosestTriangle nearest = target_->closest(centre, last_);
+  know(std::sqrt(nearest.squared));
+  if (nearest.triangle != last_) {
+    last_ = nearest.triangle;
+    if (lay_patch(all, triangle, t)) return;
+  }
+  cover(ConvexPiece(triangle), last_);
+}
+
+// Tries to cover triangle t of the source by a patch that starts at the newest witness. Returns
+// whether this succeeded.
+bool HausdorffBound::lay_patch(Visit& all, const TrianglePoints& triangle, std::uint32_t t) {
+  const PatchCover::CoverResult patch =
+      all.patches.cover(triangle, t, last_, limit(), static_cast<std::uint16_t>(region_ + 1));
+  raise(patch.height);
+  return patch.is_covered;
+}
+
+// Tries to settle all triangles in a box by one witness. Returns whether this succeeded.
+bool HausdorffBound::settle_box(const TriangleBvh::Node& n) {
+  const Vec3 low{n.low[0], n.low[1], n.low[2]}, high{n.high[0], n.high[1], n.high[2]};
+  if (length(high - low) > limit()) return false;
+  approach((low + high) * 0.5);
+  std::array<Vec3, 8> corners;
+  for (unsigned k = 0; k < 8; ++k) {
+    corners[k] = {k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z};
+  }
+  return settle(corners, last_);
+}
+
+// Moves the newest witness close to p. Tries a walk first, then a search if the walk ends too far
+// away.
+void HausdorffBound::approach(const Vec3& p) {
+  last_ = target_->stroll(p, last_);
+  if (target_->farthest_within({&p, 1}, last_, limit()) > limit())
+    last_ = target_->closest(p, last_).triangle;
+}
+
+bool HausdorffBound::settle(std::span<const Vec3> corners, std::uint32_t witness) {
+  const double most = limit(), farthest = target_->farthest_within(corners, witness, most);
+  if (farthest > most) return false;
+  raise(farthest);
+  return true;
+}
+
+void HausdorffBound::cover(const ConvexPiece& piece, std::uint32_t start) {
+  const Vec3 centre = piece.centre();
+  const std::uint32_t witness = last_ = target_->walk(centre, start);
+  if (settle(piece.corners(), witness)) return;
+  const double radius = piece.radius(centre);
+  const double area = squared_area(target_->triangle(witness));
+  const bool much_larger = radius * radius * radius * radius > kManyWitnesses * area;
+  if (!much_larger) return cut(piece, witness, kCuts);
+  // A walk may end at a face without area. Such a face does not show how large the triangles near
+  // it are.
+  if (radius > limit() * kOneDistance && area > 0) return halve(piece, witness);
+  examine(piece, witness);
+}
+
+void HausdorffBound::cut(const ConvexPiece& piece, std::uint32_t witness, int cuts) {
+  if (settle(piece.corners(), witness)) return;
+  const OverhungEdge edge = most_overhung(piece, *target_, witness);
+  const double slack = kSlack * limit();
+  if (cuts == 0 || piece.is_full() || edge.overhang <= slack) return examine(piece, witness);
+  const auto [point, normal] = target_->bisector(witness, edge.index);
+  const ConvexPiece::Parts parts = piece.cut(point, normal, slack);
+  if (parts.back.empty()) return examine(piece, witness);
+  if (!parts.front.empty()) cut(parts.front, witness, cuts - 1);
+  cut(parts.back, target_->across(witness, edge.index), cuts - 1);
+}
+
+// Bounds a piece by exact distances, for cases in which no nearby witness is good enough.
+void HausdorffBound::examine(const ConvexPiece& piece, std::uint32_t witness) {
+  spend();
+  const Vec3 centre = piece.centre();
+  const ClosestTriangle middle = target_->closest(centre, witness);
+  know(std::sqrt(middle.squared));
+  if (settle(piece.corners(), middle.triangle)) return;
+  // If a point moves, its distance changes by at most the length of the move (the distance is
+  // 1-Lipschitz).
+  const double reach = std::sqrt(middle.squared) + piece.radius(centre);
+  if (reach <= limit()) {
+    raise(reach);
+    return;
+  }
+  for (const Vec3& p : piece.corners()) {
+    const double known = regions_[region_].known;
+    if (target_->farthest_within({&p, 1}, witness, known) <= known) continue;
+    know(std::sqrt(target_->closest(p, middle.triangle).squared));
+  }
+  halve(piece, middle.triangle);
+}
+
+// Counts a unit of work. After enough work, lowers the precision, and does so sooner each time.
+// This ensures that tangled surfaces are finished in bounded time.
+void HausdorffBound::spend() {
+  if (++spent_ <= (kWork + 4 * target_->size()) >> (2 * losses_)) return;
+  negligible_ *= 2, spent_ = 0;
+  losses_ = std::min(losses_ + 1, kMostLosses);
+}
+
+void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
+  spend();
+  const ConvexPiece::Parts parts = piece.halves();
+  if (parts.front.empty() || parts.back.empty()) {  // the piece is too small for the precision of
+                                                    // the coordinates
+    const Vec3 centre = piece.centre();
+    raise(std::sqrt(target_->closest(centre, start).squared) + piece.radius(centre));
+    return;
+  }
+  cover(parts.front, start);
+  cover(parts.back, start);
+}
+
+}  // namespace vitrine::inline codec

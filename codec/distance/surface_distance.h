@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measures the distance between two surfaces, from samples of both [CRS98].
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "codec/core/expected.h"
+#include "codec/mesh/triangle_bvh.h"
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine::inline codec {
+
+struct MeasureOptions {
+  std::size_t samples = 200'000;  // samples per surface, at least 1
+  std::uint64_t seed = 1;
+  bool aligns = false;  // whether A is first aligned with B by rotation and translation
+};
+
+struct OneWayDistance {
+  double rms = 0, p95 = 0, max = 0;  // model units
+};
+
+struct SurfaceDistance {
+  double rms = 0, max = 0;  // the larger of both directions, model units
+  double rms_percent = 0,
+         max_percent = 0;  // percentages of the diagonal of B's bounding box; 0 if the box is a
+                           // point
+  OneWayDistance a_to_b, b_to_a;
+};
+
+// Samples each surface uniformly by area and finds the closest point on the other surface. Fails
+// (kBadInput) if a mesh has no face or a face index is out of range.
+Expected<SurfaceDistance> measure(const TriangleMesh& a, const TriangleMesh& b,
+                                  const MeasureOptions& options = {});
+
+// Returns only the rms distance, the larger of both directions. Takes hierarchies, so that the
+// caller builds each only once even if it measures a surface several times. Ignores
+// `options.aligns`. Both surfaces must have at least one face.
+double rms_distance(const TriangleBvh& a, const TriangleBvh& b, const MeasureOptions& options = {});
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hierarchy that the simplifier writes and the layer encoder reads: a fine mesh, and the edge
+// collapses that lead from it to the base mesh, level by level.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/format/base_mesh.h"
+#include "codec/format/manifest.h"
+#include "codec/mesh/connectivity.h"
+#include "codec/mesh/triangle_mesh.h"
+
+namespace vitrine::inline codec {
+
+// The collapse of the edge (v1, v2) to the vertex v~, which keeps the id of v1. Ids are vertex
+// numbers of the fine mesh.
+struct Collapse {
+  VertexId v1, v2;
+  VertexId apex12;  // third vertex of the face with the directed edge v1 -> v2 (may be virtual)
+  VertexId apex21;  // third vertex of the face with the directed edge v2 -> v1 (may be virtual)
+  Vec3i p1, p2;     // positions before the collapse, as cells (cell.h) of the finer level
+  AttributeTuple a1, a2;  // attributes before the collapse; zero if the mesh has none
+};
+
+// The collapses that lead from one level to the next coarser one, in the order performed: ascending
+// lexicographic order of the positions v~.
+using CollapseLevel = std::vector<Collapse>;
+
+// A vertex of a level, and its position on the finer lattice of the next level.
+struct Refined {
+  VertexId vertex;
+  Vec3i cell;
+};
+
+// A small component that a level inserts whole.
+struct Component {
+  BaseMesh mesh;              // positions are cells of the level that inserts it
+  std::vector<VertexId> ids;  // per vertex: its id in the fine mesh
+};
+
+struct Hierarchy {
+  Placement placement = Placement::kMidpoint;
+  LatticeMesh base;  // surface faces only; positions are cells of level 0; no attributes
+  LatticeAttributes base_attributes;  // attributes of the base vertices
+  std::vector<VertexId> base_ids;     // per base vertex: its id in the fine mesh
+  std::uint32_t loops = 0;            // number of boundary loops of the fine mesh
+  std::vector<CollapseLevel> levels;  // levels[0] leads from level 1 to the base
+  std::vector<std::vector<Component>>
+      insertions;                    // insertions[l]: components that level l + 1 adds to level l
+  std::vector<std::uint32_t> shift;  // per level, base first: shift of its lattice (cell.h)
+  // refined[l] holds all vertices of level l. It is empty if level l + 1 has the same lattice.
+  std::vector<std::vector<Refined>> refined;
+  RegionTree tree;
+  std::vector<std::uint16_t> leaf;                    // per fine vertex: its leaf of the tree
+  std::vector<std::vector<std::uint32_t>> adjacency;  // per leaf: the adjacent leaves, ascending
+};
+
+}  // namespace vitrine::inline codec

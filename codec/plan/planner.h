@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses which chunk to fetch next. The same code plans in the server, in `vitrine decode` and, as
+// WebAssembly, in the browser. It uses no clocks and no I/O.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "codec/format/manifest.h"
+#include "codec/plan/view.h"
+
+namespace vitrine::inline codec {
+
+// Asks for the finest state with at most this many triangles. The chunk that would exceed the
+// number is fetched completely and applied in part (Refiner::undo_to_faces).
+struct WantTriangles {
+  std::uint64_t triangles;
+};
+// Asks for the finest state of at most this many bytes, including header and base.
+struct WantBytes {
+  std::uint64_t bytes;
+};
+// Asks for the coarsest state with at most this max_error, model units.
+struct WantError {
+  double error;
+};
+// Asks for this level in all regions.
+struct WantLevel {
+  std::uint32_t level;
+};
+// The last alternative, View, asks for detail until no visible error exceeds the camera's limit.
+// The planner then prefers the chunks that remove the most error per byte.
+using Want = std::variant<WantTriangles, WantBytes, WantError, WantLevel, View>;
+
+class Planner {
+ public:
+  explicit Planner(const Manifest& manifest);
+
+  void want(const Want& want);
+  void have(std::size_t chunk);  // marks a chunk as applied or requested
+
+  // Returns the next chunk to fetch, or nullopt if the detail target is reached. All chunks that it
+  // requires (see Refiner) have been given to have().
+  std::optional<std::size_t> next() const;
+
+  // Returns the bytes of the header, the base mesh and the chunks given to have().
+  std::uint64_t bytes_held() const { return bytes_; }
+
+  // Estimates the number of faces of the base mesh and the chunks given to have().
+  std::uint64_t faces_held() const;
+
+ private:
+  bool is_wanted(std::size_t chunk) const;
+  double faces_per_vertex(std::uint32_t level) const;
+
+  const Manifest* manifest_;
+  Want want_;
+  std::vector<std::uint8_t> have_;
+  // The members below follow from have_. They are stored because next() may run once for each of
+  // 300,000 chunks.
+  std::size_t first_missing_ = 0;
+  std::uint64_t bytes_;
+  double faces_;
+};
+
+}  // namespace vitrine::inline codec

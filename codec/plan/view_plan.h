@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses the missing chunk that improves a camera's view most.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "codec/format/manifest.h"
+#include "codec/plan/view.h"
+
+namespace vitrine::inline codec {
+
+class ViewPlan {
+ public:
+  // The arguments must outlive this object. A chunk in `have` is ignored unless its region has all
+  // coarser levels.
+  ViewPlan(const Manifest& manifest, const std::vector<std::uint8_t>& have, const View& view);
+
+  // Returns the chunk to fetch next, or nullopt if no visible error exceeds the view's limit or if
+  // every useful chunk, together with its missing prerequisites, is longer than `bytes`. Examines
+  // at most kMostSteps neighbours and chunks, which suffices for every encoded model. If a hostile
+  // header needs more, returns the best chunk found so far, or the first missing chunk of the file.
+  std::optional<std::size_t> best(double bytes);
+
+ private:
+  // Maximum number of steps. Bounds the work for regions with long chains of prerequisites.
+  static constexpr std::uint64_t kMostSteps = 10'000'000;
+
+  bool is_exhausted() const { return steps_ > kMostSteps; }
+  std::optional<std::size_t> first_missing(double bytes) const;
+  double gain(std::size_t chunk) const;
+  std::vector<std::size_t> missing_for(std::size_t chunk);
+  void require(std::size_t chunk, std::vector<std::size_t>& missing);
+
+  const Manifest& manifest_;
+  const std::vector<std::uint8_t>& have_;
+  const View& view_;
+  std::vector<std::uint32_t> leaf_level_;  // per leaf of the region tree: the level it has reached
+  std::vector<std::uint32_t> required_;    // per chunk: number of the last missing_for() call that
+                                           // visited it
+  std::uint32_t call_ = 0;
+  std::uint64_t steps_ = 0;  // number of steps of all missing_for() calls
+};
+
+}  // namespace vitrine::inline codec

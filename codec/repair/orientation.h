@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gives all faces of each patch the same orientation.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "codec/core/vec.h"
+#include "codec/repair/edge_groups.h"
+
+namespace vitrine::inline codec {
+
+struct Reversal {
+  std::uint64_t faces = 0;
+  std::uint64_t first_face = 0;
+};
+
+// Gives all faces of each patch the orientation of the majority of the patch. A patch consists of
+// faces that are connected by edges with exactly two faces. Patches whose faces already agree do
+// not change. `groups` holds the edges of `faces`; it is not updated for reversed faces. Returns
+// the number of reversed faces, and the first of them.
+Reversal orient_patches(std::span<Triangle> faces, const EdgeGroups& groups);
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/repair/raw_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "codec/repair/keep_vertices.h"
+#include "codec/repair/seams.h"
+#include "codec/repair/triangulate.h"
+#include "codec/repair/weld.h"
+
+namespace vitrine::inline codec {
+namespace {
+
+// Larger coordinates could make squares or cross products infinite. The limit is slightly above
+// 1e30, because 1e30 rounded to single precision is, too.
+constexpr double kLargestCoordinate = 1.0000001e30;
+
+}  // namespace
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return std::to_string(count) + ' ' + std::string(noun) + (count == 1 ? "" : "s");
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text.substr(0, 60))
+    out += c >= ' ' && c <= '~' ? c : '?';
+  return out + '\'';
+}
+
+bool is_usable(const Vec3& p) {
+  return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate &&
+         std::abs(p.z) <= kLargestCoordinate;
+}
+
+std::uint8_t to_byte(double unit) {
+  if (!(unit > 0)) return 0;
+  return static_cast<std::uint8_t>(std::min(unit, 1.0) * 255 + 0.5);
+}
+
+Unexpected bad_input(std::string message) {
+  return fail(ErrorCode::kBadInput, std::move(message));
+}
+
+Unexpected no_faces(std::uint64_t points) {
+  return bad_input("the file has " + counted(points, "point") +
+                   " but no faces; Vitrine needs a surface, so mesh the points first");
+}
+
+void RawMesh::note_index(std::uint32_t index, std::uint64_t line) {
+  if (index <= max_index_) return;
+  max_index_ = index;
+  max_index_face_ = face_count_;
+  max_index_line_ = line;
+}
+
+// Returns a text such as "vertex 7 (counted from 1)".
+std::string RawMesh::numbered(std::uint32_t vertex) const {
+  return "vertex " + std::to_string(std::uint64_t{vertex} + first_number) + " (counted from " +
+         std::to_string(first_number) + ')';
+}
+
+std::string RawMesh::face_of_max_index() const {
+  if (max_index_line_ == 0) return "face " + std::to_string(max_index_face_);
+  return std::string(format) + " line " + std::to_string(max_index_line_) + ": this face";
+}
+
+void RawMesh::add_triangle(const Triangle& face, std::uint64_t line) {
+  for (const std::uint32_t v : face)
+    note_index(v, line);
+  triangles_.push_back(face);
+  ++face_count_;
+}
+
+void RawMesh::add_face(std::span<const std::uint32_t> corners, std::uint64_t line) {
+  if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]}, line);
+  if (corners.size() < 3) {
+    if (small_faces_++ == 0) first_small_face_ = face_count_;
+  } else {
+    for (const std::uint32_t v : corners)
+      note_index(v, line);
+    polygon_corners_.insert(polygon_corners_.end(), corners.begin(), corners.end());
+    polygon_ends_.push_back(polygon_corners_.size());
+  }
+  ++face_count_;
+}
+
+Expected<void> RawMesh::check_counts(const Limits& limits) const {
+  if (positions.empty()) return bad_input("the file has no vertices; export the surface again");
+  if (triangles_.empty() && polygon_ends_.empty()) return no_faces(positions.size());
+  if (max_index_ >= positions.size()) {
+    const std::string vertex =
+        max_index_ == 0xFFFF'FFFFu
+            ? "a vertex below 0 or beyond 32 bits"
+            : numbered(max_index_) + ", but the file has only " + std::to_string(positions.size());
+    return bad_input(face_of_max_index() + " refers to " + vertex +
+                     "; the file is damaged, export it again");
+  }
+  if (positions.size() > limits.vertices || triangles_.size() > limits.faces) {
+    return fail(ErrorCode::kLimit, "the mesh has " + std::to_string(positions.size()) +
+                                       " vertices and " + counted(face_count_, "face") +
+                                       ", more than this installation accepts; simplify it first");
+  }
+  return {};
+}
+
+void RawMesh::triangulate_polygons() {
+  std::size_t begin = 0, fans = 0;
+  const std::span<const std::uint32_t> corners = polygon_corners_;
+  for (const std::size_t end : polygon_ends_) {
+    triangulate(positions, corners.subspan(begin, end - begin), triangles_);
+    fans += end - begin > kMostClippedCorners ? 1 : 0;
+    begin = end;
+  }
+  if (fans > 0) {
+    repairs.push_back(counted(fans, "polygon") + " of more than " +
+                      std::to_string(kMostClippedCorners) +
+                      " corners taken as convex and cut into fans");
+  }
+  polygon_corners_ = {};
+  polygon_ends_ = {};
+}
+
+// Removes unusable positions that no face uses. Range scanners mark missing samples by NaN. Fails
+// if a face uses an unusable position.
+Expected<void> RawMesh::drop_stray_positions() {
+  if (std::all_of(positions.begin(), positions.end(), is_usable)) return {};
+  const std::vector<bool> used = used_vertices(positions.size(), triangles_);
+  std::vector<bool> usable(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    usable[v] = is_usable(positions[v]);
+    if (usable[v] || !used[v]) continue;
+    return bad_input(numbered(static_cast<std::uint32_t>(v)) +
+                     " has a coordinate that is not a finite number (or beyond 1e30) and faces "
+                     "use it; remove it and export again");
+  }
+  const std::size_t dropped = keep_vertices(usable, positions, attributes, triangles_);
+  repairs.push_back(counted(dropped, "point") +
+                    " without finite coordinates dropped, no face uses them");
+  return {};
+}
+
+void RawMesh::close_seams() {
+  const std::size_t before = positions.size();
+  std::vector<Colour> baked;
+  if (is_baked) baked.swap(attributes.colours);
+  const std::vector<std::uint32_t> renamed =
+      has_seams ? weld(positions, attributes) : weld_seams(positions, attributes, triangles_);
+  const std::size_t welded = before - positions.size();
+  if (is_baked) {
+    attributes.colours = welded > 0 ? blended(renamed, positions.size(), baked) : std::move(baked);
+  }
+  if (welded == 0) return;
+  for (Triangle& face : triangles_) {
+    for (std::uint32_t& v : face)
+      v = renamed[v];
+  }
+  repairs.push_back(
+      std::to_string(welded) +
+      (welded == 1 ? " repeated vertex welded" : " repeated vertices welded") +
+      (has_seams ? ", parted by normals, textures or missing indices" : " along matching borders"));
+}
+
+Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
+  if (auto ok = check_counts(limits); !ok) return tl::unexpected(ok.error());
+  triangulate_polygons();
+  if (triangles_.size() > limits.faces) {
+    return fail(ErrorCode::kLimit, "the mesh has " + counted(triangles_.size(), "triangle") +
+                                       ", more than this installation accepts; simplify it first");
+  }
+  if (auto ok = drop_stray_positions(); !ok) return tl::unexpected(ok.error());
+  close_seams();
+  if (small_faces_ > 0) {
+    repairs.push_back(counted(small_faces_, "face") +
+                      " with fewer than three corners dropped, first at face " +
+                      std::to_string(first_small_face_));
+  }
+  return ImportedMesh{.mesh = {.positions = std::move(positions),
+                               .faces = std::move(triangles_),
+                               .attributes = std::move(attributes)},
+                      .unit = {},
+                      .repairs = std::move(repairs)};
+}
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns any set of triangles into manifolds with boundary. Removes only degenerate and duplicate
+// faces.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/repair/imported_mesh.h"
+
+namespace vitrine::inline codec {
+
+struct RepairedMesh {
+  TriangleMesh mesh;                 // accepted by Connectivity::close
+  std::vector<std::string> repairs;  // the import's repairs, then one line for each kind of repair
+                                     // made here
+  std::uint64_t boundary_edges = 0;
+  std::uint64_t components = 0;  // number of components; shared vertices connect faces
+};
+
+// Repairs a mesh in these steps:
+// - Faces that repeat a vertex are removed.
+// - Of duplicate faces (same vertices in the same cyclic order), the first one is kept.
+// - Each connected patch gets the orientation of the majority of its faces.
+// - At an edge with three or more faces, the faces are paired by angle. This separates solids that
+//   touch at the edge. Opposed faces on the same vertices become two sheets.
+// - One-sided surfaces are cut.
+// - Vertices with several fans are split, one vertex per fan.
+// - Unused vertices are removed.
+// All other faces are kept, in order. Fails (kBadInput) if an index is out of range or no face has
+// an area. Takes O(n log n) time.
+Expected<RepairedMesh> repair(ImportedMesh imported);
+
+}  // namespace vitrine::inline codec

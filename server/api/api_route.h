@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Declares ApiRoute: a REST route with its documentation. bind() turns such routes into routes for
+// the HTTP server.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "server/messages/router.h"
+
+namespace vitrine::server {
+
+struct Services;
+
+using ApiHandler = Response (*)(const Request& request, Services& services);
+using ApiQuickHandler = std::optional<Response> (*)(const Request& request, Services& services);
+
+// The description of a route in the OpenAPI document. Schemas and parameters are given by their
+// names in ApiNoun::components.
+struct RouteDoc {
+  std::string_view id = {};          // unique operationId; empty if the route is not documented
+  std::string_view summary = {};     // one or two sentences
+  std::string_view parameters = {};  // names of query and header parameters, separated by spaces
+  std::string_view request = {};     // schema or media type of the request body; empty if none
+  unsigned status = 200;             // HTTP status on success
+  std::string_view response = {};    // schema or media type of the response body; empty if none
+};
+
+// A route of the API. `doc` is used only for the OpenAPI document. The other members are those of
+// Route.
+struct ApiRoute {
+  Method method = Method::kGet;
+  std::string_view path;
+  ApiHandler handler = nullptr;
+  Executor executor = Executor::kInline;
+  Role role = Role::kNone;
+  ApiQuickHandler quick = nullptr;
+  bool reads_body = true;
+  bool is_urgent = false;
+  RouteDoc doc = {};
+};
+
+// Returns the routes in the form that the HTTP server takes. `services` must outlive the result.
+std::vector<Route> bind(std::span<const ApiRoute> routes, Services& services);
+
+}  // namespace vitrine::server

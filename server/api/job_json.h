@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Formats jobs, scans and scanners as JSON, and declares helpers that their handlers share.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "server/api/services.h"
+#include "server/messages/problem.h"
+#include "server/messages/query.h"
+#include "server/messages/router.h"
+
+namespace vitrine::server {
+
+// The names of job states in the API, in the order of JobState.
+inline constexpr std::string_view kJobStates[] = {"queued", "running", "paused",
+                                                  "done",   "failed",  "cancelled"};
+
+// Returns the job's status as clients without a token may see it: without messages, which could
+// reveal paths on the server.
+JobStatus without_reasons(JobStatus job);
+
+nlohmann::ordered_json job_json(const JobStatus& job);
+nlohmann::ordered_json scan_json(const ScanInfo& scan);
+nlohmann::ordered_json scanner_json(const ScannerStatus& scanner);
+
+// Returns the JSON as a response that caches must not store, as its content changes often.
+Response json_answer(const nlohmann::ordered_json& json, unsigned status = 200);
+
+// Returns the response to a failed operation: 409 for kState, 422 for kBadInput, 507 for kLimit (no
+// room). Other errors are answered by internal_error(), which sends the reason only to the log.
+Response refused(const Error& error, const Request& request, Services& services);
+
+// Returns the response to an error of JobQueue::begun_by() or add(): like refused(), except that a
+// kBadInput is a fault of the Idempotency-Key.
+Response refused_job(const Error& error, const Request& request, Services& services);
+
+// Returns a 422 response that lists the faults of the body.
+Response invalid(const FieldFaults& faults, const Request& request);
+
+// Returns the request's Idempotency-Key combined with its caller, and a hash of the request's path
+// and body. Returns nullopt if the request has no such header. The error is the response to send.
+tl::expected<std::optional<IdempotencyKey>, Response> idempotency_key(const Request& request);
+
+// Parses the query of the request. Fails if a parameter is not in `known`. The error is the
+// response to send.
+tl::expected<Query, Response> read_query(const Request& request,
+                                         std::span<const std::string_view> known);
+
+// Reads the parameters `limit` and `cursor` of a list. Each error names its parameter.
+template <class Id>
+tl::expected<PageOf<Id>, std::vector<ParameterFault>> read_page(const Query& query);
+// Reads the query of a list that has no parameters except `limit` and `cursor`. The error is the
+// response to send.
+template <class Id>
+tl::expected<PageOf<Id>, Response> read_page(const Request& request);
+
+// Returns the 401 response to a request that needs a token.
+Response token_needed(const Request& request);
+
+}  // namespace vitrine::server

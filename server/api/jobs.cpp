@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "server/api/forward.h"
+#include "server/api/handlers.h"
+#include "server/api/job_json.h"
+#include "server/api/path_parameters.h"
+#include "server/api/published.h"
+#include "server/messages/event_source.h"
+
+namespace vitrine::server {
+namespace {
+
+// Sends an event for each change of a job, until the job ends.
+class JobEvents final : public EventSource {
+ public:
+  JobEvents(JobStatus first, std::shared_ptr<const JobRun> run, bool with_reasons)
+      : newest_(std::move(first)), run_(std::move(run)), with_reasons_(with_reasons) {}
+
+  std::optional<Event> next() override {
+    if (run_) newest_ = with_reasons_ ? run_->status() : without_reasons(run_->status());
+    if (told_ == newest_) return std::nullopt;
+    told_ = newest_;
+    return Event{"job",
+                 job_json(newest_).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+  }
+  bool ended() const override { return told_ && has_ended(told_->record.state); }
+
+ private:
+  JobStatus newest_;
+  std::optional<JobStatus> told_;
+  const std::shared_ptr<const JobRun> run_;
+  const bool with_reasons_;
+};
+
+bool is_public(const JobRecord& job, Services& services) {
+  if (!job.scan) return false;
+  const auto scan = services.scans.find(*job.scan);
+  return scan && *scan && is_public((*scan)->entry, services);
+}
+
+// Calls `answer(job)` with the job that the request names. Returns 401 or 404 if there is no job
+// that the caller may see, and 500 or 503 if an error occurs.
+template <class Answer>
+Response with_job(const Request& request, Services& services, Answer&& answer) {
+  const auto job = services.scans.jobs().find(id_in<JobId>(request));
+  if (!job) return internal_error(job.error(), request, services);
+  if (*job && request.caller) return for_caller(answer(**job));
+  if (*job && is_public((*job)->record, services)) return answer(without_reasons(**job));
+  if (!request.caller) return token_needed(request);  // 401, which does not reveal which jobs exist
+  return problem(404, "there is no such job", request.id);
+}
+
+// Calls `answer(job)` with the job that the request names. Forwards the request if another daemon
+// drives the job's scanner.
+template <class Answer>
+Response with_own_job(const Request& request, Services& services, Answer&& answer) {
+  return with_job(request, services, [&](const JobStatus& job) {
+    const auto address = job.record.kind == JobKind::kPublish
+                             ? std::nullopt
+                             : forward_address(job.record.scanner, request, services);
+    return address ? forward(*address, request, services) : answer(job);
+  });
+}
+
+}  // namespace
+
+static Response list_jobs(const Request& request, Services& services) {
+  const auto page = read_page<JobId>(request);
+  if (!page) return page.error();
+  const auto jobs = services.scans.jobs().list(*page);
+  if (!jobs) return internal_error(jobs.error(), request, services);
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const JobStatus& job : *jobs)
+    list.push_back(job_json(job));
+  const bool may_go_on = jobs->size() == page->limit;
+  nlohmann::ordered_json json = {{"jobs", std::move(list)}, {"next", nullptr}};
+  if (may_go_on) json["next"] = jobs->back().record.id.to_string();
+  return json_answer(json);
+}
+
+static Response show_job(const Request& request, Services& services) {
+  return with_job(request, services,
+                  [](const JobStatus& job) { return json_answer(job_json(job)); });
+}
+
+static Response cancel_job(const Request& request, Services& services) {
+  return with_own_job(request, services, [&](const JobStatus& job) {
+    const auto cancelled = services.scans.jobs().cancel(job.record.id);
+    if (!cancelled) return refused(cancelled.error(), request, services);
+    return json_answer(job_json(*cancelled), 202);  // 202, as the job ends only at its next step
+  });
+}
+
+static Response resume_job(const Request& request, Services& services) {
+  return with_own_job(request, services, [&](const JobStatus& job) {
+    const auto resumed = services.scans.resume(job.record);
+    if (!resumed) return refused(resumed.error(), request, services);
+    return json_answer(job_json(*resumed), 202);
+  });
+}
+
+Response show_job_events(const Request& request, Services& services) {
+  // Watches the job before reading its state, so that its end cannot be missed in between.
+  const auto run = services.scans.jobs().watch(id_in<JobId>(request));
+  if (!run) return internal_error(run.error(), request, services);
+  return with_job(request, services, [&](const JobStatus& job) {
+    Response response;
+    response.type = "text/event-stream";
+    response.events = std::make_shared<JobEvents>(job, *run, request.caller.has_value());
+    return response;
+  });
+}
+
+static constexpr std::string_view kJobsComponents = R"json({
+"schemas": {
+  "JobStarted": {"type": "object", "required": ["job"], "properties": {"job": {"$ref": "#/components/schemas/Id"}}},
+  "Job": {"type": "object", "required": ["id", "kind", "state", "stage", "progress", "eta", "error", "scan", "model", "created", "ended"],
+    "properties": {
+      "id": {"$ref": "#/components/schemas/Id"}, "kind": {"type": "string"},
+      "state": {"enum": ["queued", "running", "paused", "done", "failed", "cancelled"]}, "stage": {"type": ["string", "null"]},
+      "progress": {"type": "number", "minimum": 0, "maximum": 1}, "eta": {"type": ["number", "null"], "description": "Remaining time in seconds"},
+      "error": {"type": ["string", "null"]}, "note": {"type": ["string", "null"]}, "scanner": {"type": "string"},
+      "scan": {"$ref": "#/components/schemas/IdOrNull"}, "model": {"$ref": "#/components/schemas/IdOrNull"},
+      "created": {"$ref": "#/components/schemas/Time"}, "ended": {"anyOf": [{"$ref": "#/components/schemas/Time"}, {"type": "null"}]}}},
+  "JobPage": {"type": "object", "required": ["jobs", "next"], "properties": {
+    "jobs": {"type": "array", "items": {"$ref": "#/components/schemas/Job"}}, "next": {"$ref": "#/components/schemas/Next"}}}
+}
+})json";
+
+static constexpr ApiRoute kJobRoutes[] = {
+    {.method = Method::kGet,
+     .path = "/api/v1/jobs",
+     .handler = list_jobs,
+     .executor = Executor::kWorker,
+     .role = Role::kViewer,
+     .doc = {.id = "listJobs",
+             .summary = "Lists the jobs, newest first.",
+             .parameters = "limit cursor",
+             .response = "JobPage"}},
+    {.method = Method::kGet,
+     .path = "/api/v1/jobs/{id}",
+     .handler = show_job,
+     .executor = Executor::kWorker,
+     .doc = {.id = "getJob", .summary = "Returns a job's state and progress.", .response = "Job"}},
+    {.method = Method::kDelete,
+     .path = "/api/v1/jobs/{id}",
+     .handler = cancel_job,
+     .executor = Executor::kWorker,
+     .role = Role::kOperator,
+     .doc = {.id = "cancelJob",
+             .summary = "Cancels a job after its current step.",
+             .status = 202,
+             .response = "Job"}},
+    {.method = Method::kPost,
+     .path = "/api/v1/jobs/{id}/resume",
+     .handler = resume_job,
+     .executor = Executor::kWorker,
+     .role = Role::kOperator,
+     .doc = {.id = "resumeJob",
+             .summary = "Resumes a paused, interrupted or failed job.",
+             .request = "Nothing",
+             .status = 202,
+             .response = "Job"}},
+    {.method = Method::kGet,
+     .path = "/api/v1/jobs/{id}/events",
+     .handler = show_job_events,
+     .executor = Executor::kWorker,
+     .doc = {.id = "followJob",
+             .summary = "Sends a server-sent event `job` with the job's state at every change, "
+                        "until the job ends.",
+             .response = "text/event-stream"}},
+};
+
+const ApiNoun kJobs = {.routes = kJobRoutes, .components = kJobsComponents};
+
+}  // namespace vitrine::server

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "server/api/detail_request.h"
+#include "server/api/handlers.h"
+#include "server/api/job_json.h"
+#include "server/api/model_json.h"
+#include "server/api/path_parameters.h"
+#include "server/api/published.h"
+#include "server/messages/query.h"
+
+namespace vitrine::server {
+namespace {
+
+using Faults = std::vector<ParameterFault>;
+
+// Returns a response with a range of the model's file. The entity tag is "<sha256><suffix>", so it
+// changes with the file.
+Response stored(const std::shared_ptr<const PublishedModel>& model, ByteRange range,
+                std::string_view suffix) {
+  Response response;
+  response.type = "application/octet-stream";
+  response.caching = Caching::kRevalidate;
+  response.etag = fmt::format("\"{}{}\"", to_hex(model->record().file), suffix);
+  response.body = stored_body(model, range);
+  return response;
+}
+
+ModelQuery read_query(const Query& query, Faults& faults) {
+  constexpr std::size_t kMaxText = 200;
+  ModelQuery out;
+  if (const auto text = query.get("q")) {
+    out.text = *text;
+    if (text->size() > kMaxText) faults.push_back({"q", fmt::format("at most {} bytes", kMaxText)});
+  }
+  if (const auto page = read_page<ModelId>(query)) {
+    out.after = page->after;
+    out.limit = page->limit;
+  } else {
+    faults.insert(faults.end(), page.error().begin(), page.error().end());
+  }
+  if (const auto drafts = query.get("drafts")) {
+    out.includes_drafts = *drafts == "true";
+    if (!out.includes_drafts && *drafts != "false") faults.push_back({"drafts", "true or false"});
+  }
+  return out;
+}
+
+// Sets the state of the model and returns the model as JSON. If the model already has that state,
+// changes nothing.
+Response in_state(ModelState state, const Request& request, Services& services) {
+  auto model = services.catalogue.find(id_in<ModelId>(request));
+  if (!model) return internal_error(model.error(), request, services);
+  if (!*model) return problem(404, "there is no such model", request.id);
+  if ((*model)->state != state) {
+    const auto done = services.catalogue.set_state((*model)->id, state);
+    if (!done) return refused(done.error(), request, services);
+    services.models.refresh();
+    (*model)->state = state;
+  }
+  Response response;
+  response.type = "application/json";
+  response.body = model_json(**model);
+  return response;
+}
+
+}  // namespace
+
+static Response list_models(const Request& request, Services& services) {
+  constexpr std::string_view kKnown[] = {"q", "limit", "cursor", "drafts"};
+  const auto query = read_query(request, kKnown);
+  if (!query) return query.error();
+  Faults faults;
+  const ModelQuery wanted = read_query(*query, faults);
+  if (!faults.empty()) return problem(400, "a parameter is out of range", request.id, faults);
+  if (wanted.includes_drafts && !request.caller) return token_needed(request);
+  const auto page = services.catalogue.search(wanted);
+  if (!page) return internal_error(page.error(), request, services);
+  Response response =
+      revalidated("application/json", model_page_json(*page, request.caller.has_value()));
+  if (request.caller) return for_caller(std::move(response));
+  return response;
+}
+
+static Response show_model(const Request& request, Services& services) {
+  return with_model(request, services, [](const auto& model) {
+    Response response = revalidated("application/json", model_json(model->record()));
+    response.etag = model_tag(model->record());
+    return response;
+  });
+}
+
+static Response show_manifest(const Request& request, Services& services) {
+  const auto query = Query::parse(request.query);
+  if (!query) return problem(400, "the query is malformed", request.id);
+  return with_model(request, services, [&](const auto& model) {
+    const auto detail = read_detail_request(*query, request.header, model->manifest());
+    if (!detail) return problem(400, "a parameter is out of range", request.id, {detail.error()});
+    const bool asked = detail->stated || saves_data(request.header);
+    Response response = revalidated(
+        "application/json", manifest_json(*model, asked ? std::optional(*detail) : std::nullopt));
+    response.fields = {{"Vary", "Save-Data"}};
+    if (!asked)
+      services.models.keep_manifest(model, {std::get<std::string>(response.body), response.etag});
+    return response;
+  });
+}
+
+static std::optional<Response> show_held_manifest(const Request& request, Services& services) {
+  const bool is_plain = request.query.empty() && !saves_data(request.header) &&
+                        request.header.count(beast::http::field::authorization) == 0;
+  if (!is_plain) return std::nullopt;
+  const auto model = services.models.cached(id_in<ModelId>(request));
+  const auto kept = model ? model->kept_manifest() : nullptr;
+  if (!kept) return std::nullopt;
+  const auto* text = reinterpret_cast<const std::uint8_t*>(kept->text.data());
+  Response response;
+  response.type = "application/json";
+  response.caching = Caching::kRevalidate;
+  response.etag = kept->etag;
+  response.fields = {{"Vary", "Save-Data"}};
+  response.body = SharedBytes{kept, {text, kept->text.size()}};
+  return response;
+}
+
+static Response show_head(const Request& request, Services& services) {
+  return with_model(request, services,
+                    [](const auto& model) { return stored(model, model->head(), "-head"); });
+}
+
+static Response show_file(const Request& request, Services& services) {
+  return with_model(request, services,
+                    [](const auto& model) { return stored(model, model->whole(), ""); });
+}
+
+static Response publish_model(const Request& request, Services& services) {
+  return in_state(ModelState::kPublished, request, services);
+}
+
+static Response unpublish_model(const Request& request, Services& services) {
+  return in_state(ModelState::kDraft, request, services);
+}
+
+static constexpr std::string_view kModelsComponents = R"json({
+"parameters": {
+  "q": {"name": "q", "in": "query", "description": "Words that all occur in title or creator",
+    "schema": {"type": "string", "maxLength": 200}},
+  "drafts": {"name": "drafts", "in": "query", "description": "Whether to list drafts too; requires a token",
+    "schema": {"type": "boolean", "default": false}},
+  "triangles": {"name": "triangles", "in": "query",
+    "description": "The finest state with at most this many triangles. Give one of triangles, error, bytes, level, kbps with seconds",
+    "schema": {"type": "integer", "minimum": 0}},
+  "error": {"name": "error", "in": "query", "description": "The coarsest level whose error is at most this, in the model's unit",
+    "schema": {"type": "number", "minimum": 0}},
+  "bytes": {"name": "bytes", "in": "query", "description": "The finest state that needs at most this many bytes of the .pmesh",
+    "schema": {"type": "integer", "minimum": 0}},
+  "level": {"name": "level", "in": "query", "description": "`lowest`, `highest`, or a number from 0",
+    "schema": {"type": ["string", "integer"]}},
+  "kbps": {"name": "kbps", "in": "query", "description": "Bandwidth of the connection in kilobits per second; requires seconds",
+    "schema": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e9}},
+  "seconds": {"name": "seconds", "in": "query", "description": "Longest acceptable loading time in seconds; requires kbps",
+    "schema": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e9}},
+  "saveData": {"name": "Save-Data", "in": "header",
+    "description": "`on` selects the finest state that needs at most 1,000,000 bytes of the .pmesh, if the request has no detail target",
+    "schema": {"type": "string"}}
+},
+"schemas": {
+  "Model": {"type": "object",
+    "required": ["id", "state", "title", "creator", "rights", "licence", "unit", "created", "vertices", "faces", "bytes", "head_bytes", "links"],
+    "properties": {
+      "id": {"$ref": "#/components/schemas/Id"}, "state": {"enum": ["published", "draft"]},
+      "title": {"type": "string"}, "creator": {"type": "string"}, "rights": {"type": "string", "description": "A rights statement in plain text"},
+      "licence": {"type": "string", "description": "An SPDX identifier or a URL"},
+      "unit": {"type": "string", "description": "Unit of the coordinates; empty if unknown"},
+      "accuracy": {"type": ["number", "null"], "description": "Accuracy of the scan in the model's unit"},
+      "public_max_level": {"type": ["integer", "null"], "description": "The finest level that visitors can load; null for all levels"}, "created": {"$ref": "#/components/schemas/Time"},
+      "vertices": {"type": "integer"}, "faces": {"type": "integer"}, "bytes": {"type": "integer"},
+      "head_bytes": {"type": "integer"}, "links": {"type": "object", "additionalProperties": {"type": "string"}}}},
+  "ModelPage": {"type": "object", "required": ["models", "next"], "properties": {
+    "models": {"type": "array", "items": {"$ref": "#/components/schemas/Model"}}, "next": {"$ref": "#/components/schemas/Next"}}},
+  "Manifest": {"type": "object",
+    "required": ["id", "sha256", "bytes", "head_bytes", "unit", "placement", "coloured", "lattice", "bounding_box", "levels", "regions", "adjacency", "base", "chunks"],
+    "properties": {
+      "id": {"$ref": "#/components/schemas/Id"}, "sha256": {"$ref": "#/components/schemas/Sha256"},
+      "bytes": {"type": "integer"}, "head_bytes": {"type": "integer"}, "unit": {"type": "string"},
+      "placement": {"enum": ["midpoint", "pyramid"]}, "coloured": {"type": "boolean"}, "boundary_loops": {"type": "integer"},
+      "lattice": {"type": "object", "required": ["origin", "step", "bits"], "properties": {
+        "origin": {"$ref": "#/components/schemas/Vector"}, "step": {"type": "number"}, "bits": {"type": "integer"}}},
+      "bounding_box": {"type": "object", "required": ["min", "max"], "properties": {
+        "min": {"$ref": "#/components/schemas/Vector"}, "max": {"$ref": "#/components/schemas/Vector"}}},
+      "levels": {"type": "array", "items": {"type": "object",
+        "required": ["vertices", "faces", "cumulative_bytes", "max_error", "rms_error"], "properties": {
+        "vertices": {"type": "integer"}, "faces": {"type": "integer"}, "cumulative_bytes": {"type": "integer"},
+        "max_error": {"type": "number", "description": "Upper bound in model units"}, "rms_error": {"type": "number"},
+        "display_filter": {"type": "number"}}}},
+      "regions": {"type": "integer"}, "adjacency": {"type": "array", "items": {"type": "array", "items": {"type": "integer"}}},
+      "base": {"type": "object", "required": ["offset", "length", "sha256"], "properties": {
+        "offset": {"type": "integer"}, "length": {"type": "integer"}, "sha256": {"$ref": "#/components/schemas/Sha256"}}},
+      "chunks": {"type": "array", "items": {"type": "object", "required": ["level", "region", "offset", "length", "max_error", "sha256"], "properties": {
+        "level": {"type": "integer"}, "region": {"type": "integer"}, "leaves": {"type": "integer"}, "offset": {"type": "integer"},
+        "length": {"type": "integer"}, "splits": {"type": "integer"}, "newborn": {"type": "integer"}, "max_error": {"type": "number"},
+        "sha256": {"$ref": "#/components/schemas/Sha256"}}}},
+      "expect": {"$ref": "#/components/schemas/Expectation"}}},
+  "Expectation": {"type": "object", "description": "The expected result of the detail request or of Save-Data",
+    "required": ["level", "triangles", "bytes", "error", "seconds"], "properties": {
+      "level": {"type": "integer", "description": "The finest complete level"}, "triangles": {"type": "integer"},
+      "bytes": {"type": "integer", "description": "Bytes of the .pmesh"}, "error": {"type": "number", "description": "Upper bound in model units"},
+      "seconds": {"type": ["number", "null"], "description": "Loading time at kbps; null if the request has no kbps"}}}
+}
+})json";
+
+static constexpr ApiRoute kModelRoutes[] = {
+    {.method = Method::kGet,
+     .path = "/api/v1/models",
+     .handler = list_models,
+     .executor = Executor::kWorker,
+     .doc = {.id = "listModels",
+             .summary = "Lists the published models, newest first.",
+             .parameters = "q limit cursor drafts",
+             .response = "ModelPage"}},
+    // These routes need no token, but with a token the handlers also show drafts.
+    {.method = Method::kGet,
+     .path = "/api/v1/models/{id}",
+     .handler = show_model,
+     .executor = Executor::kWorker,
+     .doc = {.id = "getModel",
+             .summary = "Returns a model's metadata, sizes and links.",
+             .response = "Model"}},
+    {.method = Method::kGet,
+     .path = "/api/v1/models/{id}/manifest",
+     .handler = show_manifest,
+     .executor = Executor::kWorker,
+     .quick = show_held_manifest,
+     .doc = {.id = "getManifest",
+             .summary = "Lists a model's levels, regions, chunks, sizes and errors. With a "
+                        "detail request, also the expected result.",
+             .parameters = "triangles error bytes level kbps seconds saveData",
+             .response = "Manifest"}},
+    {.method = Method::kGet,
+     .path = "/api/v1/models/{id}/head",
+     .handler = show_head,
+     .executor = Executor::kWorker,
+     .doc = {.id = "getHead",
+             .summary =
+                 "Returns the header and the base mesh, which suffice for the first picture.",
+             .response = "application/octet-stream"}},
+    {.method = Method::kGet,
+     .path = "/api/v1/models/{id}/file.pmesh",
+     .handler = show_file,
+     .executor = Executor::kWorker,
+     .doc = {.id = "getFile",
+             .summary = "Returns the whole .pmesh file.",
+             .response = "application/octet-stream"}},
+    {.method = Method::kPost,
+     .path = "/api/v1/models/{id}/publish",
+     .handler = publish_model,
+     .executor = Executor::kDisk,
+     .role = Role::kOperator,
+     .doc = {.id = "publishModel", .summary = "Publishes a draft.", .response = "Model"}},
+    {.method = Method::kPost,
+     .path = "/api/v1/models/{id}/unpublish",
+     .handler = unpublish_model,
+     .executor = Executor::kDisk,
+     .role = Role::kOperator,
+     .doc = {.id = "unpublishModel",
+             .summary = "Turns a published model into a draft.",
+             .response = "Model"}},
+};
+
+const ApiNoun kModels = {.routes = kModelRoutes, .components = kModelsComponents};
+
+}  // namespace vitrine::server

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/api/path_parameters.h"
+
+#include <algorithm>
+
+#include "codec/core/parse_number.h"
+#include "server/catalogue/id.h"
+
+namespace vitrine::server {
+namespace {
+
+bool is_lower(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+bool is_id(std::string_view text) {
+  return parse_ulid(text).has_value();
+}
+
+bool is_sha256(std::string_view text) {
+  Sha256 ignored;
+  return from_hex(text, ignored);
+}
+
+bool is_format(std::string_view text) {
+  return !text.empty() && text.size() <= 8 && std::ranges::all_of(text, is_lower);
+}
+
+bool is_name(std::string_view text) {
+  const auto fits = [](char c) { return is_lower(c) || (c >= '0' && c <= '9') || c == '-'; };
+  return !text.empty() && text.size() <= 32 && std::ranges::all_of(text, fits);
+}
+
+bool is_number(std::string_view text) {
+  return !text.empty() && text.size() <= 6 && text.front() != '0' &&
+         parse_number<std::uint32_t>(text).has_value();
+}
+
+constexpr ParameterPattern kPatterns[] = {{"id", is_id},
+                                          {"sha256", is_sha256},
+                                          {"format", is_format},
+                                          {"name", is_name},
+                                          {"number", is_number}};
+
+}  // namespace
+
+std::span<const ParameterPattern> parameter_patterns() {
+  return kPatterns;
+}
+
+Sha256 sha256_in(const Request& request) {
+  Sha256 hash{};
+  from_hex(request.parameters["sha256"], hash);
+  return hash;
+}
+
+std::uint32_t number_in(const Request& request) {
+  return *parse_number<std::uint32_t>(request.parameters["number"]);
+}
+
+}  // namespace vitrine::server

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Declares the parameters in the paths of routes: the pattern that each must match, and functions
+// that return their typed values.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "codec/core/sha256.h"
+#include "server/messages/router.h"
+
+namespace vitrine::server {
+
+// Returns the patterns of {id}, {sha256}, {format}, {name} and {number} for the Router.
+std::span<const ParameterPattern> parameter_patterns();
+
+// Returns {id}: the ID of a model, scan, job, upload or token.
+template <class Id>
+Id id_in(const Request& request) {
+  return *Id::parse(request.parameters["id"]);
+}
+
+Sha256 sha256_in(const Request& request);         // returns {sha256}
+std::uint32_t number_in(const Request& request);  // returns {number}: 1 to 999,999, no leading zero
+// Returns {name}: 1 to 32 characters of a-z, 0-9 and '-'.
+inline std::string_view name_in(const Request& request) {
+  return request.parameters["name"];
+}
+// Returns {format}: 1 to 8 lower-case letters.
+inline std::string_view format_in(const Request& request) {
+  return request.parameters["format"];
+}
+
+}  // namespace vitrine::server

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/api/links.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "codec/render/png_file.h"
+#include "codec/render/render.h"
+#include "server/api/decoded_model.h"
+#include "server/api/handlers.h"
+#include "server/api/published.h"
+#include "server/messages/query.h"
+
+namespace vitrine::server {
+namespace {
+
+// Returns the width that the query asks for, or the default if it has none. Returns nullopt if the
+// width is not supported.
+std::optional<unsigned> read_width(const Query& query) {
+  const auto text = query.get("width");
+  if (!text) return kPosterWidth;
+  const auto* width = std::ranges::find_if(
+      kPosterWidths, [&](unsigned w) { return *text == fmt::format("{}", w); });
+  return width == std::end(kPosterWidths) ? std::nullopt : std::optional(*width);
+}
+
+// Renders the model in the viewer's first view, with one triangle per two pixels. The model covers
+// about half of the picture and hides half of its own triangles, so further triangles would not be
+// visible.
+Expected<std::vector<std::uint8_t>> make_poster(const PublishedModel& model, unsigned width) {
+  const auto mesh = decoded_model(model, WantTriangles{std::uint64_t{width} * width / 2});
+  if (!mesh) return tl::unexpected(mesh.error());
+  Framing frame = frame_around(*mesh, width);
+  frame.width = frame.height = width;
+  return write_png(render(*mesh, frame));
+}
+
+}  // namespace
+
+static Response show_poster(const Request& request, Services& services) {
+  const auto query = Query::parse(request.query);
+  if (!query) return problem(400, "the query is malformed", request.id);
+  const auto width = read_width(*query);
+  if (!width) {
+    const auto choice = fmt::format("one of {}", fmt::join(kPosterWidths, ", "));
+    return problem(400, "a parameter is out of range", request.id, {{"width", choice}});
+  }
+  return with_model(request, services, [&](const auto& model) {
+    const auto key = fmt::format("{} poster {}", to_hex(model->record().file), *width);
+    const auto file =
+        services.exports.find_or_make(key, [&] { return make_poster(*model, *width); });
+    if (!file) return internal_error(file.error(), request, services);
+    Response response;
+    response.type = "image/png";
+    response.caching = Caching::kRevalidate;
+    response.etag = (*file)->etag;
+    response.body = SharedBytes{*file, (*file)->bytes};
+    return response;
+  });
+}
+
+static constexpr std::string_view kPostersComponents = R"json({
+"parameters": {
+  "width": {"name": "width", "in": "query", "description": "Width and height in pixels",
+    "schema": {"enum": [240, 480, 960], "default": 480}}
+}
+})json";
+
+static constexpr ApiRoute kPosterRoutes[] = {
+    {.method = Method::kGet,
+     .path = "/api/v1/models/{id}/poster.png",
+     .handler = show_poster,
+     .executor = Executor::kCompute,
+     .doc = {.id = "getPoster",
+             .summary = "Returns a square picture of the model in the viewer's first view, on a "
+                        "transparent background.",
+             .parameters = "width",
+             .response = "image/png"}},
+};
+
+const ApiNoun kPosters = {.routes = kPosterRoutes, .components = kPostersComponents};
+
+}  // namespace vitrine::server

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of the daemon that handlers use. The daemon owns these parts. They are thread-safe and
+// outlive every connection.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/api/export_cache.h"
+#include "server/api/web_pages.h"
+#include "server/auth/authenticator.h"
+#include "server/catalogue/catalogue.h"
+#include "server/config/live_settings.h"
+#include "server/http/admission_limit.h"
+#include "server/jobs/collector.h"
+#include "server/jobs/scan_service.h"
+#include "server/jobs/webhooks.h"
+#include "server/log/log.h"
+#include "server/metrics/metrics.h"
+#include "server/store/published_model.h"
+#include "server/store/quota.h"
+#include "server/store/uploads.h"
+#include "server/stream/busy_streams.h"
+
+namespace vitrine::server {
+
+struct Services {
+  ObjectStore& store;
+  Catalogue& catalogue;
+  Authenticator& tokens;
+  PublishedModels& models;
+  ScanService& scans;
+  Uploads& uploads;
+  Quota& quota;
+  Collector& collector;
+  const Webhooks& webhooks;
+  ExportCache& exports;
+  const WebPages& pages;
+  const LiveSettings& settings;
+  Metrics& metrics;
+  const Log& log;     // the access log
+  const Log& errors;  // log of the events that the operator must know
+  std::atomic<bool> ready{false};
+
+  BusyStreams busy_streams = {};
+
+  // Limits on the number of requests being forwarded, since each keeps a worker thread waiting
+  // until the other daemon responds. Requests without a token, requests with a token, and emergency
+  // stops have separate limits. One address may use at most half of the limit for requests without
+  // a token. For each forwarded request there is an additional waiting thread (WorkerOptions), so
+  // that other requests and the watchdog never wait for another daemon.
+  static constexpr std::size_t kMostForwarded = 8;  // for each of the three kinds
+  static constexpr unsigned kWaitingThreads = 3 * kMostForwarded;
+  const std::shared_ptr<AdmissionLimit> forwarded_for_strangers =
+      std::make_shared<AdmissionLimit>(kMostForwarded, kMostForwarded / 2);
+  const std::shared_ptr<AdmissionLimit> forwarded_for_callers =
+      std::make_shared<AdmissionLimit>(kMostForwarded, kMostForwarded);
+  const std::shared_ptr<AdmissionLimit> forwarded_stops =
+      std::make_shared<AdmissionLimit>(kMostForwarded, kMostForwarded);
+};
+
+}  // namespace vitrine::server

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The client side of pmesh.v1: fetches a model at the requested detail, over as many connections as
+// needed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "server/cli/client/model_url.h"
+#include "server/cli/client/partial_model.h"
+#include "server/stream/message.h"
+#include "server/stream/server_message.h"
+
+namespace vitrine::server {
+
+struct FetchOptions {
+  ModelUrl url;
+  std::string token;                   // empty if no token is sent
+  std::optional<DetailTarget> target;  // nullopt for the whole model
+  // Output file. Received data is kept beside it in OUT.HASH.part.
+  std::filesystem::path out;
+  // Called when the head or a chunk has arrived completely.
+  std::function<void(const PartialModel&)> on_progress = {};
+};
+
+struct Fetched {
+  PartialModel model;
+  double seconds = 0;                     // from the first connection until the request was met
+  std::uint64_t received = 0;             // payload bytes received in this run
+  std::optional<PromiseMessage> promise;  // the newest promise of the server
+};
+
+// Fetches a model. Connects again if the server stops (close code 1012) or the connection is lost,
+// until no data has arrived for kReconnectTimeout. Fails with kIo if the server cannot be reached
+// or files cannot be written. Fails with kBadInput if the server violates pmesh.v1, and with kState
+// if the model does not exist or has changed meanwhile. Received data is kept for the next run.
+Expected<Fetched> fetch(const FetchOptions& options);
+
+}  // namespace vitrine::server

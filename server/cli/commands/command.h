@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Declares the subcommands of `vitrine`. Each is defined in its own file and listed in run.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "server/cli/support/arguments.h"
+#include "server/cli/support/outcome.h"
+
+namespace vitrine::server::cli {
+
+struct Command {
+  std::string_view name;
+  std::string_view summary;       // one sentence, for the list of commands
+  std::string_view details = {};  // further sentences for --help
+  std::span<const std::string_view> operands = {};
+  std::span<const Flag> flags;  // all flags but --help, which every command has
+  CommandOutcome (*run)(const Arguments& arguments);
+};
+
+extern const Command kBuild, kInfo, kDecode, kVerify, kMeasure, kPublish, kFetch, kCalibrate, kScan,
+    kReprocess, kMerge, kToken, kBackup, kRestore, kMigrate, kDoctor;
+
+// Runs a whole command line, given without the program's name. Prints the error, if any, and
+// returns the exit code.
+int run(std::span<const std::string_view> words);
+
+}  // namespace vitrine::server::cli

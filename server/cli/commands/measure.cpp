@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include "codec/distance/surface_distance.h"
+#include "server/cli/commands/command.h"
+#include "server/cli/support/console.h"
+#include "server/cli/support/isolation.h"
+#include "server/cli/support/reading.h"
+#include "server/cli/support/surface_file.h"
+
+namespace vitrine::server::cli {
+namespace {
+
+using nlohmann::json;
+
+// Returns a note if the units of the surfaces make the numbers doubtful. Otherwise returns an empty
+// text.
+std::string note_on_units(const SurfaceInput& a, const SurfaceInput& b) {
+  if (a.unit.empty() == b.unit.empty()) return {};
+  const bool first = a.unit.empty();
+  return fmt::format(
+      "{} states no unit, and {} is in {}: the coordinates are compared as they are; if the units "
+      "differ, "
+      "build a model of {} with --unit and measure that",
+      first ? "A" : "B", first ? "B" : "A", first ? b.unit : a.unit, first ? "A" : "B");
+}
+
+json one_way(const OneWayDistance& d) {
+  return {{"rms", d.rms}, {"p95", d.p95}, {"max", d.max}};
+}
+
+json describe(const SurfaceDistance& d) {
+  return {{"rms", d.rms},
+          {"max", d.max},
+          {"rms_percent", d.rms_percent},
+          {"max_percent", d.max_percent},
+          {"a_to_b", one_way(d.a_to_b)},
+          {"b_to_a", one_way(d.b_to_a)}};
+}
+
+std::string distances(const json& r) {
+  const auto line = [](const char* name, const json& d) {
+    return fmt::format("\n{}: rms {:.6g}, p95 {:.6g}, max {:.6g}", name, d["rms"].get<double>(),
+                       d["p95"].get<double>(), d["max"].get<double>());
+  };
+  return fmt::format("rms {:.6g} ({:.4g} % of B's diagonal), max {:.6g} ({:.4g} %)",
+                     r["rms"].get<double>(), r["rms_percent"].get<double>(), r["max"].get<double>(),
+                     r["max_percent"].get<double>()) +
+         line("A to B", r["a_to_b"]) + line("B to A", r["b_to_a"]);
+}
+
+CommandOutcome run_measure(const Arguments& arguments) {
+  MeasureOptions options{.aligns = arguments.has("--align")};
+  const auto samples = arguments.number("--samples", 1, 100'000'000);
+  if (!samples) return tl::unexpected(samples.error());
+  options.samples = samples->value_or(options.samples);
+  const auto reading = reading_options(arguments);
+  if (!reading) return tl::unexpected(reading.error());
+  const auto a = InputFile::open(arguments.operand(0)), b = InputFile::open(arguments.operand(1));
+  if (!a) return failed(a.error());
+  if (!b) return failed(b.error());
+
+  const auto product = isolate("cannot measure", [&](const ProgressReport&) -> Expected<Product> {
+    auto first = read_surface(*a, arguments.operand(0), *reading);
+    if (!first) return tl::unexpected(first.error());
+    const auto second = read_surface(*b, arguments.operand(1), *reading);
+    if (!second) return tl::unexpected(second.error());
+    const std::string note = note_on_units(*first, *second);
+    convert(*first, second->unit);
+    const auto distance = measure(first->mesh, second->mesh, options);
+    if (!distance) return tl::unexpected(distance.error());
+    json report = describe(*distance);
+    if (!note.empty()) report["note"] = note;
+    return Product{std::move(report), {}};
+  });
+  if (!product) return tl::unexpected(product.error());
+  return arguments.has("--json") ? print_json(product->report) : print(distances(product->report));
+}
+
+constexpr std::string_view kMeasureOperands[] = {"A", "B"};
+constexpr Flag kMeasureFlags[] = {
+    {"--samples", "N", "number of sample points on each surface (default 200000)"},
+    {"--up", "y|z", "axis of mesh files that points up (default y), as for vitrine build"},
+    {"--align", "", "first align A to B by a rotation and a translation, without scaling"},
+    {"--json", "", "print the result as one JSON object"}};
+
+}  // namespace
+
+const Command kMeasure = {
+    .name = "measure",
+    .summary = "Measures the distance between two surfaces in both directions.",
+    .details =
+        "A and B are mesh files or .pmesh files, of which the finest level is measured. The result "
+        "is in B's unit.",
+    .operands = kMeasureOperands,
+    .flags = kMeasureFlags,
+    .run = run_measure};
+
+}  // namespace vitrine::server::cli

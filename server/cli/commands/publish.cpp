@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/publish.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "codec/build/build_model.h"
+#include "codec/build/verify_model.h"
+#include "server/cli/client/remote_vitrine.h"
+#include "server/cli/commands/command.h"
+#include "server/cli/support/companion_files.h"
+#include "server/cli/support/console.h"
+#include "server/cli/support/input.h"
+#include "server/cli/support/isolation.h"
+#include "server/cli/support/place.h"
+#include "server/cli/support/reading.h"
+
+namespace vitrine::server::cli {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// Returns the .pmesh file to publish. Builds it if the input is a mesh. A .pmesh input may come
+// from anyone, so it is first decoded completely.
+tl::expected<Bytes, Fault> make_pmesh(const InputFile& file, const std::string& path,
+                                      const ReadOptions& reading, const SpillOptions& spill) {
+  const auto task = [&](const ProgressReport& progress) -> Expected<Product> {
+    if (file.is_pmesh()) {
+      const auto verified = verify_model(file.bytes(), std::nullopt, progress);
+      if (!verified) return tl::unexpected(verified.error());
+      return Product{nlohmann::json::object(), Bytes(file.bytes().begin(), file.bytes().end())};
+    }
+    auto built = build_model(file.bytes(), {.reading = reading}, progress);
+    if (!built) return tl::unexpected(built.error());
+    auto report = nlohmann::json::object();
+    if (auto note = note_on_unit(file.bytes(), reading); !note.empty()) report["note"] = note;
+    return Product{std::move(report), std::move(built->file)};
+  };
+  const auto product = isolate(path, task, spill);
+  if (!product) return tl::unexpected(product.error());
+  return product->file;
+}
+
+tl::expected<InputFile, Fault> open_input(const Arguments& arguments) {
+  auto file = InputFile::open(arguments.operand(0));
+  if (!file) return failed(file.error());
+  if (file->is_pmesh() && (arguments.has("--unit") || arguments.has("--up")))
+    return misused("--unit and --up apply to meshes; a .pmesh file has both, so build it again");
+  return std::move(*file);
+}
+
+// Returns the bytes to upload. A mesh that refers to files beside it is built here, as the server
+// cannot open those files.
+tl::expected<Bytes, Fault> bytes_to_send(const InputFile& file, const std::string& path,
+                                         ReadOptions reading) {
+  const CompanionFiles companions(path, file.bytes());
+  reading.beside = companions.contents();
+  if (!file.is_pmesh() && !reading.beside.empty()) return make_pmesh(file, path, reading, {});
+  return Bytes(file.bytes().begin(), file.bytes().end());
+}
+
+// Uploads the bytes and publishes the model. Returns the model's ID.
+tl::expected<std::string, Fault> publish_bytes(RemoteVitrine& remote, const Bytes& bytes,
+                                               nlohmann::json order) {
+  ProgressBar bar;
+  const auto upload = remote.upload(bytes, bar.report());
+  if (!upload) return tl::unexpected(upload.error());
+  order["upload"] = *upload;
+  const auto started =
+      remote.ask_with_retries("POST", "/api/v1/models", order, "Idempotency-Key: " + *upload);
+  if (!started) return tl::unexpected(started.error());
+  const auto done = remote.await(started->value("job", ""), bar.report());
+  if (!done) return tl::unexpected(done.error());
+  return done->value("model", "");
+}
+
+nlohmann::json order_of(const Arguments& arguments, const ReadOptions& reading) {
+  const std::string stem = std::filesystem::path(arguments.operand(0)).stem().string();
+  nlohmann::json order = {{"publish", true}, {"up", reading.up == UpAxis::kZ ? "z" : "y"}};
+  order["metadata"]["title"] = arguments.text("--title", stem);
+  if (!reading.unit.empty()) order["unit"] = reading.unit;
+  return order;
+}
+
+CommandOutcome publish_at_server(const Arguments& arguments) {
+  if (arguments.has("--data")) return misused("--data and --server exclude each other; give one");
+  auto remote = RemoteVitrine::of(arguments);
+  if (!remote) return tl::unexpected(remote.error());
+  const auto reading = reading_options(arguments);
+  if (!reading) return tl::unexpected(reading.error());
+  const std::string path = arguments.operand(0);
+  const auto file = open_input(arguments);
+  if (!file) return tl::unexpected(file.error());
+  const auto bytes = bytes_to_send(*file, path, *reading);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto id = publish_bytes(*remote, *bytes, order_of(arguments, *reading));
+  if (!id) return failed(fmt::format("{}: {}", path, id.error().message));
+  const std::string url = remote->origin() + "/models/" + *id;
+  return arguments.has("--json") ? print_json({{"id", *id}, {"url", url}}) : print(url);
+}
+
+CommandOutcome publish_file(const Arguments& arguments) {
+  if (arguments.has("--server")) return publish_at_server(arguments);
+  if (arguments.has("--token")) return misused("--token needs --server; leave it out");
+  if (!arguments.has("--data"))
+    return misused("--data or --server is missing; name the data folder or the server");
+  auto reading = reading_options(arguments);
+  if (!reading) return tl::unexpected(reading.error());
+  const std::string path = arguments.operand(0);
+  const auto file = open_input(arguments);
+  if (!file) return tl::unexpected(file.error());
+  const auto place = place_of(arguments.text("--data"));
+  if (!place) return failed(place.error());
+  if (const auto usable = check_existing(*place); !usable) return failed(usable.error());
+  const CompanionFiles companions(path, file->bytes());
+  reading->beside = companions.contents();
+  const SpillOptions spill{.folder = place->folder, .input = file->bytes()};
+  const auto pmesh = make_pmesh(*file, path, *reading, spill);
+  if (!pmesh) return tl::unexpected(pmesh.error());
+
+  const auto installation = open_installation(*place);
+  if (!installation) return failed(installation.error());
+  const auto limit = storage_limit_of(arguments.text("--data"));
+  if (!limit) return failed(limit.error());
+  const Uploads uploads(limit->uploads, {});
+  Quota quota(*installation->catalogue, uploads, limit->bytes);
+  const std::string stem = std::filesystem::path(path).stem().string();
+  const auto published = publish(*installation->store, *installation->catalogue, *pmesh,
+                                 {.title = arguments.text("--title", stem)}, {.quota = &quota});
+  if (!published) return failed(published.error());
+  const std::string id = published->id.to_string();
+  if (!published->is_new) {
+    print_note(fmt::format(
+        "{} is published under this title already, as {}; give another --title to publish it again",
+        path, id));
+  }
+  if (!arguments.has("--json")) return print(id);
+  return print_json({{"id", id}, {"url", nullptr}});
+}
+
+constexpr std::string_view kPublishOperands[] = {"IN"};
+constexpr Flag kPublishFlags[] = {
+    {"--data", "DIR|FILE",
+     "data folder on this machine, or configuration file of its daemon, which may be running"},
+    kUnitFlag,
+    kUpFlag,
+    {"--server", "URL", "address of a server, such as https://museum.example, instead of --data"},
+    {"--token", "T", "with --server: access token of role operator or higher"},
+    {"--title", "T", "title of the model (default: name of the file)"},
+    {"--json", "", "print the result as one JSON object: id and url"}};
+
+}  // namespace
+
+const Command kPublish = {
+    .name = "publish",
+    .summary = "Publishes a mesh or .pmesh file, so that visitors can open it.",
+    .details = "Give --data on the daemon's machine, or --server and --token anywhere else.",
+    .operands = kPublishOperands,
+    .flags = kPublishFlags,
+    .run = publish_file};
+
+}  // namespace vitrine::server::cli

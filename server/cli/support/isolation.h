@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the work of a command in the sandbox: parsing, decoding and building. The code outside the
+// sandbox opens files, writes the output and prints.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "server/cli/support/outcome.h"
+#include "server/sandbox/sandbox.h"
+
+namespace vitrine::server::cli {
+
+struct Product {
+  nlohmann::json report;  // the results; isolate() prints the member "note", if there is one
+  std::vector<std::uint8_t> file;  // content of the output file; may be empty
+  std::string page = {};           // content of the report page; may be empty
+};
+
+// Runs `task` in the sandbox. Error messages begin with `subject`, which names the input.
+tl::expected<Product, Fault> isolate(
+    const std::string& subject, const std::function<Expected<Product>(const ProgressReport&)>& task,
+    const SpillOptions& spill = {});
+
+}  // namespace vitrine::server::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/support/place.h"
+
+#include <unistd.h>
+
+#include <optional>
+#include <vector>
+
+#include "server/config/read_file.h"
+#include "server/jobs/place_of.h"
+#include "server/store/quota.h"
+
+namespace vitrine::server::cli {
+
+namespace {
+
+// Reads the configuration file `text`. Returns nullopt if there is no such file.
+Expected<std::optional<Settings>> settings_in(const std::string& text) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(text, unknown)) return std::nullopt;
+  std::vector<std::string_view> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry)
+    environment.emplace_back(*entry);
+  auto settings = read_settings(text, environment);
+  if (!settings) return tl::unexpected(settings.error());
+  return std::move(*settings);
+}
+
+}  // namespace
+
+Expected<InstallationPlace> place_of(const std::string& text) {
+  const auto settings = settings_in(text);
+  if (!settings) return tl::unexpected(settings.error());
+  return *settings ? server::place_of(**settings) : InstallationPlace{.folder = text};
+}
+
+Expected<StorageLimit> storage_limit_of(const std::string& text) {
+  const auto settings = settings_in(text);
+  if (!settings) return tl::unexpected(settings.error());
+  if (*settings) return StorageLimit{(*settings)->quota_bytes, uploads_of(**settings)};
+  const auto bytes = read_quota(text);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return StorageLimit{*bytes, std::filesystem::path(text) / "uploads"};
+}
+
+Expected<void> check_existing(const InstallationPlace& place) {
+  if (auto usable = check_installation(place.folder); !usable) return usable;
+  return place.catalogue.empty() ? check_data_folder(place.folder) : Expected<void>();
+}
+
+Expected<Installation> open_existing(const std::string& text) {
+  const auto place = place_of(text);
+  if (!place) return tl::unexpected(place.error());
+  if (auto there = check_existing(*place); !there) return tl::unexpected(there.error());
+  return open_installation(*place);
+}
+
+}  // namespace vitrine::server::cli

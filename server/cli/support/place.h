@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the installation that a command line argument names.
+#pragma once
+
+#include <string>
+
+#include "server/store/installation.h"
+
+namespace vitrine::server::cli {
+
+// Returns the installation that the user names by its data folder or by the configuration file of
+// its daemon. The file may name a bucket and a database. Environment variables override the file.
+Expected<InstallationPlace> place_of(const std::string& text);
+
+// The limit on the size of models and uploads together. It comes from the configuration file, or
+// from the data folder, where the daemon stores it.
+struct StorageLimit {
+  std::uint64_t bytes = 0;  // 0: no limit
+  std::filesystem::path uploads;
+};
+Expected<StorageLimit> storage_limit_of(const std::string& text);
+
+// Succeeds if the installation exists or its folder is empty, so that a mistyped name does not
+// create an installation. Fails with kIo.
+Expected<void> check_existing(const InstallationPlace& place);
+
+// Opens an installation for which check_existing() succeeds.
+Expected<Installation> open_existing(const std::string& text);
+
+}  // namespace vitrine::server::cli

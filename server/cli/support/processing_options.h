@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Flags of the processing that makes a mesh from a scan's pictures.
+#pragma once
+
+#include "acquisition/session/processing.h"
+#include "server/cli/support/arguments.h"
+
+namespace vitrine::server::cli {
+
+inline constexpr Flag kStripeFlag = {"--stripe", "METHOD",
+                                     "how the laser stripe is located in a picture: "
+                                     "derivative-of-gaussian (default for a new scan), "
+                                     "centre-of-mass or blais-rioux"};
+inline constexpr Flag kSamplingFlag = {
+    "--sampling", "METHOD",
+    "points kept per stripe: adaptive (more at bends; default for a new scan), equidistant, or "
+    "paper; see acquisition/README.md"};
+inline constexpr Flag kLengthFlag = {"--length", "5|10|15|20",
+                                     "number of measured points that --sampling reduces to one, on "
+                                     "average (default for a new scan: 5)"};
+inline constexpr Flag kLargestAngleFlag = {
+    "--largest-angle", "DEGREES",
+    "largest angle between view and surface normal, 0 to 90, at which points far apart in depth "
+    "are still joined (default for a new scan: 75)"};
+inline constexpr Flag kLargestHoleFlag = {
+    "--largest-hole", "MM",
+    "largest width of a hole that is closed; 0: none (default for a new scan: 2)"};
+
+// Reads the flags; the command must declare all of them. Flags not given keep the values of
+// `otherwise`.
+tl::expected<acquisition::Processing, Fault> processing_options(
+    const Arguments& arguments, const acquisition::Processing& otherwise);
+
+}  // namespace vitrine::server::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/cli/support/surface_file.h"
+
+#include "codec/build/open_model.h"
+#include "codec/import/read_drc.h"
+#include "codec/mesh/unit.h"
+
+namespace vitrine::server::cli {
+namespace {
+
+Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& reading) {
+  if (is_drc(file.bytes()))
+    return read_drc(file.bytes()).map([](TriangleMesh&& mesh) {
+      return SurfaceInput{.mesh = std::move(mesh)};
+    });
+  if (!file.is_pmesh()) {
+    auto imported = read_mesh(file.bytes(), reading);
+    if (!imported) return tl::unexpected(imported.error());
+    return SurfaceInput{.mesh = std::move(imported->mesh), .unit = std::move(imported->unit)};
+  }
+  auto refiner = open_model(file.bytes());
+  if (!refiner) return tl::unexpected(refiner.error());
+  const Manifest& manifest = refiner->manifest();
+  const WantLevel finest{static_cast<std::uint32_t>(manifest.levels.size() - 1)};
+  const auto refined = refine(*refiner, finest, chunks_of(manifest, file.bytes()));
+  if (!refined) return tl::unexpected(refined.error());
+  return SurfaceInput{.mesh = refiner->display_mesh(), .unit = manifest.unit};
+}
+
+}  // namespace
+
+Expected<SurfaceInput> read_surface(const InputFile& file, const std::string& name,
+                                    const ReadOptions& reading) {
+  return surface_in(file, reading).map_error([&](const Error& error) {
+    return Error{error.code, name + ": " + error.message};
+  });
+}
+
+void convert(SurfaceInput& surface, std::string_view unit) {
+  const auto from = metres_per(surface.unit), to = metres_per(unit);
+  if (!from || !to || *from == *to) return;
+  for (Vec3& p : surface.mesh.positions)
+    p = p * (*from / *to);
+}
+
+}  // namespace vitrine::server::cli

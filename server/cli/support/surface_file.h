@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the surface in a mesh file or a .pmesh file.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "codec/import/read_mesh.h"
+#include "codec/mesh/triangle_mesh.h"
+#include "server/cli/support/input.h"
+
+namespace vitrine::server::cli {
+
+struct SurfaceInput {
+  TriangleMesh mesh;
+  std::string unit;  // empty if unknown
+};
+
+// Reads a mesh file, or the finest level of a .pmesh file. `reading` applies to mesh files only.
+// Must run in the sandbox if the bytes are untrusted.
+Expected<SurfaceInput> read_surface(const InputFile& file, const std::string& name,
+                                    const ReadOptions& reading = {});
+
+// Converts the surface to `unit`. Has no effect unless both units are known.
+void convert(SurfaceInput& surface, std::string_view unit);
+
+}  // namespace vitrine::server::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the response to a request: finds the route, applies the rate limit, authorises the caller,
+// and runs the handler on its executor.
+#pragma once
+
+#include "server/http/request_reader.h"
+
+namespace vitrine::server {
+
+// May be used only on the connection's strand.
+class Dispatcher {
+ public:
+  Dispatcher(Connection& connection, HttpServer& server, RequestReader& reader)
+      : connection_(connection), server_(server), reader_(reader) {}
+
+  // Sets exchange.response. Returns false if there is no response to send, since the peer has
+  // disconnected or the server drains.
+  asio::awaitable<bool> dispatch(RequestParser& parser, Exchange& exchange);
+
+ private:
+  void find_route(const RequestParser::value_type& request, Exchange& exchange) const;
+  asio::awaitable<bool> answer(RequestParser& parser, Exchange& exchange);
+  bool is_beyond_rate(std::string_view client, Exchange& exchange);
+  asio::awaitable<bool> authorise_caller(const RequestHeader& header, Exchange& exchange);
+  asio::awaitable<void> handle(const Request& request, Exchange& exchange);
+  Response guarded(const Handler& handler, const Request& request);
+  asio::awaitable<bool> pour(RequestParser& parser, Exchange& exchange);
+  template <class Task>
+  asio::awaitable<void> on_worker(Executor executor, std::string_view target, const Task& task);
+
+  Connection& connection_;
+  HttpServer& server_;
+  RequestReader& reader_;
+};
+
+}  // namespace vitrine::server

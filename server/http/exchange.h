@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// One request and its response. The reader, the dispatcher and the writer of a session fill in the
+// members.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "server/http/connection.h"
+#include "server/log/request_id.h"
+#include "server/messages/client.h"
+#include "server/messages/problem.h"
+#include "server/messages/response.h"
+#include "server/messages/router.h"
+
+namespace vitrine::server {
+
+struct Exchange {
+  std::string id = next_request_id();
+  Connection::Clock::time_point start = Connection::Clock::now();
+  Client client;
+  // Index into Router::templates(), or SIZE_MAX if no route matches.
+  std::size_t route_template = SIZE_MAX;
+  PathParameters parameters;
+  // Null until a route is found, and if the response needs no handler.
+  const Route* route = nullptr;
+  std::optional<Caller> caller;
+  nlohmann::json body = nlohmann::json::object();
+  bool is_body_read = false;
+  bool is_public_read = true;
+  bool keep_alive = true;
+  Response response;
+
+  // Sets an error response and closes the connection after it, since it is unknown where the next
+  // request would start.
+  void reject(unsigned status, std::string_view detail) {
+    response = problem(status, detail, id);
+    keep_alive = false;
+  }
+};
+
+}  // namespace vitrine::server

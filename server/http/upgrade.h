@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interface of a protocol that takes over a connection from HTTP with status 101 (RFC 9110,
+// section 7.8).
+#pragma once
+
+#include <boost/beast/http/string_body.hpp>
+#include <memory>
+
+#include "server/http/connection.h"
+
+namespace vitrine::server {
+
+class HttpServer;
+
+struct UpgradedConnection {
+  std::shared_ptr<Connection> connection;
+  beast::http::request<beast::http::string_body> request;  // the request that asked for the upgrade
+};
+
+// A handler returns an object of this class as Response::upgrade.
+class Upgrade {
+ public:
+  virtual ~Upgrade() = default;
+
+  // Answers the upgrade request and serves the connection. Runs on the connection's strand. Returns
+  // once no operation on the connection is pending.
+  virtual asio::awaitable<void> serve(UpgradedConnection upgraded, HttpServer& server) = 0;
+};
+
+}  // namespace vitrine::server

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Marks a scan's data folder with the revolution of the table whose steps it contains. If another
+// daemon continues the scan, it uses a folder of its own and begins a new revolution, because the
+// table has moved.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "codec/core/expected.h"
+
+namespace vitrine::server {
+
+// Whether the folder contains the steps of `revolution`, a ScanEntry::revolution. An empty value
+// stands for a folder that an earlier version of Vitrine made. kIo if the folder exists and cannot
+// be read.
+Expected<bool> holds_revolution(const std::filesystem::path& folder, const std::string& revolution);
+
+// Empties the folder and marks it with `revolution`.
+Expected<void> begin_revolution(const std::filesystem::path& folder, const std::string& revolution);
+
+}  // namespace vitrine::server

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Handles conditional and range requests (RFC 9110, sections 13 and 14). Supports one byte range
+// and strong validators.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "server/messages/http_header.h"
+#include "server/messages/response.h"
+
+namespace vitrine::server {
+
+// Whether an If-Match list is "*" or contains `etag`, which is a strong tag. A weak tag in the list
+// never matches (RFC 9110, 13.1.1).
+bool matches_any(std::string_view list, std::string_view etag);
+
+// Whether an If-None-Match list is "*" or contains `etag`. In contrast to matches_any(), a weak tag
+// in the list also matches (RFC 9110, 13.1.2).
+bool matches_any_weakly(std::string_view list, std::string_view etag);
+
+struct RangeChoice {
+  enum class Kind { kWhole, kPart, kUnsatisfiable } kind = Kind::kWhole;
+  std::uint64_t offset = 0, length = 0;  // the bytes chosen, if `kind` is kPart
+};
+// Chooses the part of a body of `size` bytes that a Range field asks for. Returns kUnsatisfiable if
+// that part is empty. Returns kWhole if the field has several ranges, another unit or a malformed
+// value, as RFC 9110, section 14.2, allows.
+RangeChoice choose_range(std::string_view range, std::uint64_t size);
+
+// Returns `response`, the complete response to a GET or HEAD, or 304, 206 or 416 in its place if
+// the request's If-None-Match or Range requires it. Returns responses other than 200 and responses
+// without an ETag unchanged.
+Response apply_conditions(const RequestHeader& request, Response response,
+                          std::string_view request_id);
+
+}  // namespace vitrine::server

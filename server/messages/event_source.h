@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The source of the events of a text/event-stream response.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace vitrine::server {
+
+struct Event {
+  std::string name, data;  // one line each
+};
+
+// A source belongs to one connection, which calls its functions at most five times a second and
+// never from two threads at once. The connection calls next() only after the previous event has
+// been sent. A slow client therefore misses intermediate states, and events do not pile up in
+// memory. Functions must not block, and may throw only std::bad_alloc.
+class EventSource {
+ public:
+  virtual ~EventSource() = default;
+
+  // Returns an event that describes the change since the last call, or nullopt if there is no
+  // change.
+  virtual std::optional<Event> next() = 0;
+  // Whether next() has returned the last event.
+  virtual bool ended() const = 0;
+};
+
+}  // namespace vitrine::server

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/messages/request_body.h"
+
+#include <set>
+
+#include "server/messages/http_header.h"
+
+namespace vitrine::server {
+namespace {
+
+// Whether the media type is JSON. Ignores parameters such as "; charset=utf-8", since JSON is
+// always UTF-8.
+bool is_json(std::string_view media_type) {
+  std::string_view name = media_type.substr(0, media_type.find(';'));
+  while (name.ends_with(' ') || name.ends_with('\t'))
+    name.remove_suffix(1);
+  return beast::iequals(name, "application/json");
+}
+
+// Detects repeated names and too deep nesting while the parser builds the value.
+class Watch {
+ public:
+  bool operator()(int depth, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
+    using Event = nlohmann::json::parse_event_t;
+    const bool starts = event == Event::object_start || event == Event::array_start;
+    if (starts && depth >= kMaxBodyDepth) too_deep_ = true;
+    if (event == Event::object_start) names_.emplace_back();
+    if (event == Event::key && !names_.back().insert(value.get_ref<const std::string&>()).second)
+      repeated_ = true;
+    if (event == Event::object_end) names_.pop_back();
+    return !too_deep_ && !repeated_;
+  }
+  bool too_deep() const { return too_deep_; }
+  bool repeated() const { return repeated_; }
+
+ private:
+  std::vector<std::set<std::string>> names_;  // the names in each open object
+  bool too_deep_ = false, repeated_ = false;
+};
+
+}  // namespace
+
+tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
+                                                   std::string_view text) {
+  if (text.empty()) return nlohmann::json::object();
+  if (text.size() > kMaxRequestBody) return tl::unexpected(BodyFault{413, "the body is too large"});
+  if (!is_json(media_type))
+    return tl::unexpected(BodyFault{415, "send the body as application/json"});
+  // The library would treat a NUL byte as the end of the text.
+  if (text.find('\0') != text.npos) return tl::unexpected(BodyFault{400, "the body is not JSON"});
+  Watch watch;
+  nlohmann::json json = nlohmann::json::parse(text, std::ref(watch), /*allow_exceptions=*/false);
+  if (watch.too_deep()) return tl::unexpected(BodyFault{400, "the body is nested too deep"});
+  if (watch.repeated()) return tl::unexpected(BodyFault{400, "the body has a name twice"});
+  if (!json.is_object()) return tl::unexpected(BodyFault{400, "the body is not a JSON object"});
+  return json;
+}
+
+}  // namespace vitrine::server

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parses the JSON body of a request within limits on size and depth.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <tl/expected.hpp>
+
+namespace vitrine::server {
+
+inline constexpr std::size_t kMaxRequestBody = 64 * 1024;  // bytes
+inline constexpr int kMaxBodyDepth = 16;                   // nested arrays and objects
+
+struct BodyFault {
+  unsigned status;  // HTTP status: 400, 413 or 415
+  std::string_view detail;
+};
+
+// Parses `text` as a JSON object. An empty `text` gives an empty object. Fails if the media type is
+// not application/json, if the text is too large or not an object, if it is nested too deep, or if
+// a name occurs twice in an object.
+tl::expected<nlohmann::json, BodyFault> parse_body(std::string_view media_type,
+                                                   std::string_view text);
+
+}  // namespace vitrine::server

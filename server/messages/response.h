@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The response that a handler returns, and the function that formats its header.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "server/messages/body.h"
+#include "server/messages/event_source.h"
+
+namespace vitrine::server {
+
+class BodySink;
+class Upgrade;
+
+enum class Caching {
+  kNever,       // no-store
+  kPrivate,     // private, no-store: only for this caller; pages of other origins may not read it
+  kRevalidate,  // no-cache: stored, but revalidated before each use
+  kImmutable,   // cached for a year without revalidation, as the URL names the content
+};
+
+struct Response {
+  unsigned status = 200;
+  std::string type;  // media type of the body; empty if there is no body
+  Caching caching = Caching::kNever;
+  std::string etag;  // a strong entity tag including its quotes; empty if none
+  std::vector<std::pair<std::string_view, std::string>> fields;  // further header fields
+  Body body;
+  // If set, the response is a stream of the events of this source, `body` is unused and `status` is
+  // 200. The connection closes after the last event.
+  std::shared_ptr<EventSource> events;
+  // If set, receives the request's body, which has not been read yet, and then makes the response
+  // that replaces this one.
+  std::shared_ptr<BodySink> sink;
+  // If set, takes over the connection, and `status` is 101.
+  std::shared_ptr<Upgrade> upgrade;
+};
+
+// Returns a response with status 200 and this body, which caches must revalidate. Its ETag is a
+// hash of the body.
+Response revalidated(std::string_view type, std::string body);
+
+// Returns the strong entity tag of a body: its hash in quotes.
+std::string entity_tag(std::string_view body);
+
+struct HeadOptions {
+  std::string_view request_id;
+  bool keep_alive = true;
+  bool is_public_read = true;  // whether pages of any origin may read and embed the response
+  // HTTP version of the request: 11 for HTTP/1.1. HTTP/1.0 keeps a connection open only if both
+  // sides ask for it.
+  unsigned version = 11;
+  // Whether this server uses TLS, so that Strict-Transport-Security is sent.
+  bool is_encrypted = false;
+};
+
+// Returns the status line and the header fields, up to and including the empty line.
+std::string response_head(const Response& response, const HeadOptions& options);
+
+}  // namespace vitrine::server

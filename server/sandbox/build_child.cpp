@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/sandbox/build_child.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstring>
+#include <string>
+
+#include "codec/build/build_model.h"
+#include "codec/build/verify_model.h"
+#include "codec/format/signature.h"
+#include "server/sandbox/child_channel.h"
+
+// glibc 2.36 declares the functions for pidfds only for C, so this file calls syscall().
+namespace vitrine::server {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// The child's arguments are: --build-child PARENT BITS PLACEMENT UP UNIT FOLDER. It reads the mesh
+// from standard input and writes the result to standard output.
+constexpr std::string_view kChild = "--build-child";
+constexpr std::size_t kArguments = 7;
+
+Unexpected refused(const char* what) {
+  return fail(ErrorCode::kIo, fmt::format("cannot {}: {}; free some memory and try again", what,
+                                          std::strerror(errno)));
+}
+
+SandboxLimits limits_of(const std::filesystem::path& folder) {
+  SandboxLimits limits;
+  limits.spill.folder = folder;
+  return limits;
+}
+
+// Returns an unnamed file in memory with these bytes, which the child can map.
+Expected<FileDescriptor> hand_over(std::span<const std::uint8_t> bytes) {
+  FileDescriptor file(::memfd_create("mesh", MFD_CLOEXEC));
+  if (!file) return refused("keep the mesh in memory");
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file.get(), bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return refused("keep the mesh in memory");
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+  return file;
+}
+
+struct Pipe {
+  FileDescriptor read, write;
+};
+
+Expected<Pipe> make_pipe() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return refused("make a pipe");
+  return Pipe{FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+}
+
+// Starts the child with `mesh` and `answer` as standard input and output, and returns its PID. The
+// child gets no environment, because the environment may contain secrets.
+Expected<pid_t> start(const BuildOrder& order, int mesh, int answer) {
+  const std::array<std::string, kArguments> texts = {
+      std::string(kChild),
+      std::to_string(::getpid()),
+      std::to_string(order.bits),
+      std::to_string(static_cast<int>(order.placement)),
+      std::to_string(order.z_is_up ? 1 : 0),
+      order.unit,
+      order.folder.string()};
+  std::string name = "vitrine-build";
+  std::vector<char*> arguments = {name.data()};
+  for (const std::string& text : texts)
+    arguments.push_back(const_cast<char*>(text.c_str()));
+  arguments.push_back(nullptr);
+  char* no_environment[] = {nullptr};
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, mesh, STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, answer, STDOUT_FILENO);
+  pid_t pid = -1;
+  errno = ::posix_spawn(&pid, order.program.c_str(), &actions, nullptr, arguments.data(),
+                        no_environment);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (errno != 0) return refused("start a process");
+  return pid;
+}
+
+// --- the child ---
+
+int number(std::string_view text) {
+  int value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+std::span<const std::uint8_t> map_input() {
+  struct stat status {};
+  if (::fstat(STDIN_FILENO, &status) != 0 || status.st_size <= 0) return {};
+  const auto size = static_cast<std::size_t>(status.st_size);
+  void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, STDIN_FILENO, 0);
+  if (data == MAP_FAILED) return {};
+  return {static_cast<const std::uint8_t*>(data), size};
+}
+
+// Closes the parent's descriptors. Standard error becomes /dev/null, so that the child cannot write
+// to the operator's terminal.
+void close_the_rest() {
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  ::dup2(nowhere, STDERR_FILENO);
+  ::close_range(STDERR_FILENO + 1, ~0u, 0);
+}
+
+Expected<Bytes> verify(std::span<const std::uint8_t> pmesh, const ProgressReport& progress) {
+  const auto verified = verify_model(pmesh, std::nullopt, progress);
+  if (!verified) return tl::unexpected(verified.error());
+  return Bytes{};
+}
+
+}  // namespace
+
+void become_build_child(std::span<const std::string_view> arguments) {
+  if (arguments.size() != kArguments || arguments[0] != kChild) return;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != number(arguments[1])) ::_exit(1);  // the parent may have died before prctl()
+  std::signal(SIGPIPE, SIG_DFL);
+  close_the_rest();
+  const auto mesh = map_input();
+  const BuildOptions options{
+      .reading = {.unit = arguments[5], .up = arguments[4] == "1" ? UpAxis::kZ : UpAxis::kY},
+      .bits = number(arguments[2]),
+      .placement = static_cast<Placement>(number(arguments[3]))};
+  answer_and_exit(STDOUT_FILENO, limits_of(arguments[6]),
+                  [&](const ProgressReport& progress) -> Expected<Bytes> {
+                    if (is_pmesh(mesh)) return verify(mesh, progress);
+                    auto built = build_model(mesh, options, progress);
+                    if (!built) return tl::unexpected(built.error());
+                    return std::move(built->file);
+                  });
+}
+
+void BuildChild::watch(int pid) {
+  const std::scoped_lock lock(mutex_);
+  child_ = FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
+  // The child has not been waited for, so no other process has its PID.
+  if (is_stopped_) ::kill(pid, SIGKILL);
+}
+
+void BuildChild::stop() noexcept {
+  const std::scoped_lock lock(mutex_);
+  is_stopped_ = true;
+  if (child_) ::syscall(SYS_pidfd_send_signal, child_.get(), SIGKILL, nullptr, 0);
+}
+
+Expected<Bytes> BuildChild::build(std::span<const std::uint8_t> mesh, const BuildOrder& order,
+                                  const ProgressReport& progress) {
+  const auto input = hand_over(mesh);
+  if (!input) return tl::unexpected(input.error());
+  return build(*input, order, progress);
+}
+
+Expected<Bytes> BuildChild::build(const FileDescriptor& mesh, const BuildOrder& order,
+                                  const ProgressReport& progress) {
+  auto pipe = make_pipe();
+  if (!pipe) return tl::unexpected(pipe.error());
+  const auto pid = start(order, mesh.get(), pipe->write.get());
+  if (!pid) return tl::unexpected(pid.error());
+  pipe->write.reset();
+  watch(*pid);
+  const SandboxLimits limits = limits_of(order.folder);
+  auto answer = await_answer(*pid, pipe->read.get(), limits, progress);
+  const std::scoped_lock lock(mutex_);
+  child_.reset();
+  if (!answer && is_stopped_)
+    return fail(ErrorCode::kState, "the build was stopped; start it again");
+  return answer;
+}
+
+}  // namespace vitrine::server

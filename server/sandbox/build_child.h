@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builds a model from a mesh, or verifies a .pmesh file, in a sandboxed child of a multi-threaded
+// process. Such a process must not fork without exec (sandbox.h), so it starts this program again
+// with internal arguments.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/files/file_descriptor.h"
+#include "codec/simplify/simplify.h"
+#include "server/sandbox/sandbox.h"
+
+namespace vitrine::server {
+
+struct BuildOrder {
+  int bits = 0;  // BuildOptions::bits
+  Placement placement = Placement::kMidpoint;
+  bool z_is_up = false;          // whether z is up in the mesh; in the model, y is always up
+  std::string unit = {};         // ReadOptions::unit
+  std::filesystem::path folder;  // folder of the spill file (spill.h); empty: no spilling
+  std::filesystem::path program = "/proc/self/exe";  // executable that calls become_build_child()
+};
+
+// If the arguments are those of a child, runs the child and does not return. Call this first in
+// main().
+void become_build_child(std::span<const std::string_view> arguments);
+
+class BuildChild {
+ public:
+  // Builds a model from a mesh file and returns the bytes of the .pmesh file. If `mesh` is a .pmesh
+  // file, only verifies it, ignores `order` and returns no bytes. Errors: those of run_sandboxed()
+  // and build_model(); kState after stop().
+  Expected<std::vector<std::uint8_t>> build(std::span<const std::uint8_t> mesh,
+                                            const BuildOrder& order,
+                                            const ProgressReport& progress);
+  // Builds or verifies as above, but reads from an open file. The file must not change during the
+  // call.
+  Expected<std::vector<std::uint8_t>> build(const FileDescriptor& mesh, const BuildOrder& order,
+                                            const ProgressReport& progress);
+
+  // Stops the running build and makes all later ones fail. May be called from any thread.
+  void stop() noexcept;
+
+ private:
+  void watch(int pid);
+
+  std::mutex mutex_;  // guards the members below
+  bool is_stopped_ = false;
+  FileDescriptor child_;  // pidfd of the child, which stays valid if its PID is reused
+};
+
+}  // namespace vitrine::server

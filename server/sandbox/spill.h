@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Out-of-core allocation. If a process uses more than a share of its memory limit, further large
+// blocks are mapped from an unnamed file, the spill file. Their pages are unmapped when the process
+// uses too much memory. Programs that link this file use it through operator new. Algorithms need
+// no changes, and results stay the same.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "codec/core/expected.h"
+
+namespace vitrine::server {
+
+struct SpillOptions {
+  // The folder of the spill file, on a disk with free space. Empty: no spilling.
+  std::filesystem::path folder = {};
+  // Limit of the process's resident memory. Only small blocks may exceed it.
+  std::uint64_t resident_bytes = 2ull << 30;
+  // A read-only mapping of a file from its start. Its pages may be unmapped, too.
+  std::span<const std::uint8_t> input = {};
+};
+
+// Starts spilling for the rest of the process's life. Call this once, while the process has one
+// thread. Then call start_trimming() when threads may be started; the process may give up the right
+// to open files between the two calls. From the start, the spill file takes address space: half of
+// the disk's free space, but at most 64 GiB and at most RLIMIT_FSIZE. Blocks that do not fit into
+// it use memory, as do all blocks if the disk cannot hold or map such a file. kIo if no file can be
+// made. If other programs fill the disk later, the process ends with SIGBUS.
+Expected<void> open_spill(const SpillOptions& options);
+void start_trimming();
+
+// These functions return 0 without spilling.
+std::uint64_t spill_capacity();  // address space of the spill file
+std::uint64_t spilled_bytes();   // bytes of blocks in the file now
+std::uint64_t mapped_bytes();    // bytes of mapped files in memory now
+
+}  // namespace vitrine::server

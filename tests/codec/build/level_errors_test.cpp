@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks the errors that a complete build states for its levels.
+#include "codec/build/level_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "codec/build/build_model.h"
+#include "codec/build/open_model.h"
+#include "codec/distance/surface_distance.h"
+#include "codec/export/write_mesh.h"
+#include "support/meshes.h"
+
+namespace vitrine::test {
+namespace {
+
+std::vector<std::uint8_t> file() {
+  return *write_mesh(torus(240, 120), MeshFormat::kPly);
+}
+
+TEST(LevelErrors, NoLevelIsFartherOffThanItStatesNorMuchNearer) {
+  const auto built = build_model(file(), {.bits = 16}, {});
+  ASSERT_TRUE(built);
+  auto refiner = open_model(built->file);
+  ASSERT_TRUE(refiner);
+  const ChunkReader read = chunks_of(refiner->manifest(), built->file);
+  const std::size_t levels = refiner->manifest().levels.size();
+  EXPECT_TRUE(std::ranges::any_of(refiner->manifest().levels,
+                                  [](const LevelInfo& l) { return l.display_filter != 0; }));
+  for (std::uint32_t level = 0; level < levels; ++level) {
+    SCOPED_TRACE(level);
+    ASSERT_TRUE(refine(*refiner, WantLevel{level}, read));
+    const double stated = refiner->manifest().levels[level].max_error;
+    const auto sampled = measure(refiner->display_mesh(), torus(240, 120), {.samples = 20'000});
+    EXPECT_LE(sampled->max, stated * (1 + 1e-9));
+    EXPECT_GE(sampled->max, stated * 0.6);
+  }
+}
+
+TEST(LevelErrors, AreTheSameHoweverManyThreadsMeasure) {
+  const auto one = build_model(file(), {.bits = 16, .region_vertices = 2'000, .threads = 1}, {});
+  const auto four = build_model(file(), {.bits = 16, .region_vertices = 2'000, .threads = 4}, {});
+  ASSERT_TRUE(one && four);
+  EXPECT_GT(one->report.manifest.tree.leaves(), 4u);
+  EXPECT_EQ(one->file, four->file);
+}
+
+}  // namespace
+}  // namespace vitrine::test

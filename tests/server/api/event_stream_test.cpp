@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/event_stream.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <semaphore>
+
+#include "support/local_server.h"
+#include "support/process/http_client.h"
+
+namespace vitrine::server {
+namespace {
+
+using test::HttpAnswer;
+using test::HttpClient;
+using test::LocalServer;
+
+std::counting_semaphore<8> released{0};  // released once for each source that is destroyed
+
+class Source : public EventSource {
+ public:
+  ~Source() override { released.release(); }
+};
+
+// Returns three events, with nullopt between them, and then ends.
+class Countdown final : public Source {
+ public:
+  std::optional<Event> next() override {
+    pause_ = !pause_;
+    if (pause_ || left_ == 0) return std::nullopt;
+    return Event{"job", std::to_string(--left_)};
+  }
+  bool ended() const override { return left_ == 0; }
+
+ private:
+  int left_ = 3;
+  bool pause_ = true;
+};
+
+class Silence final : public Source {
+ public:
+  std::optional<Event> next() override { return std::nullopt; }
+  bool ended() const override { return false; }
+};
+
+class Flood final : public Source {
+ public:
+  std::optional<Event> next() override { return Event{"job", std::string(8 << 20, 'x')}; }
+  bool ended() const override { return false; }
+};
+
+template <class Kind>
+Response events(const Request&, Services&) {
+  Response response;
+  response.type = "text/event-stream";
+  response.events = std::make_shared<Kind>();
+  return response;
+}
+
+class EventStream : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    while (released.try_acquire()) {  // drops the releases of earlier tests
+    }
+  }
+};
+
+constexpr ApiRoute kEventRoutes[] = {
+    {.method = Method::kGet,
+     .path = "/countdown",
+     .handler = events<Countdown>,
+     .executor = Executor::kWorker},
+    {.method = Method::kGet,
+     .path = "/silence",
+     .handler = events<Silence>,
+     .executor = Executor::kWorker},
+    {.method = Method::kGet,
+     .path = "/flood",
+     .handler = events<Flood>,
+     .executor = Executor::kWorker},
+    {.method = Method::kGet,
+     .path = "/secret",
+     .handler = events<Silence>,
+     .executor = Executor::kWorker,
+     .role = Role::kViewer},
+};
+
+std::string get(const std::string& path, const std::string& method = "GET") {
+  return method + " " + path + " HTTP/1.1\r\nHost: a\r\n\r\n";
+}
+
+TEST_F(EventStream, SendsWhatTheSourceGivesAndEndsWithIt) {
+  const LocalServer server(kEventRoutes);
+  HttpClient client(server.port());
+  client.send(get("/countdown"));
+  const HttpAnswer head = client.receive();
+  EXPECT_EQ(head.status, 200);
+  EXPECT_EQ(head.field("content-type"), "text/event-stream");
+  EXPECT_EQ(head.field("content-length"), "");
+  EXPECT_EQ(head.field("connection"), "close");
+  const std::string wanted =
+      "event: job\ndata: 2\n\nevent: job\ndata: 1\n\nevent: job\ndata: 0\n\n";
+  EXPECT_EQ(client.read_exactly(wanted.size()), wanted);
+  EXPECT_TRUE(client.is_closed());
+  EXPECT_TRUE(released.try_acquire_for(std::chrono::seconds(20)));
+}
+
+TEST_F(EventStream, HeadTellsTheFieldsAlone) {
+  const LocalServer server(kEventRoutes);
+  HttpClient client(server.port());
+  client.send(get("/silence", "HEAD"));
+  EXPECT_EQ(client.receive().field("content-type"), "text/event-stream");
+  EXPECT_TRUE(client.is_closed());
+  EXPECT_TRUE(released.try_acquire_for(std::chrono::seconds(20)));
+}
+
+TEST_F(EventStream, APeerThatHasLeftIsNoticedThoughThereIsNothingToSend) {
+  const LocalServer server(kEventRoutes);
+  {
+    HttpClient client(server.port());
+    client.send(get("/silence"));
+    EXPECT_EQ(client.receive().status, 200);
+  }
+  EXPECT_TRUE(released.try_acquire_for(std::chrono::seconds(20)));
+}
+
+TEST_F(EventStream, APeerThatTakesNothingIsCut) {
+  const LocalServer server(kEventRoutes, std::chrono::seconds(1));
+  HttpClient client(server.port());
+  client.send(get("/flood"));
+  EXPECT_TRUE(released.try_acquire_for(std::chrono::seconds(20)));
+}
+
+TEST_F(EventStream, ManyShareOneThreadWithOthers) {
+  const LocalServer server(kEventRoutes);
+  HttpClient first(server.port()), second(server.port());
+  for (HttpClient* client : {&first, &second}) {
+    client->send(get("/silence"));
+    EXPECT_EQ(client->receive().status, 200);
+  }
+  EXPECT_EQ(test::http_get(server.port(), "/nowhere").status, 404);
+}
+
+TEST_F(EventStream, ATokenThatIsRevokedEndsIt) {
+  LocalServer server(kEventRoutes);
+  HttpClient client(server.port()), other(server.port());
+  const auto ask = [&](HttpClient& who) {
+    const std::string bearer = server.bearer(Role::kViewer);
+    who.send("GET /secret HTTP/1.1\r\nHost: a\r\n" + bearer + "\r\n");
+    EXPECT_EQ(who.receive().status, 200);
+  };
+  ask(client);
+  const TokenId token = server.catalogue().tokens().value().at(0).id;
+  ask(other);
+  ASSERT_TRUE(server.catalogue().revoke_token(token));
+  EXPECT_TRUE(client.is_closed());
+  server.drain();
+  EXPECT_TRUE(other.is_closed());
+}
+
+TEST_F(EventStream, ADaemonThatStopsEndsIt) {
+  LocalServer server(kEventRoutes);
+  HttpClient client(server.port());
+  client.send(get("/silence"));
+  EXPECT_EQ(client.receive().status, 200);
+  auto empty = server.drain();
+  EXPECT_TRUE(client.is_closed());
+  empty.get();
+}
+
+}  // namespace
+}  // namespace vitrine::server

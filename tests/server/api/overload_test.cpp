@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests the server under more load than it can accept.
+#include <gtest/gtest.h>
+
+#include <semaphore>
+
+#include "server/api/routes.h"
+#include "server/messages/body_sink.h"
+#include "support/fake_backend.h"
+#include "support/local_server.h"
+#include "support/process/http_client.h"
+
+namespace vitrine::server {
+namespace {
+
+std::counting_semaphore<8> entered{0}, may_end{0};
+
+Response wait_for_the_test(const Request&, Services&) {
+  entered.release();
+  may_end.acquire();
+  return {};
+}
+
+Response at_once(const Request&, Services&) {
+  return {};
+}
+
+// Accepts any body. At the end of the body, waits until the test releases it.
+class WaitingSink final : public BodySink {
+ public:
+  std::optional<Response> take(std::span<const std::uint8_t>) override { return std::nullopt; }
+  Response finish() override {
+    entered.release();
+    may_end.acquire();
+    return {};
+  }
+};
+
+Response pour_slowly(const Request&, Services&) {
+  Response response;
+  response.sink = std::make_shared<WaitingSink>();
+  return response;
+}
+
+constexpr std::size_t kLarge = 32'000'000;  // far more than the buffers of two sockets hold
+
+Response large_text(const Request&, Services&) {
+  Response response;
+  response.body = std::string(kLarge, 'a');
+  return response;
+}
+
+Response shared_bytes(const Request&, Services&) {
+  static const auto owner = std::make_shared<std::vector<std::uint8_t>>(kLarge);
+  Response response;
+  response.body = SharedBytes{owner, *owner};
+  return response;
+}
+
+constexpr ApiRoute kCrowdedRoutes[] = {
+    {.method = Method::kGet, .path = "/text", .handler = large_text, .executor = Executor::kInline},
+    {.method = Method::kGet,
+     .path = "/shared",
+     .handler = shared_bytes,
+     .executor = Executor::kInline},
+    {.method = Method::kGet,
+     .path = "/slow",
+     .handler = wait_for_the_test,
+     .executor = Executor::kCompute},
+    {.method = Method::kPost,
+     .path = "/work",
+     .handler = wait_for_the_test,
+     .executor = Executor::kWorker},
+    {.method = Method::kPost,
+     .path = "/device",
+     .handler = wait_for_the_test,
+     .executor = Executor::kDevice},
+    {.method = Method::kPost,
+     .path = "/disk",
+     .handler = wait_for_the_test,
+     .executor = Executor::kDisk},
+    {.method = Method::kPost,
+     .path = "/pour",
+     .handler = pour_slowly,
+     .executor = Executor::kDisk,
+     .reads_body = false},
+    {.method = Method::kGet, .path = "/quick", .handler = at_once, .executor = Executor::kInline},
+    {.method = Method::kPost, .path = "/quick", .handler = at_once, .executor = Executor::kWorker},
+};
+
+TEST(Overload, AFullExportQueueIsAnsweredWithRetryAfterUntilASeatIsFree) {
+  const test::LocalServer server(kCrowdedRoutes);  // admits one export at a time
+  test::HttpClient first(server.port());
+  first.send("GET /slow HTTP/1.1\r\nHost: a\r\n\r\n");
+  entered.acquire();
+  const test::HttpAnswer refused = test::http_get(server.port(), "/slow");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_EQ(refused.field("retry-after"), "5");
+  EXPECT_EQ(refused.field("content-type"), "application/problem+json");
+  may_end.release();
+  EXPECT_EQ(first.receive().status, 200);
+  may_end.release();
+  EXPECT_EQ(test::http_get(server.port(), "/slow").status, 200);
+}
+
+TEST(Overload, OneAddressHasAQuarterOfTheSeatsForExports) {
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                 {.proxies = Networks::parse("127.0.0.1").value()}, nullptr, 4);
+  const auto from = [](const std::string& address) {
+    return "X-Forwarded-For: " + address + "\r\n";
+  };
+  test::HttpClient first(server.port()), other(server.port());
+  first.send("GET /slow HTTP/1.1\r\nHost: a\r\n" + from("192.0.2.1") + "\r\n");
+  entered.acquire();
+  const test::HttpAnswer refused = test::http_get(server.port(), "/slow", from("192.0.2.1"));
+  EXPECT_EQ(refused.status, 429);
+  EXPECT_EQ(refused.field("retry-after"), "5");
+  other.send("GET /slow HTTP/1.1\r\nHost: a\r\n" + from("192.0.2.2") + "\r\n");
+  may_end.release(2);
+  EXPECT_EQ(first.receive().status, 200);
+  EXPECT_EQ(other.receive().status, 200);
+  entered.acquire();
+}
+
+TEST(Overload, AnAnswerThatNeverFitsIsSaidToBeTooLarge) {
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                 {.answer_memory = kLarge - 1});
+  const test::HttpAnswer refused = test::http_get(server.port(), "/text");
+  EXPECT_EQ(refused.status, 507);
+  EXPECT_NE(refused.body.find("answer-memory"), std::string::npos);
+  EXPECT_EQ(test::http_get(server.port(), "/text", "", "HEAD").status, 200);
+}
+
+TEST(Overload, ACallThatWaitsHoldsUpNoOtherConnection) {
+  const test::LocalServer server(kCrowdedRoutes);  // one thread serves all connections
+  for (const std::string path : {"/work", "/device"}) {
+    test::HttpClient waiting(server.port());
+    waiting.send("POST " + path + " HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
+    entered.acquire();
+    EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200);
+    may_end.release();
+    EXPECT_EQ(waiting.receive().status, 200);
+  }
+}
+
+TEST(Overload, CallsThatWaitForDevicesOrTheDiskLeaveTheWorkersToOthers) {
+  const test::LocalServer server(kCrowdedRoutes);
+  for (const std::string path : {"/device", "/disk", "/pour"}) {
+    std::vector<std::unique_ptr<test::HttpClient>> waiting;
+    for (int i = 0; i < 4; ++i) {  // as many requests as there are threads for them
+      waiting.push_back(std::make_unique<test::HttpClient>(server.port()));
+      waiting.back()->send("POST " + path + " HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
+      entered.acquire();
+    }
+    EXPECT_EQ(test::http_get(server.port(), "/quick", "Content-Length: 0\r\n", "POST").status, 200);
+    may_end.release(4);
+    for (const auto& client : waiting)
+      EXPECT_EQ(client->receive().status, 200) << path;
+  }
+}
+
+TEST(Overload, WhatChangesModelsOrUploadsWaitsForTheDiskApart) {
+  for (const ApiRoute& route : public_routes()) {
+    const bool writes = route.method != Method::kGet && route.method != Method::kOptions;
+    const bool stores =
+        route.path.starts_with("/api/v1/models") || route.path.starts_with("/api/v1/uploads");
+    if (writes && stores) {
+      EXPECT_EQ(route.executor, Executor::kDisk) << route.path;
+    }
+    if (route.path.ends_with("/stop")) {
+      EXPECT_EQ(route.executor, Executor::kWorker);
+    }
+  }
+}
+
+TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
+  const test::LocalServer server(kCrowdedRoutes, std::chrono::seconds(30), {},
+                                 {.answer_memory = kLarge});
+  const auto ask = [&](const std::string& path) {
+    auto reader = std::make_unique<test::HttpClient>(server.port());
+    reader->send("GET " + path + " HTTP/1.1\r\nHost: a\r\n\r\n");
+    return reader;
+  };
+  for (const std::string path : {"/text", "/shared"}) {
+    auto first = ask(path);
+    while (first->receive(/*with_body=*/false).status == 503)  // repeats until earlier ones end
+      first = ask(path);
+    const test::HttpAnswer refused = test::http_get(server.port(), "/text");
+    EXPECT_EQ(refused.status, 503) << path;
+    EXPECT_EQ(refused.field("retry-after"), "5");
+    EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200);
+    EXPECT_EQ(test::http_get(server.port(), "/text", "", "HEAD").status, 200);
+    if (path == "/shared") {  // all responses share one body in memory
+      EXPECT_EQ(ask(path)->receive(false).status, 200);
+    }
+    first->read_exactly(kLarge);
+  }
+}
+
+TEST(Overload, AnEmergencyStopGetsThroughHoweverOftenItsCallerHasCalled) {
+  test::FakeScanner world;
+  std::vector<std::unique_ptr<ScannerBackend>> scanners;
+  scanners.push_back(std::make_unique<test::FakeBackend>(world));
+  test::LocalServer server(public_routes(), std::chrono::seconds(30), std::move(scanners),
+                           {.request_rate = 1});
+  ASSERT_TRUE(server.scans().start());
+  const std::string who = server.bearer(Role::kOperator) + "Content-Length: 0\r\n";
+  test::HttpClient client(server.port());
+  while (client.get("/api/v1/scanners/rig", who).status == 200) {
+  }
+  EXPECT_EQ(client.get("/api/v1/scanners/rig/stop", who, "POST").status, 200);
+  EXPECT_TRUE(world.stopped());
+}
+
+}  // namespace
+}  // namespace vitrine::server

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <fstream>
+
+#include "server/catalogue/sqlite_catalogue.h"
+#include "server/catalogue/sqlite_jobs.h"
+#include "support/temporary_folder.h"
+
+namespace vitrine::server {
+namespace {
+
+// SQL that turns the newest tables into those of the version before daemons could claim jobs.
+const std::string kBeforeClaims =
+    "DROP INDEX job_untold; DROP INDEX job_of_state; DROP TABLE revision; DROP TABLE scanner;"
+    "DROP TRIGGER model_added; DROP TRIGGER model_changed; DROP TRIGGER model_removed;"
+    "DROP TRIGGER token_added; DROP TRIGGER token_changed;"
+    "ALTER TABLE scan DROP COLUMN turn; ALTER TABLE job DROP COLUMN fence; ALTER TABLE job DROP "
+    "COLUMN holder;"
+    "ALTER TABLE job DROP COLUMN lease; ALTER TABLE job DROP COLUMN cancelled;";
+
+class Migrations : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "catalogue.sqlite";
+
+  void run(const std::string& sql) {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(database);
+  }
+};
+
+TEST_F(Migrations, OpeningTwiceKeepsWhatIsThere) {
+  ModelRecord model;
+  model.id = ModelId::generate();
+  ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
+  EXPECT_TRUE(open_sqlite_catalogue(file_).value()->find(model.id).value());
+}
+
+TEST_F(Migrations, AScanOfAnOlderVersionDoesNotKnowItsRows) {
+  const ScanEntry scan{.id = ScanId::generate(), .job = JobId::generate(), .steps = 720};
+  ASSERT_TRUE(open_sqlite_jobs(file_).value()->add({.id = scan.job}, scan, {}));
+  run(kBeforeClaims +
+      "ALTER TABLE scan DROP COLUMN empty_rows; ALTER TABLE scan DROP COLUMN saturated_rows;"
+      "ALTER TABLE scan DROP COLUMN doubled_rows; DELETE FROM migration WHERE version >= 4;"
+      "ALTER TABLE job DROP COLUMN webhook; ALTER TABLE job DROP COLUMN attempts;"
+      "ALTER TABLE job DROP COLUMN told; ALTER TABLE model DROP COLUMN more;"
+      "ALTER TABLE model DROP COLUMN accuracy; ALTER TABLE model DROP COLUMN version;"
+      "ALTER TABLE model DROP COLUMN public_max_level; ALTER TABLE model DROP COLUMN public_file;"
+      "ALTER TABLE model DROP COLUMN public_file_bytes;"
+      "ALTER TABLE model DROP COLUMN public_head_bytes;"
+      "ALTER TABLE model DROP COLUMN public_faces; ALTER TABLE model DROP COLUMN public_vertices");
+  EXPECT_EQ(open_sqlite_jobs(file_).value()->find_scan(scan.id).value(), scan);
+}
+
+TEST_F(Migrations, JobsThatEndedBeforeWebhooksExistedCallNone) {
+  const JobRecord ended{.id = JobId::generate(), .state = JobState::kDone, .webhook = "http://a/"};
+  ASSERT_TRUE(open_sqlite_jobs(file_).value()->add(ended, {}, {}));
+  EXPECT_EQ(open_sqlite_jobs(file_).value()->unnotified_jobs().value().size(), 1u);
+  run(kBeforeClaims +
+      "ALTER TABLE job DROP COLUMN attempts; ALTER TABLE job DROP COLUMN told;"
+      "DELETE FROM migration WHERE version >= 6");
+  EXPECT_TRUE(open_sqlite_jobs(file_).value()->unnotified_jobs().value().empty());
+}
+
+TEST_F(Migrations, ContinuesWithTheTablesOfANewerVersionThatAllowsIt) {
+  ModelRecord model;
+  model.id = ModelId::generate();
+  ASSERT_TRUE(open_sqlite_catalogue(file_));
+  run("ALTER TABLE model ADD COLUMN of_later TEXT NOT NULL DEFAULT ''");
+  run("INSERT INTO migration(version) VALUES (1000); INSERT INTO compatible VALUES (1000, 8)");
+  ASSERT_TRUE(open_sqlite_catalogue(file_).value()->add(model, {}));
+  EXPECT_TRUE(open_sqlite_catalogue(file_).value()->find(model.id).value());
+}
+
+TEST_F(Migrations, ANewerVersionThatDoesNotAllowItIsRefusedAndLeftAlone) {
+  ASSERT_TRUE(open_sqlite_catalogue(file_));
+  run("INSERT INTO migration(version) VALUES (1000)");
+  const auto opened = open_sqlite_catalogue(file_);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(opened.error().message.find("install that version"), std::string::npos);
+  run("INSERT INTO compatible VALUES (1000, 1000)");
+  EXPECT_FALSE(open_sqlite_catalogue(file_));
+}
+
+TEST_F(Migrations, AFileThatIsNoDatabaseIsRefusedByName) {
+  std::ofstream(file_) << "this is a text and not a database, however long it may be";
+  const auto opened = open_sqlite_catalogue(file_);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::kIo);
+  EXPECT_NE(opened.error().message.find("catalogue.sqlite"), std::string::npos);
+}
+
+TEST_F(Migrations, AMissingFolderIsRefused) {
+  EXPECT_FALSE(open_sqlite_catalogue(folder_.path() / "absent" / "catalogue.sqlite"));
+}
+
+}  // namespace
+}  // namespace vitrine::server

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/sandbox/sandbox.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/ptrace.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "support/temporary_folder.h"
+
+namespace vitrine::server {
+namespace {
+
+using testing::HasSubstr;
+using Bytes = std::vector<std::uint8_t>;
+
+// Returns the errno of a call in the sandbox; 0 if the call succeeded.
+Expected<Bytes> outcome(long result) {
+  return Bytes{static_cast<std::uint8_t>(result < 0 ? errno : 0)};
+}
+
+Expected<Bytes> run(const SandboxedTask& task, const SandboxLimits& limits = {}) {
+  return run_sandboxed(limits, task);
+}
+
+std::string error_of(const SandboxedTask& task, const SandboxLimits& limits = {}) {
+  const auto answer = run(task, limits);
+  EXPECT_FALSE(answer);
+  return answer ? "" : answer.error().message;
+}
+
+constexpr const char* kForbidden = "forbidden system call";
+
+TEST(Sandbox, ItReturnsWhatTheTaskReturns) {
+  Bytes large(3'000'000);
+  for (std::size_t i = 0; i < large.size(); ++i)
+    large[i] = static_cast<std::uint8_t>(i * 7);
+  EXPECT_EQ(run([&](const auto&) { return large; }).value(), large);
+  EXPECT_EQ(run([](const auto&) { return Bytes{}; }).value(), Bytes{});
+}
+
+TEST(Sandbox, AnErrorOfTheTaskKeepsItsCodeAndText) {
+  const auto answer =
+      run([](const auto&) -> Expected<Bytes> { return fail(ErrorCode::kUnsupported, "no quads"); });
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kUnsupported);
+  EXPECT_EQ(answer.error().message, "no quads");
+}
+
+TEST(Sandbox, ProgressArrivesInOrder) {
+  std::vector<std::pair<std::string, double>> seen;
+  const auto answer = run_sandboxed(
+      {},
+      [](const ProgressReport& report) -> Expected<Bytes> {
+        report("read", 0.5);
+        report("simplify", 0.25);
+        return Bytes{1};
+      },
+      [&](std::string_view stage, double fraction) { seen.emplace_back(stage, fraction); });
+  EXPECT_TRUE(answer);
+  EXPECT_EQ(seen, (std::vector<std::pair<std::string, double>>{{"read", 0.5}, {"simplify", 0.25}}));
+}
+
+TEST(Sandbox, TheChildsMemoryIsItsOwn) {
+  int value = 1;
+  EXPECT_TRUE(run([&](const auto&) { return value = 2, Bytes{}; }));
+  EXPECT_EQ(value, 1);
+}
+
+TEST(Sandbox, ThreadsWorkInside) {
+  const auto answer = run([](const auto&) -> Expected<Bytes> {
+    int sum = 0;
+    std::thread thread([&] { sum = 42; });
+    thread.join();
+    return Bytes{static_cast<std::uint8_t>(sum)};
+  });
+  ASSERT_TRUE(answer) << answer.error().message;
+  EXPECT_EQ(*answer, Bytes{42});
+}
+
+TEST(Sandbox, NoFileCanBeRead) {
+  const auto open_file = [](const auto&) { return outcome(::open("/etc/passwd", O_RDONLY)); };
+  EXPECT_EQ(run(open_file).value(), Bytes{EACCES});
+}
+
+TEST(Sandbox, NoFileCanBeCreated) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "planted";
+  const auto create = [&](const auto&) {
+    return outcome(::open(path.c_str(), O_WRONLY | O_CREAT, 0644));
+  };
+  EXPECT_EQ(run(create).value(), Bytes{EACCES});
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Sandbox, NoFileCanBeRemoved) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path().string();
+  EXPECT_THAT(error_of([&](const auto&) { return outcome(::rmdir(path.c_str())); }),
+              HasSubstr(kForbidden));
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
+TEST(Sandbox, NoSocketCanBeMade) {
+  EXPECT_THAT(error_of([](const auto&) { return outcome(::socket(AF_INET, SOCK_STREAM, 0)); }),
+              HasSubstr(kForbidden));
+}
+
+TEST(Sandbox, NoProgramCanBeStarted) {
+  EXPECT_THAT(error_of([](const auto&) {
+                char* const arguments[] = {const_cast<char*>("true"), nullptr};
+                return outcome(::execv("/bin/true", arguments));
+              }),
+              HasSubstr(kForbidden));
+}
+
+TEST(Sandbox, NoProcessCanBeStarted) {
+  EXPECT_THAT(error_of([](const auto&) { return outcome(::syscall(SYS_fork)); }),
+              HasSubstr(kForbidden));
+  EXPECT_THAT(error_of([](const auto&) {
+                return outcome(::syscall(SYS_clone, SIGCHLD, nullptr, nullptr, nullptr, nullptr));
+              }),
+              HasSubstr(kForbidden));
+}
+
+TEST(Sandbox, NoProcessCanBeTracedOrSignalled) {
+  const pid_t parent = ::getpid();
+  EXPECT_THAT(error_of([&](const auto&) {
+                return outcome(::ptrace(PTRACE_ATTACH, parent, nullptr, nullptr));
+              }),
+              HasSubstr(kForbidden));
+  EXPECT_THAT(error_of([&](const auto&) { return outcome(::kill(parent, 0)); }),
+              HasSubstr(kForbidden));
+  EXPECT_THAT(
+      error_of([&](const auto&) { return outcome(::syscall(SYS_tgkill, parent, parent, 0)); }),
+      HasSubstr(kForbidden));
+}
+
+TEST(Sandbox, NoMemoryBecomesCode) {
+  EXPECT_THAT(error_of([](const auto&) {
+                void* page = ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC,
+                                    MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+                return outcome(page == MAP_FAILED ? -1 : 0);
+              }),
+              HasSubstr(kForbidden));
+}
+
+TEST(Sandbox, TheLimitsCannotBeRaisedAgain) {
+  const auto raise = [](const auto&) {
+    const rlimit none{RLIM_INFINITY, RLIM_INFINITY};
+    return outcome(::setrlimit(RLIMIT_AS, &none));
+  };
+  EXPECT_EQ(run(raise).value(), Bytes{EACCES});
+}
+
+TEST(Sandbox, DescriptorsOfTheParentAreOutOfReach) {
+  const test::TemporaryFolder folder;
+  const int secret = ::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_GE(secret, 0);
+  const auto look = [&](const auto&) {
+    struct stat status {};
+    return outcome(::syscall(SYS_fstat, secret, &status));
+  };
+  EXPECT_EQ(run(look).value(), Bytes{EBADF});
+  ::close(secret);
+}
+
+// Builds with sanitizers omit this test, because their shadow memory needs more address space than
+// any limit allows.
+#ifndef VITRINE_SANITISED
+TEST(Sandbox, MemoryBeyondTheLimitIsALimitErrorThatSaysHowMuch) {
+  const SandboxLimits limits{.memory_bytes = 1ull << 30};
+  const SandboxedTask hog = [](const auto&) -> Expected<Bytes> {
+    std::vector<std::unique_ptr<Bytes>> blocks;
+    for (;;)
+      blocks.push_back(std::make_unique<Bytes>(64 << 20, std::uint8_t{1}));
+  };
+  const auto answer = run(hog, limits);
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kLimit);
+  EXPECT_THAT(answer.error().message, HasSubstr("more than 1 GB of memory"));
+}
+
+TEST(Sandbox, OneAllocationOfFourGigabytesIsBeyondTheDefaultLimit) {
+  const auto answer =
+      run([](const auto&) -> Expected<Bytes> { return Bytes{Bytes(4ull << 30)[12345]}; });
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kLimit);
+  EXPECT_THAT(answer.error().message, HasSubstr("more than 4 GB of memory"));
+}
+#endif
+
+[[noreturn]] void loop_forever() {
+  for (volatile bool forever = true; forever;) {
+  }
+  ::abort();
+}
+
+TEST(Sandbox, AnEndlessLoopEndsAtTheProcessorTime) {
+  const auto answer =
+      run([](const auto&) -> Expected<Bytes> { loop_forever(); }, {.cpu_seconds = 1});
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kLimit);
+  EXPECT_THAT(answer.error().message, HasSubstr("more than 1 s of processor time"));
+}
+
+TEST(Sandbox, AnEndlessSleepEndsAtTheWallTime) {
+  const auto sleep_forever = [](const auto&) -> Expected<Bytes> {
+    for (;;)
+      ::sleep(1'000);
+  };
+  const auto answer = run(sleep_forever, {.wall = std::chrono::milliseconds(100)});
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kLimit);
+  EXPECT_THAT(answer.error().message, HasSubstr("more than 0.1 s of wall-clock time"));
+}
+
+TEST(Sandbox, AResultBeyondTheLimitIsRefused) {
+  const auto answer = run([](const auto&) { return Bytes(10'001); }, {.answer_bytes = 10'000});
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kLimit);
+}
+
+TEST(Sandbox, ACrashIsAnErrorAndNotACrashHere) {
+  const auto answer = run([](const auto&) -> Expected<Bytes> {
+    ::signal(SIGSEGV, SIG_DFL);
+    ::raise(SIGSEGV);
+    return Bytes{};
+  });
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kBadInput);
+  EXPECT_THAT(answer.error().message, HasSubstr("crashed (Segmentation fault)"));
+}
+
+TEST(Sandbox, AnUncaughtExceptionIsAnError) {
+  EXPECT_THAT(error_of([](const auto&) -> Expected<Bytes> { throw 1; }),
+              HasSubstr("ended without an answer"));
+}
+
+TEST(Sandbox, NoChildOutlivesTheCall) {
+  EXPECT_TRUE(run([](const auto&) { return Bytes{}; }));
+  error_of(
+      [](const auto&) -> Expected<Bytes> {
+        for (;;)
+          ::sleep(1'000);
+      },
+      {.wall = std::chrono::milliseconds(10)});
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+}  // namespace
+}  // namespace vitrine::server

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Properties that only objects in files have. The conformance suite tests what all stores have in
+// common.
+#include "server/store/file_store.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "support/held_lock.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_pmesh.h"
+
+namespace vitrine::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileStoreTest : public testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+  FileStore store_ = FileStore::open(folder_.path() / "objects").value();
+  const std::vector<std::uint8_t> bytes_ = test::to_bytes("an object");
+  const Sha256 name_ = sha256(bytes_);
+
+  fs::path path() {
+    const std::string hex = to_hex(name_);
+    return folder_.path() / "objects" / hex.substr(0, 2) / hex.substr(2, 2) / hex;
+  }
+};
+
+TEST_F(FileStoreTest, AnObjectIsOneFileNamedByItsHash) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  EXPECT_EQ(fs::file_size(path()), bytes_.size());
+  EXPECT_EQ(std::distance(fs::directory_iterator(path().parent_path()), fs::directory_iterator()),
+            1);
+}
+
+TEST_F(FileStoreTest, AHalfWrittenFileIsNotAnObject) {
+  fs::create_directories(path().parent_path());
+  std::ofstream(path().parent_path() / ("." + to_hex(name_) + ".0123456789abcdef.part")) << "an o";
+  EXPECT_EQ(store_.open(name_).value(), nullptr);
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+}
+
+TEST_F(FileStoreTest, AnObjectStaysReadableAfterItsFileIsGone) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  const auto object = store_.open(name_).value();
+  fs::remove(path());
+  EXPECT_EQ(object->read(0, bytes_.size()).value(), bytes_);
+}
+
+TEST_F(FileStoreTest, ItsDescriptorServesSendfile) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  const auto object = store_.open(name_).value();
+  ASSERT_TRUE(object->descriptor());
+  struct stat status {};
+  ASSERT_EQ(::fstat(*object->descriptor(), &status), 0);
+  EXPECT_EQ(static_cast<std::uint64_t>(status.st_size), bytes_.size());
+}
+
+TEST_F(FileStoreTest, AFolderThatCannotBeMadeIsNamed) {
+  std::ofstream(folder_.path() / "file") << "x";
+  const auto store = FileStore::open(folder_.path() / "file" / "objects");
+  ASSERT_FALSE(store);
+  EXPECT_NE(store.error().message.find("file/objects"), std::string::npos);
+}
+
+TEST_F(FileStoreTest, ADamagedObjectIsReplacedWhenPutAgain) {
+  EXPECT_TRUE(store_.put(name_, bytes_).value());
+  EXPECT_FALSE(store_.put(name_, bytes_).value());
+  std::ofstream(path()) << "an 0bject";
+  EXPECT_TRUE(store_.put(name_, bytes_).value());
+  EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+  fs::resize_file(path(), 3);
+  EXPECT_TRUE(store_.put(name_, bytes_).value());
+  EXPECT_EQ(store_.open(name_).value()->read(0, bytes_.size()).value(), bytes_);
+}
+
+TEST_F(FileStoreTest, ASweepRemovesHalfWrittenFiles) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  const fs::path left = path().parent_path() / ".half.part";
+  std::ofstream(left) << "an o";
+  EXPECT_EQ(store_.sweep({name_}, std::chrono::hours(1), test::kHeld).value(), 0u);
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(path()));
+}
+
+TEST_F(FileStoreTest, PuttingAgainOrLosingTheNameRestartsTheGracePeriod) {
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  const auto grow_old = [&] {
+    fs::last_write_time(path(), fs::file_time_type::clock::now() - std::chrono::hours(2));
+  };
+  grow_old();
+  ASSERT_TRUE(store_.put(name_, bytes_));
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1), test::kHeld).value(), 0u);
+  grow_old();
+  ASSERT_TRUE(store_.begin_grace(name_));
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1), test::kHeld).value(), 0u);
+  grow_old();
+  EXPECT_EQ(store_.sweep({}, std::chrono::hours(1), test::kHeld).value(), 1u);
+}
+
+}  // namespace
+}  // namespace vitrine::server

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cache of published models: its size, its lifetime, and which caller opens a model.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <latch>
+#include <thread>
+#include <utility>
+
+#include "server/catalogue/sqlite_catalogue.h"
+#include "server/store/change.h"
+#include "server/store/file_store.h"
+#include "server/store/publish.h"
+#include "server/store/published_model.h"
+#include "support/catalogue_before.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_pmesh.h"
+
+namespace vitrine::server {
+namespace {
+
+// A file store that counts opened objects and can delay opening.
+class WatchedStore final : public ObjectStore {
+ public:
+  explicit WatchedStore(FileStore store) : store_(std::move(store)) {}
+
+  Expected<bool> put(const Sha256& name, std::span<const std::uint8_t> bytes) override {
+    return store_.put(name, bytes);
+  }
+  Expected<std::shared_ptr<const ExclusiveLock>> lock() override { return store_.lock(); }
+  Expected<void> remove(const Sha256& name) override { return store_.remove(name); }
+  Expected<void> begin_grace(const Sha256& name) override { return store_.begin_grace(name); }
+  Expected<std::size_t> sweep(const std::set<Sha256>& keep, std::chrono::seconds grace,
+                              const ExclusiveLock& lock) override {
+    return store_.sweep(keep, grace, lock);
+  }
+  Expected<std::unique_ptr<Object>> open(const Sha256& name) const override {
+    ++opened;
+    before_opening();
+    return store_.open(name);
+  }
+  Expected<std::optional<std::uint64_t>> size_of(const Sha256& name) const override {
+    return store_.size_of(name);
+  }
+
+  mutable std::atomic<int> opened{0};
+  std::function<void()> before_opening = [] {};
+
+ private:
+  FileStore store_;
+};
+
+class PublishedModelsTest : public testing::Test {
+ protected:
+  ModelId add(const std::string& chunk, const std::string& title = "") {
+    const test::TinyPmesh file = test::tiny_pmesh("the base of " + chunk, chunk);
+    return publish(store_, *catalogue_, file.bytes, {.title = title}).value().id;
+  }
+  static Sha256 name_of(const std::string& chunk) { return sha256(test::to_bytes(chunk)); }
+  const PublishedModel* get(const ModelId& id) { return models_.find(id).value().get(); }
+
+  test::TemporaryFolder folder_;
+  WatchedStore store_{FileStore::open(folder_.path() / "objects").value()};
+  std::unique_ptr<Catalogue> catalogue_ =
+      open_sqlite_catalogue(folder_.path() / "catalogue.sqlite").value();
+  PublishedModels models_{store_, *catalogue_, std::chrono::milliseconds(0)};
+};
+
+TEST_F(PublishedModelsTest, AChangeDropsOnlyTheChangedModel) {
+  const ModelId one = add("one"), two = add("two"), three = add("three");
+  store_.opened = 0;
+  const auto first = get(one), third = get(three);
+  const auto second = models_.find(two).value();
+  ModelRecord record = catalogue_->find(two).value().value();
+  record.title = "another";
+  ASSERT_TRUE(catalogue_->update(record, std::nullopt));
+  ASSERT_TRUE(catalogue_->remove(three, std::nullopt));
+  ASSERT_TRUE(catalogue_->add_token({.id = TokenId::generate(), .role = Role::kAdmin}));
+  EXPECT_EQ(get(one), first);
+  EXPECT_EQ(get(two)->record().title, "another");
+  EXPECT_EQ(get(three), nullptr);
+  EXPECT_NE(third, nullptr);
+  EXPECT_EQ(store_.opened, 4);
+}
+
+TEST_F(PublishedModelsTest, TheLeastRecentlyUsedModelIsDropped) {
+  const ModelId one = add("one"), two = add("two"), three = add("three");
+  get(one);
+  models_.set_capacity(models_.bytes() * 2);
+  get(two);
+  get(one);
+  get(three);
+  EXPECT_EQ(models_.misses, 3u);
+  get(one);
+  get(three);
+  EXPECT_EQ(models_.misses, 3u);
+  get(two);
+  EXPECT_EQ(models_.misses, 4u);
+  EXPECT_EQ(models_.hits, 3u);
+}
+
+TEST_F(PublishedModelsTest, ACachedManifestCountsAndOneWithoutSpaceIsNotKept) {
+  const auto model = models_.find(add("one")).value();
+  const std::uint64_t before = models_.bytes();
+  models_.set_capacity(before + 2'000);
+  models_.keep_manifest(model, {std::string(3'000, ' '), ""});
+  EXPECT_FALSE(model->kept_manifest());
+  models_.keep_manifest(model, {std::string(1'000, ' '), ""});
+  EXPECT_TRUE(model->kept_manifest());
+  EXPECT_GE(models_.bytes(), before + 1'000);
+  models_.set_capacity(before);
+  EXPECT_EQ(models_.bytes(), 0u);
+}
+
+TEST_F(PublishedModelsTest, AModelAboveTheCapacityIsServedAndNotKept) {
+  const ModelId id = add("one");
+  models_.set_capacity(10);
+  EXPECT_TRUE(get(id));
+  EXPECT_TRUE(get(id));
+  EXPECT_EQ(models_.misses, 2u);
+  EXPECT_EQ(models_.bytes(), 0u);
+}
+
+TEST_F(PublishedModelsTest, AChunkOfTwoModelsStaysWhileOneOfThemDoes) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  const ModelId one = add("same", "one"), two = add("same", "two");
+  ASSERT_TRUE(lazy.find(one).value());
+  const std::uint64_t bytes = lazy.bytes();
+  ASSERT_TRUE(lazy.find(two).value());
+  lazy.set_capacity(bytes);
+  const auto chunk = lazy.cached_chunk(name_of("same"));
+  ASSERT_TRUE(chunk);
+  EXPECT_EQ(chunk->model->record().id, two);
+}
+
+TEST_F(PublishedModelsTest, AWholeModelIsCachedForCallersThatMaySeeIt) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::hours(1));
+  const ModelId id = add("one");
+  ASSERT_TRUE(catalogue_->set_state(id, ModelState::kDraft));
+  store_.opened = 0;
+  EXPECT_EQ(lazy.cached_whole(id), nullptr);
+  const auto draft = lazy.find_whole(id).value();
+  ASSERT_TRUE(draft);
+  EXPECT_EQ(lazy.find_whole(id).value(), draft);
+  EXPECT_EQ(lazy.cached_whole(id), draft);
+  EXPECT_EQ(store_.opened, 1);
+  EXPECT_EQ(lazy.cached(id), nullptr);
+  EXPECT_FALSE(lazy.cached_chunk(name_of("one")));
+  EXPECT_EQ(lazy.find(id).value(), nullptr);
+  ASSERT_TRUE(catalogue_->remove(id, std::nullopt));
+  lazy.refresh();
+  EXPECT_EQ(lazy.cached_whole(id), nullptr);
+  EXPECT_EQ(lazy.find_whole(id).value(), nullptr);
+}
+
+TEST_F(PublishedModelsTest, ACallerWaitsForAModelThatIsBeingOpened) {
+  constexpr int kVisitors = 4;
+  const ModelId id = add("one");
+  std::latch here(kVisitors);
+  store_.opened = 0;
+  store_.before_opening = [&] { here.wait(); };
+  std::vector<std::jthread> visitors;
+  for (int i = 0; i < kVisitors; ++i) {
+    visitors.emplace_back([&] {
+      here.count_down();
+      EXPECT_TRUE(models_.find(id).value());
+    });
+  }
+  visitors.clear();
+  EXPECT_EQ(store_.opened, 1);
+}
+
+TEST_F(PublishedModelsTest, AFileThatIsCollectedBeforeItIsOpenWasAnOldRecords) {
+  const ModelId one = add("one"), two = add("two");
+  const test::TinyPmesh newer = test::tiny_pmesh("another base", "another");
+  bool is_first = true;
+  const auto before_the_first = [&](const ModelId& id, const auto& change) {
+    is_first = true;
+    store_.before_opening = [&, id, change] {
+      if (!std::exchange(is_first, false)) return;
+      const Sha256 old = catalogue_->find(id).value()->file;
+      change();
+      ASSERT_TRUE(store_.remove(old));
+    };
+  };
+  before_the_first(
+      one, [&] { ASSERT_TRUE(replace(store_, *catalogue_, newer.bytes, {}, {.id = one})); });
+  EXPECT_EQ(models_.find(one).value()->record().file, sha256(newer.bytes));
+  before_the_first(two, [&] { ASSERT_TRUE(catalogue_->remove(two, std::nullopt)); });
+  EXPECT_EQ(models_.find_whole(two).value(), nullptr);
+}
+
+TEST_F(PublishedModelsTest, AModelThatIsHiddenWhileItIsReplacedIsReplacedAndHidden) {
+  const ModelId id = add("one");
+  const test::TinyPmesh newer = test::tiny_pmesh("another base", "another");
+  bool is_first = true;
+  store_.before_opening = [&] {
+    if (!std::exchange(is_first, false)) return;
+    ASSERT_TRUE(catalogue_->set_state(id, ModelState::kDraft));
+  };
+  ASSERT_TRUE(
+      replace(store_, *catalogue_, newer.bytes, {}, {.state = ModelState::kDraft, .id = id}));
+  const auto record = catalogue_->find(id).value();
+  EXPECT_EQ(record->file, sha256(newer.bytes));
+  EXPECT_EQ(record->state, ModelState::kDraft);
+}
+
+TEST_F(PublishedModelsTest, AFileThatIsLostIsAFault) {
+  const ModelId id = add("one");
+  ASSERT_TRUE(store_.remove(catalogue_->find(id).value()->file));
+  EXPECT_EQ(models_.find(id).error().code, ErrorCode::kState);
+}
+
+TEST_F(PublishedModelsTest, TheCatalogueIsAskedInTheBackground) {
+  PublishedModels lazy(store_, *catalogue_, std::chrono::milliseconds(400));
+  std::vector<std::function<void()>> tasks;
+  lazy.refresh_by([&](std::function<void()> task) { tasks.push_back(std::move(task)); });
+  add("one");
+  std::optional<PublishedChunk> found;
+  while (tasks.empty()) {
+    found = lazy.cached_chunk(name_of("one"));
+    if (!found) {
+      ASSERT_TRUE(lazy.find_chunk(name_of("one")).value().model);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_TRUE(found) << "who comes when it is due does not wait";
+  lazy.cached_chunk(name_of("one"));
+  EXPECT_EQ(tasks.size(), 1u) << "once for all";
+  tasks.front()();
+}
+
+// A catalogue that can be made unreachable.
+class DistantCatalogue final : public test::CatalogueBefore {
+ public:
+  using CatalogueBefore::CatalogueBefore;
+  Expected<std::uint64_t> revision() override {
+    if (is_away) return fail(ErrorCode::kIo, "the catalogue is away; wait for it");
+    return before_.revision();
+  }
+
+  std::atomic<bool> is_away{false};
+};
+
+TEST_F(PublishedModelsTest, CachedModelsAreServedWhileTheCatalogueIsUnreachable) {
+  DistantCatalogue distant(*catalogue_);
+  PublishedModels models(store_, distant, std::chrono::milliseconds(0));
+  const ModelId held = add("held"), other = add("other");
+  ASSERT_TRUE(models.find(held).value());
+  distant.is_away = true;
+  EXPECT_TRUE(models.find(held).value());
+  EXPECT_TRUE(models.find_chunk(name_of("held")).value().model);
+  EXPECT_FALSE(models.find(other));
+  distant.is_away = false;
+  EXPECT_TRUE(models.find(other).value());
+}
+
+TEST_F(PublishedModelsTest, AModelHiddenHereIsNotShownWhileTheCatalogueIsUnreachable) {
+  DistantCatalogue distant(*catalogue_);
+  PublishedModels models(store_, distant, std::chrono::milliseconds(0));
+  const ModelId id = add("one");
+  ASSERT_TRUE(models.find(id).value());
+  ASSERT_TRUE(catalogue_->set_state(id, ModelState::kDraft));
+  models.refresh();
+  distant.is_away = true;
+  EXPECT_FALSE(models.find(id));
+}
+
+}  // namespace
+}  // namespace vitrine::server

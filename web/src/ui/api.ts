@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Client of the part of the daemon's API that the pages use.
+export type Unit = "mm" | "cm" | "m" | "in";
+
+/** Optional metadata (Dublin Core). */
+export type MoreTexts = Partial<Record<
+  "contributor" | "coverage" | "date" | "description" | "identifier" | "language" | "publisher" | "relation" | "source" | "subject" | "type",
+  string>>;
+
+export interface ModelRecord extends MoreTexts {
+  id: string;
+  state: "published" | "draft";
+  title: string;
+  creator: string;
+  rights: string;
+  licence: string;
+  unit: Unit | ""; // "" if unknown
+  accuracy: number | null; // in `unit`
+  public_max_level: number | null;
+  created: string;
+  vertices: number;
+  faces: number;
+  bytes: number;
+  links: { self: string; page: string; poster: string; file: string; manifest: string };
+}
+
+export type ScanState = "waiting" | "scanning" | "paused" | "meshing" | "building" | "done" | "failed" | "cancelled";
+
+export interface ScanRecord {
+  id: string;
+  state: ScanState;
+  step: number;
+  steps: number;
+  progress: number; // 0 to 1
+  eta: number | null; // seconds
+  error: string | null; // the reason if the scan failed
+  note: string | null; // what the scan is waiting for, if anything
+  points: number; // number of points measured so far
+  model: string | null; // ID of the scan's model
+  title: string;
+}
+
+/** Thrown when the daemon has responded with an error status. */
+export class ApiError extends Error {
+  constructor(url: string, readonly status: number) {
+    super(`${url}: ${status}`);
+  }
+}
+
+/** Timeout of a request, in milliseconds. */
+const kTimeout = 20_000;
+
+export interface ModelListPage {
+  models: ModelRecord[];
+  next: string | null; // the cursor of the next page
+}
+
+/** Models per page: a multiple of 2, 3 and 4, so that the last row is full if rows have 2, 3 or 4 models. */
+const kPage = 24;
+
+/** Returns a page of the published models that contain all `words`, newest first. */
+export function models(words: string, cursor: string | null): Promise<ModelListPage> {
+  return get<ModelListPage>(`/api/v1/models?${modelQuery(words, cursor)}`);
+}
+
+export function modelQuery(words: string, cursor: string | null): URLSearchParams {
+  return new URLSearchParams({ limit: String(kPage), ...(words && { q: words }), ...(cursor !== null && { cursor }) });
+}
+
+export function model(id: string): Promise<ModelRecord> {
+  return get<ModelRecord>(`/api/v1/models/${encodeURIComponent(id)}`);
+}
+
+export function scan(id: string): Promise<ScanRecord> {
+  return get<ScanRecord>(`/api/v1/scans/${encodeURIComponent(id)}`);
+}
+
+/**
+ * Returns x, y and z of a scan's points from point number `from` on, as many as fit into one response. Coordinates are
+ * in mm, with z upwards.
+ */
+export async function scanPoints(id: string, from: number): Promise<Float32Array> {
+  const answer = await ask(`/api/v1/scans/${encodeURIComponent(id)}/points?from=${from}`, "application/octet-stream");
+  const bytes = await answer.arrayBuffer();
+  return new Float32Array(bytes, 0, 3 * Math.floor(bytes.byteLength / 12));
+}
+
+async function get<T>(url: string): Promise<T> {
+  return (await (await ask(url, "application/json")).json()) as T;
+}
+
+async function ask(url: string, type: string): Promise<Response> {
+  const response = await fetch(url, { headers: { Accept: type }, signal: AbortSignal.timeout(kTimeout) });
+  if (!response.ok) throw new ApiError(url, response.status);
+  return response;
+}
