@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Levenberg-Marquardt over all pictures at once. A picture depends only on the camera, the axis,
-// its placement and its slip, so the normal equations are summed picture by picture.
+// Refines the calibration by the Levenberg-Marquardt method, over all pictures at once. A picture
+// depends only on the camera, the axis, its placement and its slip, so the normal equations are
+// summed picture by picture.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,13 +14,10 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kCornerNoise =
-    0.05;  // Refines the calibration by the Levenberg-Marquardt method, over all pictures at once.
-           // A picture depends only on the camera, the axis, the picture's placement and its slip,
-           // so the normal equations are summed picture by picture.
-constexpr double kSlipNoise =
-    0.05 * std::numbers::pi / 180;  // radians: 0.05 degrees, the error of a stepper motor
-constexpr double kRobust = 4;       // standard deviations: beyond this, Huber's loss grows linearly
+constexpr double kCornerNoise = 0.05;  // pixels
+// Error of a stepper motor, in radians.
+constexpr double kSlipNoise = 0.05 * std::numbers::pi / 180;
+constexpr double kRobust = 4;  // standard deviations: beyond this, Huber's loss grows linearly
 
 // The unknowns on which one picture depends.
 struct PictureUnknowns {
@@ -29,10 +27,11 @@ struct PictureUnknowns {
   double slip = 0;
 };
 constexpr int kCamera = 8, kPose = 6, kAxis = 4;
-constexpr int kFree =
-    kCamera + kPose;  // number of unknowns of a picture that Adjust::kPlacements adjusts
+// Number of a picture's unknowns that Adjust::kPlacements adjusts.
+constexpr int kFree = kCamera + kPose;
 constexpr int kPart = kFree + kAxis + 1;
 using Deltas = cv::Vec<double, kPart>;
+// Steps of the unknowns, from which the derivatives are estimated.
 constexpr std::array<double, kPart> kSteps = {
     // Camera: fx fy cx cy k1 k2 p1 p2.
     0.1, 0.1, 0.1, 0.1, 1e-4, 1e-3, 1e-5, 1e-5,

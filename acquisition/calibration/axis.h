@@ -6,9 +6,10 @@
 
 namespace vitrine::acquisition {
 
-// The table's axis in the frame of the laser plane, as a line over the height y. At height y the
-// axis is at x = a + b y, and offset + tilt y away from the plane, positive towards the normal x ×
-// y. [WLL] eq. 1 assumes that the axis lies in the plane: offset = tilt = 0.
+// The table's axis in the frame of the laser plane, as a line over the height y. At height y, the
+// axis is at x = a + b y, and its distance from the plane is offset + tilt y. The distance is
+// positive in the direction of the plane's normal, x × y. [WLL] eq. 1 assumes that the axis lies in
+// the plane: offset = tilt = 0.
 struct TurntableAxis {
   double a = 0, b = 0;          // mm, mm per mm
   double offset = 0, tilt = 0;  // mm, mm per mm
@@ -16,10 +17,9 @@ struct TurntableAxis {
   bool is_clockwise = false;
 };
 
-// A point in the axis's frame. z runs upwards along the axis from the axis's point at y = 0. rho is
-// perpendicular to the axis, within the laser plane, and signed: negative means theta + 180
-// degrees, as in [WLL] eq. 1. lateral is perpendicular to both, and (rho, lateral, z) is
-// right-handed.
+// A point in the axis's frame. z runs upwards along the axis from the axis's point at y = 0. rho
+// lies in the laser plane, perpendicular to the axis. A negative rho means theta + 180 degrees, as
+// in [WLL] eq. 1. lateral is perpendicular to both, and (rho, lateral, z) is right-handed.
 struct TablePoint {
   double rho = 0, lateral = 0, z = 0;  // mm
 };

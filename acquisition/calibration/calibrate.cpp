@@ -85,7 +85,7 @@ std::vector<LaserPoint> on_target(const CalibrationInput& input, const Calibrati
   return points;
 }
 
-// Numbers the pictures that show the stripe 0, 1, 2, … and returns how many there are.
+// Replaces the poses of the points by the numbers 0, 1, 2, … and returns how many poses there are.
 int number_poses(std::vector<LaserPoint>& points) {
   std::map<int, int> numbers;
   for (LaserPoint& p : points) {
@@ -131,7 +131,8 @@ Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const LaserPoint>
   return judged;
 }
 
-// Does the same as above for points with known coordinates in the laser plane.
+// Predicts the points of the left-out poses as above, but from points with known coordinates in the
+// laser plane.
 Expected<std::vector<HeldOutPoint>> predict_left_out(std::span<const Correspondence> points,
                                                      const SensorRegion& region,
                                                      const std::vector<bool>& left_out,
@@ -249,7 +250,7 @@ Expected<Calibrated> calibrate(std::span<const Correspondence> points, const Tur
     const int next = static_cast<int>(numbers.size());
     p.pose = numbers.try_emplace(p.pose, next).first->second;
   }
-  constexpr std::size_t kLeastPoses = 3;  // a map fitted to the other poses judges each pose
+  constexpr std::size_t kLeastPoses = 3;  // each pose is judged by a map fitted to the others
   if (numbers.size() < kLeastPoses) {
     return fail(ErrorCode::kBadInput,
                 fmt::format("the points have {} different pose numbers, a calibration needs at "

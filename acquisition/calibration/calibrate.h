@@ -33,17 +33,17 @@ struct CalibrationInput {
 struct CalibrationOptions {
   // Degree of the plane map, 2 to 5. 0 chooses the lowest degree that does well on held-out poses.
   int degree = 0;
-  // Pixels by which the map extends beyond the points at which the stripe was seen.
+  // The map extends this many pixels beyond the points at which the stripe was seen.
   double margin = 20;
 };
 
-// Computes the calibration of a camera that stands upright. To find the axis, at least one
-// placement must be seen at several angles of the table. For the map, the stripe on the target
+// Computes the calibration of a camera that stands upright. The axis requires at least one
+// placement that is seen at several angles of the table. For the map, the stripe on the target
 // should cover the space that objects will fill. Fails with kBadInput if the pictures do not
 // determine the calibration or contradict each other.
 Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationOptions& options);
 
-// Computes the calibration of a scanner that was measured by other means: fits the map to points
+// Computes the calibration of a scanner that was measured by other means. Fits the map to points
 // with known coordinates in the laser plane. `camera` and `region` have the same meaning as in
 // CalibrationInput.
 Expected<Calibrated> calibrate(std::span<const Correspondence> points, const TurntableAxis& axis,

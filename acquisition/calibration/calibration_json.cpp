@@ -18,8 +18,8 @@ constexpr int kFormat = 1;
 constexpr double kMostMm = 1e5, kMostPixels = 1e5;
 constexpr std::size_t kMostText = 256, kMostCorners = 4096;
 
-// Reads the members of one JSON object. After the first fault, which it keeps, the returned values
-// are meaningless.
+// Reads the members of one JSON object and keeps the first fault. Values returned after a fault are
+// meaningless.
 class Reader {
  public:
   Reader(const Json& object, std::string& fault) : object_(object), fault_(fault) {}
@@ -133,8 +133,8 @@ SensorRegion read_region(Reader in) {
           .height = in.integer("height", 1, kMost)};
 }
 
-// Returns whether the polygon turns left at each corner. A corner may be straight within single
-// precision.
+// Returns whether the polygon turns left at each corner. Corners that are straight within single
+// precision are allowed.
 bool is_convex(std::span<const double> hull) {
   const std::size_t n = hull.size();
   for (std::size_t i = 0; i < n; i += 2) {

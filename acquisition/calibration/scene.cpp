@@ -54,8 +54,8 @@ Expected<void> check_misfit(const CalibrationScene& scene, std::span<const SeenT
   return {};
 }
 
-// Solves each picture separately by treating the table's angle as 0 in all of them, as
-// cv::calibrateCamera does.
+// Estimates the camera and a separate placement for each picture. Takes the table's angle as 0 in
+// all pictures, as cv::calibrateCamera does.
 Expected<CalibrationScene> without_axis(std::span<const SeenTarget> seen, int width, int height) {
   std::vector<SeenTarget> single(seen.begin(), seen.end());
   CalibrationScene scene;

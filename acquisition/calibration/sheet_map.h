@@ -12,7 +12,7 @@
 namespace vitrine::acquisition {
 
 struct SheetArea {
-  // How far the points extend beyond the hull of the stripe's points, in pixels.
+  // The points extend this many pixels beyond the hull of the stripe's points.
   double margin = 0;
   int width = 0, height = 0;
 };

@@ -110,8 +110,8 @@ TEST(Calibrate, BearsCornersAndStripePointsThatAreFarOff) {
   const TruthError error = error_of(scanner, result->calibration);
   EXPECT_LT(error.radial, 0.02);
   EXPECT_LT(error.axial, 0.02);
-  EXPECT_LT(result->calibration.noise,
-            0.03);  // the error is 0.012 without the strays, which are a fifth of all points
+  // Without the strays, which are a fifth of all points, the noise is 0.012.
+  EXPECT_LT(result->calibration.noise, 0.03);
 }
 
 // Moves every tenth point of every third picture to any place on the target.
