@@ -14,11 +14,11 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Aravis repeats a request that is not answered within half a second, and the camera may execute
-// both.
+// Aravis repeats a request after half a second without an answer, and the camera may execute both.
+// If an answer takes this long, the request may have been repeated.
 constexpr std::chrono::milliseconds kAskedAgain{450};
 constexpr int kBuffers = 4;
-// Bytes. The path's MTU cannot be probed on loopback.
+// Packet size in bytes. The path's MTU cannot be probed on loopback.
 constexpr int kLoopbackPacket = 8192;
 
 struct AravisUnref {

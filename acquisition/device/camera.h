@@ -22,10 +22,9 @@ struct CameraSettings {
   bool operator==(const CameraSettings&) const = default;
 };
 
-// kFrameTries is the number of times that capture() requests a frame. The timeouts, in
-// microseconds, are added to the exposure: kFrameTimeout for a requested frame, kStrayTimeout for a
-// frame still in progress before a new request.
-inline constexpr int kFrameTries = 3;
+inline constexpr int kFrameTries = 3;  // capture() requests a frame at most this many times
+// Timeouts in microseconds, in addition to the exposure. kFrameTimeout applies to a requested
+// frame. kStrayTimeout applies to an earlier frame that is still in progress before a new request.
 inline constexpr double kFrameTimeout = 500'000, kStrayTimeout = 100'000;
 
 // Returns the longest time, in microseconds, that capture() takes if the camera responds.

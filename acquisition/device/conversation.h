@@ -16,9 +16,9 @@ class Conversation {
 
   SerialPort& port() { return port_; }
   Expected<void> say(std::string_view line);  // `line` excludes the line feed
-  // Returns the next line, or nullopt once `deadline` has passed. It then returns nullopt even if a
-  // line has arrived, because this process may have been suspended and another process may have
-  // used the board since.
+  // Returns the next line, or nullopt once `deadline` has passed. After the deadline it ignores
+  // even a line that has arrived: this process may have been suspended, and another process may
+  // have used the board since.
   Expected<std::optional<std::string>> hear(SerialPort::Clock::time_point deadline);
   // Discards input until the board has been silent for `quiet`.
   Expected<void> ignore_all(std::chrono::milliseconds quiet);

@@ -19,9 +19,9 @@ inline constexpr char kUnlock[] = "$X";  // needed after a reset during a motion
 inline constexpr char kZeroHere[] = "G50";
 inline constexpr char kMotorOn[] = "M17", kMotorOff[] = "M18";
 
-// Motions run at one of two speeds, in degrees per second. The speed tells whether the step counter
-// is valid, because the feed rate is the only value that a program can set and query and that a
-// restart clears.
+// Motions run at one of two speeds, in degrees per second. The speed of the last motion marks
+// whether the step counter is valid. The board reports that speed as its feed rate, and a restart
+// clears it.
 inline constexpr int kCountedSpeed = 200, kUncountedSpeed = 100;
 // Degrees per second: a lower bound of the speed of a slow table.
 inline constexpr int kSlowestSpeed = 10;

@@ -124,8 +124,8 @@ TEST_P(EveryBoard, GoesOnWithinHalfAMotorStepHoweverOftenItIsOpenedAnew) {
   ASSERT_EQ(rig_.ask("plug " + name()), "ok");
   const double before = rig_.table();
   double at = 0;
-  for (const double next :
-       {0.5, 1.0, 1.5}) {  // these are 4.4, 8.9 and 13.3 motor steps of a FabScan
+  // For a FabScan, these angles are 4.4, 8.9 and 13.3 motor steps.
+  for (const double next : {0.5, 1.0, 1.5}) {
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     if (!*(*board)->position()) {
@@ -210,7 +210,7 @@ TEST_P(EveryBoard, IsHaltedInTheMiddleOfAMotionByAnEmergencyStop) {
 TEST_P(EveryBoard, StaysOffWhenACallBeginsAsItIsStopped) {
   ASSERT_EQ(rig_.ask("plug " + name() + " 10"), "ok");
   for (int i = 0; i < 10; ++i) {
-    // Opens only after the previous board's guardian has switched the board off.
+    // open() succeeds only after the previous board's guardian has switched the board off.
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     std::thread turning([&] { (void)(*board)->turn_to(3600); });
