@@ -10,8 +10,8 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kNone = ~std::size_t{0};
-// Merging two windows on a common line costs only squared noise, which has a chi-square
-// distribution with two degrees of freedom. 95 % of that distribution lie below this value.
+// If two windows lie on a common line, merging them costs only squared noise. That cost has a
+// chi-square distribution with two degrees of freedom, and 95 % of it lies below this value.
 constexpr double kInsignificant = 6;
 
 struct Join {

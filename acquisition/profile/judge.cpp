@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kLeastRows = 2;  // average number of rows in a frame
 constexpr double kMostSaturated = .8, kMostDoubled = .5;
-// Largest accepted share of full pixels. A stripe covers a hundredth of a picture, and so does a
-// lamp in view.
+// Largest accepted share of full pixels. A stripe, or a lamp in view, covers a hundredth of a
+// picture.
 constexpr double kMostFull = .05;
 constexpr int kFullLevel = 254;     // grey level at which a stripe counts as saturated
 constexpr double kLeastHeight = 1;  // mm

@@ -14,8 +14,8 @@ namespace vitrine::acquisition {
 
 // Counts for one frame, or their sum over many frames.
 struct StripeCount {
-  std::uint64_t frames = 0,
-                rows = 0;  // `rows`: number of rows with a stripe that continues in the next row
+  // `rows` counts the rows with a stripe that continues in the next row.
+  std::uint64_t frames = 0, rows = 0;
   std::uint64_t saturated = 0, doubled = 0;
   // `pixels` counts the pixels of all pictures, with and without laser. `full` counts those at the
   // end of the camera's range.

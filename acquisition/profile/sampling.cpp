@@ -131,8 +131,8 @@ void share_points(std::span<Profile> profiles, const SamplingOptions& options) {
 
 // Works in blocks, which bounds the memory used.
 void sample_adaptively(std::span<Profile> profiles, const SamplingOptions& options) {
-  constexpr std::size_t kShared =
-      2'000'000;  // largest number of points in a block, unless one profile has more
+  // Largest number of points in a block, unless one profile has more.
+  constexpr std::size_t kShared = 2'000'000;
   while (!profiles.empty()) {
     std::size_t count = 1, points = profiles[0].points.size();
     while (count < profiles.size() && (points += profiles[count].points.size()) <= kShared)

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kFull = 254;  // grey level from which a pixel counts as saturated
 constexpr int kFullPixels = 2;
-// Share of the chosen peak's strength. Another peak at least this strong may be the stripe as well.
+// Another peak with at least this share of the chosen peak's strength may be the stripe as well.
 constexpr double kAsStrong = .5;
 
 bool is_saturated(std::span<const std::uint8_t> lit, int u) {

@@ -11,8 +11,8 @@ namespace {
 // Cost of a jump, in multiples of the row's strongest peak. A real step of the surface pays this
 // cost only once.
 constexpr double kJumpCost = 6;
-constexpr double kFreePixels =
-    3;  // shift allowed for each row, because a slanted stripe is no jump
+// Shift from one row to the next that costs nothing, because a slanted stripe is no jump.
+constexpr double kFreePixels = 3;
 constexpr double kPixelsOfJump = 20;  // a jump longer than this costs no more
 
 double weakness(const RowPeaks& row, int k) {

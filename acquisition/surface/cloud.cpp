@@ -9,14 +9,13 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr double kDepths = 4;  // multiples of s_max: [WLL] eq. 5
-// The spacing is measured at a radius. This share of the points is closer to the axis than that
-// radius.
+// Share of the points that are closer to the axis than the radius at which the spacing is measured.
 constexpr double kOutermost = .95;
 
 constexpr double kLeastHeight = 1e-3;  // mm: rows of real cameras are farther apart than this
 
-constexpr int kSampledGap =
-    4;  // multiples of the median, because sampled profiles have irregular rows
+// Multiple of the median, because sampled profiles have irregular rows.
+constexpr int kSampledGap = 4;
 
 template <class T>
 T percentile(std::vector<T>& values, double part) {

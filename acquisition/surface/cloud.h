@@ -39,7 +39,7 @@ std::vector<Profile> keep(const Cloud& cloud, const std::vector<bool>& kept);
 struct Spacing {
   // Median number of rows between consecutive points of a strand.
   int rows = 1;
-  // Largest number of rows between consecutive points that counts as no gap.
+  // Consecutive points at most this many rows apart have no gap between them.
   int gap = 1;
   double row_height = 1;  // mm: median height of a row
   double largest = 0;     // s_max, mm
@@ -52,9 +52,10 @@ struct Spacing {
 
 Spacing spacing_of(const Cloud& cloud, const SurfaceOptions& options);
 
-// Returns whether two points are joined by [WLL] eq. 5 and 6. They are if their depths rho differ
-// by `depth` < 4 s_max, or if the surface between them is seen at an angle phi < phi_max. cos(phi)
-// is the share of their `distance` that is perpendicular to the depth.
+// Returns whether [WLL] eq. 5 and 6 join two points. They join points whose depths rho differ by
+// less than 4 s_max; `depth` is that difference. They also join points if the surface between them
+// is seen at an angle phi < phi_max. cos(phi) is the share of their `distance` that is
+// perpendicular to the depth.
 bool are_joined(double depth, double distance, const Spacing& spacing);
 
 }  // namespace vitrine::acquisition

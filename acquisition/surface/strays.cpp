@@ -7,8 +7,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr std::size_t kStepsOn =
-    2;  // number of steps to look ahead, so that one picture may be missing
+// Number of steps to look ahead. One picture may be missing in between.
+constexpr std::size_t kStepsOn = 2;
 // Number of points to look ahead within a strand, and to either side in other strands.
 constexpr std::size_t kReach = 2;
 constexpr int kNeighbours = 3;

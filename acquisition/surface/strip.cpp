@@ -10,7 +10,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kBreak = 10;  // multiple of the largest accepted length of an edge between strands
+// Cost of a step without a triangle, as a multiple of Spacing::bridge.
+constexpr double kBreak = 10;
 
 struct Side {
   std::size_t strand;
@@ -108,7 +109,7 @@ class Strip {
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  // The best path from the top of both strands to an edge between the strands.
+  // The cheapest path from the top of both strands to an edge between the strands.
   struct Way {
     double cost = kNever;
     bool goes_down_a = false, joins = false;  // describe the last step of the path
@@ -126,8 +127,8 @@ class Strip {
     }
   }
 
-  // Keeps the path that ends with this step in `way` if it is cheaper. A step without a triangle
-  // costs more than any edge.
+  // Stores the path that ends with this step in `way` if it is cheaper than the path stored there.
+  // A step without a triangle costs more than any edge.
   void offer(std::size_t i, std::size_t j, bool goes_down_a, bool goes_on, Way& way) const {
     const std::size_t from = goes_down_a ? band_.cell(i - 1, j) : band_.cell(i, j - 1);
     const double length = edges_[band_.cell(i, j)];

@@ -38,7 +38,8 @@ TEST(SecondPeaks, PeaksThatJumpAreNoLine) {
   EXPECT_THAT(second_peaks(rows, std::vector(20, 0)), Each(-1));
 }
 
-// The first surface continues the line that belonged to the second.
+// From the fourth row on, the other line is chosen. The second surface then continues the line that
+// was chosen before.
 TEST(SecondPeaks, ALineGoesOnWhereItIsChosen) {
   const auto rows = two_surfaces(6, [](int) { return 200; });
   EXPECT_THAT(second_peaks(rows, std::vector{0, 0, 0, 1, 1, 1}), ElementsAre(1, 1, 1, 0, 0, 0));

@@ -19,7 +19,8 @@ double radius_towards(const Vec3& d) {
          1.5 * std::sin(3 * d.x + 2 * d.y) + std::cos(4 * d.z + d.x);
 }
 
-// Returns a mesh of the directions whose z, rotated by `motion`, is at least `from`.
+// Returns a part of the shape, moved by `motion`. It covers the directions whose z is at least
+// `from` after the rotation.
 TriangleMesh part(const RigidMotion& motion, double from) {
   TriangleMesh mesh;
   constexpr std::uint32_t kAround = 180, kRows = 90;

@@ -57,7 +57,8 @@ TEST(Strands, ASurfaceThatIsAloneAgainStaysInItsStrand) {
   EXPECT_THAT(rhos(strands[1]), testing::ElementsAre(12, 12, 12, 12));
 }
 
-// A strand need not have a point in the point's row, unless its surface ends between its points.
+// The nearest strand may have no point in that row: its position there is interpolated. It is not
+// interpolated if the surface ends between the strand's points.
 TEST(NearestStrand, IsNearAtThePointsRow) {
   Profile sparse{0, {point(0, 20), point(40, 20)}}, dense{0, {}};
   for (int row = 0; row <= 40; ++row)

@@ -214,8 +214,8 @@ TEST(Surface, ASlopeThatIsGrazedAllAlongIsWhole) {
   EXPECT_EQ(mesh_of(profiles, {.largest_spacing = .42}).faces.size(), 2 * 360 * 19);
 }
 
-// The same slope, but tilted: it is .35 mm lower from step to step, and 2.5 mm further out from row
-// to row.
+// The same slope, but tilted: its height changes by up to .35 mm from step to step. So the depth
+// changes by up to 2.5 mm from step to step and by 1.8 mm from row to row.
 TEST(Surface, ASlopeThatRunsAcrossTheRowsIsWholeToo) {
   const auto cone = [](double angle, double z) -> std::optional<double> {
     const double rho = 45 - 7.2 * (z - 20 - 20 * std::sin(angle));
