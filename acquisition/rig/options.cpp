@@ -11,7 +11,7 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// With a place for the list of mesh formats.
+// The text of --help. {} stands for the list of mesh formats.
 constexpr std::string_view kUsage =
     R"(usage: vitrine-rig (--mesh FILE | --empty) [OPTION]... -- COMMAND [ARGUMENT]...
 

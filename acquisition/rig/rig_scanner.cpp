@@ -18,9 +18,8 @@ std::string camera_serial(std::uint64_t seed) {
 
 UsbBoardSettings board_settings(std::uint64_t seed, bool fabscan) {
   UsbBoardSettings settings{.is_fabscan = fabscan, .serial = camera_serial(seed)};
-  if (fabscan)
-    settings.firmware.steps_per_turn =
-        3200;  // steps in a revolution of FabScan's stepper motor with 16 microsteps
+  // FabScan's stepper motor, with 16 microsteps.
+  if (fabscan) settings.firmware.steps_per_turn = 3200;
   return settings;
 }
 

@@ -11,8 +11,8 @@
 
 namespace vitrine::acquisition::rig {
 
-inline constexpr double kGrazing =
-    85;  // largest angle, in degrees, between a surface's normal and a line of sight
+// Largest angle, in degrees, between a surface's normal and a line of sight.
+inline constexpr double kGrazing = 85;
 
 // Returns one flag for each vertex: whether the scanner can see it. A vertex lies in the laser
 // sheet at two angles of the table. It is seen if, at one of these angles, laser source and camera

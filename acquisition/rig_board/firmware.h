@@ -14,8 +14,8 @@ namespace vitrine::acquisition::rig {
 
 struct FirmwareSettings {
   double degrees_per_second = 0;  // 0 completes motions at once
-  int steps_per_turn =
-      28800;  // motor steps in one revolution; the table always rests at a whole step
+  // Motor steps in one revolution. The table always rests at a whole step.
+  int steps_per_turn = 28800;
 };
 
 class Firmware {

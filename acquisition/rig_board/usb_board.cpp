@@ -68,13 +68,13 @@ struct UsbTransfer {
 // A device file that a client has open.
 struct Client {
   double last_call = 0;
-  UmockdevRef<UMockdevIoctlClient>
-      handle;            // holding a reference keeps the client's address from being reused
+  // Holding a reference keeps the client's address from being reused.
+  UmockdevRef<UMockdevIoctlClient> handle;
   bool is_gone = false;  // the device that this client opened has been unplugged
   std::set<unsigned> claimed;
   std::deque<UsbTransfer> reading, finished;
-  UmockdevRef<UMockdevIoctlClient>
-      waiting;  // the client asks for a finished transfer, to be stored in `reaped`
+  // Set while the client waits for a finished transfer, whose address will be stored in `slot`.
+  UmockdevRef<UMockdevIoctlClient> waiting;
   UmockdevRef<UMockdevIoctlData> slot;
   double waiting_until = 0;
 };
@@ -134,8 +134,8 @@ class UsbBoard::Impl {
   double last_in_ = 0;
   // The table's angle at power-on, and its angle now.
   double base_ = 0, table_ = 0;
-  double stood_ = 0,
-         goal_ = 0;  // the angle at which the table last rested, and the motion's target
+  // The angle at which the table last rested, and the motion's target.
+  double stood_ = 0, goal_ = 0;
   bool is_laser_on_ = false, is_motor_on_ = false;
   std::map<UMockdevIoctlClient*, Client> clients_;
   std::thread timer_;
@@ -147,7 +147,7 @@ struct Completion {
   UmockdevRef<UMockdevIoctlClient> client;
   long result = 0;
   int error = 0;
-  // These belong to a client that has asked for a finished transfer.
+  // Set only if the call returns a finished transfer: its address, `reaped`, is stored in `slot`.
   UmockdevRef<UMockdevIoctlData> slot, reaped;
 };
 

@@ -11,7 +11,7 @@ namespace vitrine::acquisition::rig {
 namespace {
 
 constexpr double kPeak = 185;  // grey levels of a white surface facing the laser
-// Standard deviations of the sheet's profile. Beyond this distance the sheet is dark.
+// The sheet is dark beyond this distance from its middle, in standard deviations of its profile.
 constexpr double kReach = 3.4;
 constexpr double kShine = 40;  // exponent of the specular lobe
 // Rays for each pixel, side by side. On steep parts the stripe is narrower than a pixel.
@@ -112,9 +112,8 @@ class Speckle {
   Speckle(double contrast, std::uint64_t key) : key_(key) {
     const double variance = std::log(1 + contrast * contrast);
     constexpr double kSpread = 1 + 2 * kSide * kSide;
-    scale_ = std::sqrt(variance) /
-             // This is the square root, because the blur is applied in both directions.
-             kSpread;
+    // The blur in both directions multiplies the variance by the square of kSpread.
+    scale_ = std::sqrt(variance) / kSpread;
     shift_ = -variance / 2;
   }
 

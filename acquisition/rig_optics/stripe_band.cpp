@@ -7,7 +7,8 @@
 namespace vitrine::acquisition::rig {
 namespace {
 
-// Pixels on either side, for the lens's blur. The margin above and below is one row.
+// Width in pixels of the margin on either side, which the lens's blur lights. The margin above and
+// below is one row.
 constexpr int kMargin = 2;
 // Length in pixels over which the distortion of a line is negligible.
 constexpr double kStraight = 10;

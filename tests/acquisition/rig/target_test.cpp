@@ -115,8 +115,8 @@ TEST(Target, TheLaserCrossesEveryPoseAndTheyCoverTheVolume) {
       const LaserSheet laser = optics_in(pose.frame, optics).laser;
       const PrintedTarget target;
       int lit = 0;
-      for (double y = -55; y <= 55;
-           y += 5) {  // the point where the sheet cuts the target at that height
+      // Visits the points at which the sheet cuts the target, by their heights on the target.
+      for (double y = -55; y <= 55; y += 5) {
         const double x = (laser.offset - laser.normal.y * y) / laser.normal.x;
         const Vec3 at = in_world(pose.frame, {x, y, 0});
         const auto pixel = project(optics.camera, at);
