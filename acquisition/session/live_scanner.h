@@ -42,11 +42,11 @@ class LiveScanner {
   Expected<void> turn_to(double degrees) { return board_->turn_to(degrees); }
   // Switches laser and motor off until the next motion. The board's watchdog pauses.
   Expected<void> rest() { return board_->rest(); }
-  Expected<Frame> capture() {
-    return camera_->capture();
-  }  // captures with the laser in its present state, which is initially off
+  // Takes a frame with the laser in its present state, which is initially off.
+  Expected<Frame> capture() { return camera_->capture(); }
   // Takes a frame without and one with laser. If the two are identical, takes both again, up to
-  // three times in all, because noise alone makes any two exposures differ.
+  // three times in all. Noise makes any two exposures differ, so identical frames mean that the
+  // camera delivered one exposure twice.
   Expected<FramePair> capture_pair();
 
  private:

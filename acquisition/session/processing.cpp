@@ -15,8 +15,8 @@ Expected<ScannedSurface> mesh_of(std::span<const Profile> profiles, const Calibr
                                  const Processing& processing) {
   SurfaceOptions options = processing.surface;
   options.sampling = processing.sampling;
-  options.noise =
-      calibration.noise;  // sampling gets no noise value, because its input is already smoothed
+  // Sampling gets no noise value, because its input is already smoothed.
+  options.noise = calibration.noise;
   return surface_of(profiles, options);
 }
 

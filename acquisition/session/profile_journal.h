@@ -46,8 +46,8 @@ class ProfileJournal {
   // disk on return.
   Expected<void> give_up(int kept, int steps_done);
 
-  // Records that the table stands at `step` or is moving there, because a motion in progress
-  // completes even if this process ends. The record survives the end of the process at once, but a
+  // Records that the table stands at `step` or is moving there. (A motion in progress completes
+  // even if this process ends.) The record survives the end of this process at once. It survives a
   // power failure only after the next profile is written.
   Expected<void> note_turn(int step);
 

@@ -26,8 +26,8 @@ class Scan : private ScanWatch {
   static Expected<std::unique_ptr<Scan>> create(Scanner scanner, const ScanRequest& request,
                                                 const std::filesystem::path& folder,
                                                 ScanSettings settings = {});
-  // Opens the scan in `folder`. Its state is the stored one, if that is done, cancelled or failed,
-  // and otherwise paused.
+  // Opens the scan in `folder`. A scan stored as done, cancelled or failed keeps that state. Any
+  // other scan is paused.
   static Expected<std::unique_ptr<Scan>> reopen(Scanner scanner,
                                                 const std::filesystem::path& folder,
                                                 ScanSettings settings = {});

@@ -59,9 +59,8 @@ Expected<void> ScanRun::open_folder() {
   Expected<void> judged;
   for (int step = 0; step < steps_done(); ++step)
     judged = stripe_watch_->add(stripes_[step], step + 1);
-  if (!judged)
-    return refuse(
-        judged.error());  // an earlier process crashed between the last step and this check
+  // Fails only if an earlier process crashed after storing the last step and before checking it.
+  if (!judged) return refuse(judged.error());
   auto record = means_.folder.record();
   if (!record) return tl::unexpected(record.error());
   record_ = std::move(*record);

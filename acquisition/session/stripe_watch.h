@@ -13,7 +13,7 @@ namespace vitrine::acquisition {
 
 class StripeWatch {
  public:
-  // `accepted` is a number of steps; nothing is reported before that many steps are done.
+  // Reports nothing for the first `accepted` steps.
   StripeWatch(int steps_of_a_turn, int accepted)
       : most_(static_cast<std::size_t>(std::max(steps_of_a_turn / 8, 3))), accepted_(accepted) {}
 

@@ -12,8 +12,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kProbeAngle =
-    10;  // degrees: probe motion that shows whether the target turns with the table
+// Degrees by which the table turns to find out whether the target turns with it.
+constexpr double kProbeAngle = 10;
 constexpr double kHeldStill = 2;  // pixels: largest movement of a corner that counts as still
 
 // Returns whether all corners seen in both views have stayed in place.

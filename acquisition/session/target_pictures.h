@@ -19,8 +19,9 @@ using PlaceTarget = std::function<Expected<bool>(int number)>;
 struct TargetPictureOptions {
   double largest_angle = 50,
          angle_step = 5;  // degrees by which the table turns, in either direction
-  // Called after each placement. `seen` says, in words for the operator, how many pictures show the
-  // target so far and, if none of this placement does, why. May be empty.
+  // Called after each placement. `seen` is a message for the operator. It states how many pictures
+  // show the target so far. If no picture of this placement shows the target, it also states why.
+  // May be empty.
   std::function<void(const std::string& seen)> progress = {};
   // Polled before each picture; may be empty.
   std::function<bool()> is_interrupted = {};

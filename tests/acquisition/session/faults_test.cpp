@@ -71,9 +71,8 @@ TEST_F(ScanTest, AProcessKilledAtAnyStepLosesNothing) {
         if (!killed) break;  // no more calls of this kind
         world_.degrees = *stood_at, world_.forgets_position = forgets;
         auto opened = Scan::reopen(scanner(), path(name + "-left"), impatient());
-        if (!opened)
-          continue;  // the process was killed before the first checks had passed, so there is
-                     // nothing to resume
+        // Before the first checks have passed, there is no scan to resume.
+        if (!opened) continue;
         EXPECT_EQ(run(**opened), ScanState::kDone);
         EXPECT_EQ(mesh_text(**opened), expected) << name;
       }

@@ -378,7 +378,7 @@ TEST_F(ScanTest, ACrashJustWhenTheStripeIsLostDoesNotHideThat) {
   const auto journal = scan->folder().journal();
   scan.reset();
   constexpr std::uintmax_t kNote =
-      8 + 8 + 8;  // sizes of the header, body and checksum of the last record
+      8 + 8 + 8;  // bytes: header, body and checksum of the last record
   std::filesystem::resize_file(journal, std::filesystem::file_size(journal) - kNote);
   scan = reopened();
   EXPECT_EQ(run(*scan), ScanState::kFailed);
