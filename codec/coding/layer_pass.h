@@ -207,7 +207,8 @@ class LayerPass {
     mesh_.positions[w] = merged - half;
   }
 
-  // Computes r for pyramid placement. (Midpoint placement has the same r for all splits.)
+  // Returns the term r of pyramid placement (placement.h). Midpoint placement has the same r for
+  // all splits.
   Vec3i term(const OneRing& ring, const RingCut& cut) const {
     std::array<Vec3i, kMaxSplitValence> others;
     std::array<Vec3i, 2> opposite;

@@ -13,7 +13,7 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kTimeout{5};
-// How long requests are sent only once after one that got no answer.
+// For this time after an unanswered request, failed requests are not retried.
 constexpr std::chrono::seconds kUnreachable{2};
 
 // Whether another attempt may succeed, because the store is busy (SlowDown), is restarting, or is

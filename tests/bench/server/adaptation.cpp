@@ -102,7 +102,8 @@ class Adaptation {
       const auto event = peer->next();
       bytes += static_cast<double>(event.bytes);
       if (!event.message || !std::holds_alternative<DoneMessage>(*event.message)) continue;
-      return figures_.add({what, "seconds_queued", 0, 0, kNever, 0.15});  // the model is too small
+      return figures_.add(
+          {what, "seconds_queued", 0, 0, kNever, 0.15});  // the model ended before the view changed
     }
     peer->say(WantMessage{.turn = 2, .target = Want(side_view(manifest_, -1))});
     peer->say(OpenMessage{.model = 1, .id = "none"});

@@ -183,7 +183,8 @@ TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
   };
   for (const std::string path : {"/text", "/shared"}) {
     auto first = ask(path);
-    while (first->receive(/*with_body=*/false).status == 503)  // repeats until earlier ones end
+    while (first->receive(/*with_body=*/false).status ==
+           503)  // repeats until earlier responses have ended
       first = ask(path);
     const test::HttpAnswer refused = test::http_get(server.port(), "/text");
     EXPECT_EQ(refused.status, 503) << path;
