@@ -55,8 +55,8 @@ int automatic_bits(const TriangleMesh& mesh) {
 // Measured shares of a build's time that have passed at the end of reading, of simplification and
 // of encoding. Progress is computed from them.
 constexpr double kRead = 0.02, kSimplified = 0.3, kEncoded = 0.99;
-constexpr double kPerLevel = 0.27;  // share of the encoding time that is spread equally over all
-                                    // levels
+// Share of the encoding time that is spread equally over all levels.
+constexpr double kPerLevel = 0.27;
 
 SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& options,
                                  const ProgressReport& progress) {

@@ -17,8 +17,8 @@ namespace vitrine::inline codec {
 struct EncodedModel {
   Manifest
       manifest;  // manifest without errors, display filters and offsets, which are not known yet
-  std::vector<std::uint8_t> body;  // the file after its header: base mesh, then chunks in level
-                                   // order
+  // The file after its header: base mesh, then chunks in level order.
+  std::vector<std::uint8_t> body;
 };
 
 // Called with each level, from the base mesh to the finest one. `level` is exactly the state that a

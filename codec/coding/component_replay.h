@@ -73,8 +73,8 @@ class ComponentReplay {
   std::vector<VertexId>& fine_;
   std::vector<VertexId>& state_;
   const Component* now_ = nullptr;
-  std::vector<std::uint32_t> met_;  // vertices of the current component, in the order in which they
-                                    // are reached
+  // Vertices of the current component, in the order in which they are reached.
+  std::vector<std::uint32_t> met_;
 };
 
 }  // namespace vitrine::inline codec

@@ -25,8 +25,8 @@ struct RingGeometry {
 };
 
 struct RingCut {
-  std::uint32_t i = 0, j = 1;  // i < j; the new vertex takes the faces from ring vertex i to ring
-                               // vertex j
+  // The new vertex takes the faces from ring vertex i to ring vertex j, with i < j.
+  std::uint32_t i = 0, j = 1;
 };
 
 class CutModel {

@@ -34,12 +34,12 @@ struct SplitSurroundings {
     kRingSizes,
     kScale,
     kParallelogram,  // length of the prediction by parallelograms, relative to `scale`
-    kHeight,         // mean squared height of the neighbours over the plane through v~, relative to
-                     // scale^2
-    kDistance,       // variance of the neighbours' distances from v~, relative to scale^2
-    kSettled,        // share of the neighbours whose positions are final
-    kChord,          // distance between the two cut vertices (the chord), relative to `scale`
-    kSlant,          // cosine of the angle between the chord and the difference of the arcs' means
+    // Mean squared height of the neighbours over the plane through v~, relative to scale^2.
+    kHeight,
+    kDistance,  // variance of the neighbours' distances from v~, relative to scale^2
+    kSettled,   // share of the neighbours whose positions are final
+    kChord,     // distance between the two cut vertices (the chord), relative to `scale`
+    kSlant,     // cosine of the angle between the chord and the difference of the arcs' means
     kNeighbourError,
     kNeighbourNormalError,
     kNeighboursFromLaplacian,  // this clue and the next two: distance between two predictions of D

@@ -12,9 +12,9 @@
 namespace vitrine::inline codec {
 
 struct FlagFeatures {
-  bool is_border = false;  // whether the vertex is adjacent to another region; if so, only `age` is
-                           // used
-  int age = 1;             // levels since the last split of the vertex, >= 1
+  // Whether the vertex is adjacent to another region. If so, only `age` is used.
+  bool is_border = false;
+  int age = 1;  // levels since the last split of the vertex, >= 1
   int valence = 6;
   int unsplit = 0;           // neighbours visited in this level that did not split
   int split = 0;             // neighbours visited in this level that split

@@ -53,13 +53,13 @@ class LayerEncoder {
 
   const Hierarchy* hierarchy_;
   MeshState mesh_;
-  std::vector<VertexId> fine_;   // per vertex of mesh_: its fine id
-  std::vector<VertexId> state_;  // per fine id: its vertex of mesh_, or kNoCorner if it does not
-                                 // exist yet
-  std::vector<std::uint32_t> collapse_of_;  // per fine id: index of the collapse that creates the
-                                            // vertex, in the level being encoded
-  std::vector<Vec3i> cell_;  // per fine id: its cell in the level being encoded; empty if the
-                             // lattice stays the same
+  std::vector<VertexId> fine_;  // per vertex of mesh_: its fine id
+  // Per fine id: its vertex of mesh_, or kNoCorner if it does not exist yet.
+  std::vector<VertexId> state_;
+  // Per fine id: index of the collapse that creates the vertex, in the level being encoded.
+  std::vector<std::uint32_t> collapse_of_;
+  // Per fine id: its cell in the level being encoded. Empty if the lattice stays the same.
+  std::vector<Vec3i> cell_;
   std::uint32_t level_ = 0;
 };
 

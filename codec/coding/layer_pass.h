@@ -37,9 +37,9 @@ namespace vitrine::inline codec {
 
 // A split as recorded by the encoder. Vertex ids are those of the mesh state.
 struct SplitTruth {
-  VertexId qi = 0, qj = 0;  // the new vertex takes the faces from q_i around to q_j; both may be
-                            // virtual
-  Vec3i d;                  // cell of v minus cell of the new vertex
+  // The new vertex takes the faces from q_i around to q_j. Both may be virtual.
+  VertexId qi = 0, qj = 0;
+  Vec3i d;                       // cell of v minus cell of the new vertex
   AttributeTuple attribute_d{};  // the same difference for each attribute of the mesh
 
   // Negates the differences. Called if v and the new vertex change roles.

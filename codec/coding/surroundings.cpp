@@ -10,16 +10,16 @@ constexpr std::uint32_t kMaxNeighbours = 64;
 // to the other.
 struct HalfRing {
   std::uint32_t size = 0;
-  std::array<Corner, kMaxNeighbours>
-      corners;  // corners at the vertex; the next corner in the same face is at the neighbour
+  // Corners at the vertex. The next corner in the same face is at the neighbour.
+  std::array<Corner, kMaxNeighbours> corners;
   std::array<VertexId, kMaxNeighbours> vertices;
 };
 
-// These two functions return the corner at v, or at w, in a new face of the split. The next corner
-// of that face is at the other one of the two vertices.
+// Returns the corner at v in the new face (v, w, q_j) of the split. The next corner is at w.
 Corner corner_of_v(const ChunkSplits& chunk, std::size_t s) {
   return 3 * (chunk.face(s) + 1);
 }
+// Returns the corner at w in the new face (v, q_i, w) of the split. The next corner is at v.
 Corner corner_of_w(const ChunkSplits& chunk, std::size_t s) {
   return 3 * chunk.face(s) + 2;
 }
@@ -303,10 +303,10 @@ NeighbourSplits neighbour_splits(const MeshState& mesh, const ChunkSplits& chunk
 
 // Candidates for D, in lattice units. D is predicted by a weighted sum of them.
 struct Predictions {
-  Vec3 laplacian;   // D if each of the two vertices is at the mean of its neighbours, including the
-                    // other one
-  Vec3 arcs;        // difference of the means of the two half rings
-  Vec3 inner_arcs;  // like `arcs`, but without q_i and q_j
+  // D if each of the two vertices is at the mean of its neighbours, including the other one.
+  Vec3 laplacian;
+  Vec3 arcs;            // difference of the means of the two half rings
+  Vec3 inner_arcs;      // like `arcs`, but without q_i and q_j
   Vec3 parallelograms;  // difference of the means of the parallelogram predictions of v and w
   Vec3 across_chord;    // vector of length `scale` in the surface, perpendicular to the chord
   Vec3 neighbours;      // mean D of the neighbours that split in this level

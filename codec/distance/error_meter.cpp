@@ -26,8 +26,8 @@ double diagonal(const TriangleBvh& bvh) {
 
 struct Worst {
   double squared;
-  std::uint32_t triangle, nearest;  // `triangle` contains the sample; `nearest` is the closest
-                                    // triangle of the other surface
+  // `triangle` contains the sample. `nearest` is the closest triangle of the other surface.
+  std::uint32_t triangle, nearest;
 };
 
 struct SampledErrors {

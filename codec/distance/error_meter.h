@@ -14,8 +14,8 @@
 namespace vitrine::inline codec {
 
 struct LevelError {
-  double max_error = 0;  // model units; no point of either surface is farther from the other
-                         // surface
+  // Model units. No point of either surface is farther from the other surface.
+  double max_error = 0;
   // The larger rms distance of the two directions, in model units. Each is computed from 2,000
   // samples.
   double rms_error = 0;

@@ -139,8 +139,8 @@ void HausdorffBound::add_twins(const WitnessSurface& one, const WitnessSurface& 
 struct HausdorffBound::Visit {
   const RegionedSurface& source;
   const Overlaps& known;
-  std::vector<std::uint16_t> node_regions;  // per node: the region of all triangles below it, or
-                                            // kSeveral
+  // Per node: the region of all triangles below it, or kSeveral.
+  std::vector<std::uint16_t> node_regions;
   PatchCover patches;
 };
 
@@ -296,8 +296,8 @@ void HausdorffBound::spend() {
 void HausdorffBound::halve(const ConvexPiece& piece, std::uint32_t start) {
   spend();
   const ConvexPiece::Parts parts = piece.halves();
-  if (parts.front.empty() || parts.back.empty()) {  // the piece is too small for the precision of
-                                                    // the coordinates
+  // A part is empty if the piece is too small for the precision of the coordinates.
+  if (parts.front.empty() || parts.back.empty()) {
     const Vec3 centre = piece.centre();
     raise(std::sqrt(target_->closest(centre, start).squared) + piece.radius(centre));
     return;

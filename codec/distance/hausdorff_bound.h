@@ -34,8 +34,8 @@ namespace vitrine::inline codec {
 // its corners.
 struct RegionedSurface {
   const TriangleBvh& bvh;
-  std::vector<std::uint16_t> region;  // per vertex of `bvh`: its region, from 0; empty: all in
-                                      // region 0
+  // Per vertex of `bvh`: its region, from 0; empty: all in region 0.
+  std::vector<std::uint16_t> region;
 
   // Returns the regions of a triangle's corners. The distinct regions come first; the last of them
   // is repeated to fill the array.
@@ -129,8 +129,9 @@ class HausdorffBound {
   std::size_t spent_ = 0;  // pieces examined or halved since the precision was last changed
   unsigned losses_ = 0;
   const WitnessSurface* target_ = nullptr;
-  bool is_source_finer_ = false;  // whether the source has so many more triangles than the target
-                                  // that one witness may bound several
+  // Whether the source has so many more triangles than the target that one witness may bound
+  // several.
+  bool is_source_finer_ = false;
   // Limits above this value exceed the width of the target's triangles several times.
   double wide_ = 0;
   std::uint32_t last_ = 0;  // the newest witness, from which the next search starts

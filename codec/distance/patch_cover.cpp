@@ -53,10 +53,10 @@ struct PatchCover::Prism {
   TrianglePoints base;
   Vec3 normal;
   double unit, per_unit;
-  float limit;                         // in units of the prism
-  float twice_area = 0, per_area = 0;  // twice the triangle's area, in squared units of the prism,
-                                       // and its reciprocal, rounded up
-  Lanes x{}, y{}, z{}, offset{};       // per lane: direction and offset of the plane or of a wall
+  float limit;  // in units of the prism
+  // Twice the triangle's area in squared units of the prism, and its reciprocal, rounded up.
+  float twice_area = 0, per_area = 0;
+  Lanes x{}, y{}, z{}, offset{};  // per lane: direction and offset of the plane or of a wall
   Lanes centre{};
 
   Prism(const TrianglePoints& t, double most)

@@ -27,8 +27,8 @@ struct Overlaps {
   // Per triangle of the surface: the mark of the last cover() call that found the whole triangle
   // within `limit` of the triangle to cover; 0 if no call did.
   std::vector<std::uint16_t> mark;
-  std::vector<std::uint32_t> met;  // per triangle: number of the last cover() call that reached it,
-                                   // from 1; 0 if none did
+  // Per triangle: number of the last cover() call that reached it, from 1; 0 if none did.
+  std::vector<std::uint32_t> met;
   std::vector<std::uint32_t> calls;  // per call: the covered triangle, or kNone if the call failed
 
   // Returns a covered triangle near triangle t, or nullopt if none is known.
@@ -43,8 +43,8 @@ class PatchCover {
   explicit PatchCover(const WitnessSurface& surface);
 
   struct CoverResult {
-    bool is_covered = false;  // whether every point of the triangle is within `height` of the
-                              // surface
+    // Whether every point of the triangle is within `height` of the surface.
+    bool is_covered = false;
     // Upper bound of the distance, model units; at most `limit`, up to rounding. Also bounds the
     // distance of each marked triangle from `triangle`.
     double height = 0;

@@ -23,9 +23,8 @@ struct OneWayDistance {
 
 struct SurfaceDistance {
   double rms = 0, max = 0;  // the larger of both directions, model units
-  double rms_percent = 0,
-         max_percent = 0;  // percentages of the diagonal of B's bounding box; 0 if the box is a
-                           // point
+  // Percentages of the diagonal of B's bounding box. 0 if the box is a point.
+  double rms_percent = 0, max_percent = 0;
   OneWayDistance a_to_b, b_to_a;
 };
 

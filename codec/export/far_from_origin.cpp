@@ -8,8 +8,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kFarthest = 16;  // limit of the coordinates, in longest sides: a rounding error is
-                                  // 2^-24 of the coordinate, so at most 2^-20 of the longest side
+// Limit of the coordinates, in longest sides. A rounding error is at most 2^-24 of the coordinate,
+// so at most 2^-20 of the longest side.
+constexpr double kFarthest = 16;
 
 double farthest(const Bounds& bounds) {
   const Vec3 &a = bounds.low, &b = bounds.high;

@@ -14,8 +14,8 @@ struct DrcOptions {
   // Bits per coordinate of the bounding box, 1 to 30. The default is as fine as the single
   // precision of the other formats, so the rounding is negligible compared with a level's error.
   int bits = 24;
-  int effort =
-      7;  // compression level, as in draco_encoder -cl: 0 is fastest, 10 gives the smallest file
+  // Compression level, as in draco_encoder -cl. 0 is fastest, 10 gives the smallest file.
+  int effort = 7;
 };
 
 // Returns a Draco edgebreaker file [Draco]. `mesh` must have passed the checks of write_mesh(): it

@@ -17,9 +17,9 @@ inline constexpr std::uint32_t kMostInserted = 64;
 struct ChunkFrame {
   std::uint32_t level = 1;
   std::uint16_t region = 0;
-  std::uint32_t splits = 0, inserted = 0;     // number of splits, number of inserted vertices
-  std::uint32_t shift = 0, shift_before = 0;  // lattice shifts of this level and of the previous
-                                              // one
+  std::uint32_t splits = 0, inserted = 0;  // number of splits, number of inserted vertices
+  // Lattice shifts of this level and of the previous one.
+  std::uint32_t shift = 0, shift_before = 0;
   Placement placement = Placement::kMidpoint;
   std::int32_t parity = 0;  // see level_parity()
 };

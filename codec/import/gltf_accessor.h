@@ -24,11 +24,11 @@ class Accessor {
 
   std::uint64_t count() const { return count_; }
   std::uint32_t width() const { return width_; }
-  bool is_whole() const { return type_ != kFloat; }     // whether the components are integers
-  double real(std::uint64_t i, std::uint32_t k) const;  // component k of vector i; normalised if
-                                                        // the file says so
-  std::uint32_t index(std::uint64_t i) const;           // first component of vector i; requires an
-                                                        // unsigned integer type
+  bool is_whole() const { return type_ != kFloat; }  // whether the components are integers
+  // Returns component k of vector i, normalised if the file says so.
+  double real(std::uint64_t i, std::uint32_t k) const;
+  // Returns the first component of vector i, which must have an unsigned integer type.
+  std::uint32_t index(std::uint64_t i) const;
 
   enum Type : std::uint32_t {
     kByte = 5120,

@@ -13,8 +13,8 @@ namespace vitrine::inline codec {
 
 struct Image {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> pixels;  // rows from top to bottom; four bytes per pixel: sRGB and
-                                     // alpha
+  // Rows from top to bottom, with four bytes per pixel: sRGB and alpha.
+  std::vector<std::uint8_t> pixels;
 
   Colour at(std::uint32_t x, std::uint32_t y) const {
     const std::uint8_t* pixel = &pixels[4 * (std::size_t{y} * width + x)];
@@ -22,8 +22,8 @@ struct Image {
   }
 };
 
-inline constexpr std::uint64_t kMostPixels = 1u << 28;  // maximum number of pixels in all pictures
-                                                        // of a model together
+// Maximum number of pixels in all pictures of a model together.
+inline constexpr std::uint64_t kMostPixels = 1u << 28;
 
 // Decodes a PNG or JPEG picture, recognised by its content. The size is checked before memory is
 // allocated: at most `most_pixels` pixels, and at most 1024 pixels per byte. The libraries are not

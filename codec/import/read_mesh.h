@@ -18,8 +18,8 @@ enum class UpAxis { kY, kZ };
 
 struct ReadOptions {
   Limits limits = {};
-  std::string_view unit =
-      {};  // one of kLengthUnits, which overrides the file's own unit; empty: use the file's own
+  // One of kLengthUnits, which overrides the file's own unit. Empty: use the file's own unit.
+  std::string_view unit = {};
   UpAxis up = UpAxis::kY;  // kZ: the file's z axis points up; it is turned to y
   Companions beside = {};  // files from which an OBJ or PLY may take colours
 };

@@ -21,8 +21,8 @@ namespace vitrine::inline codec {
 using VertexId = std::uint32_t;
 using Corner = std::uint32_t;
 
-inline constexpr VertexId kVirtualBit = 0x8000'0000u;  // vertex kVirtualBit + k closes boundary
-                                                       // loop k
+// Vertex kVirtualBit + k closes boundary loop k.
+inline constexpr VertexId kVirtualBit = 0x8000'0000u;
 inline constexpr Corner kNoCorner = 0xFFFF'FFFFu;
 
 constexpr bool is_virtual(VertexId v) {

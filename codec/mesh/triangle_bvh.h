@@ -24,8 +24,9 @@ class TriangleBvh {
  public:
   struct Node {
     std::array<float, 3> low, high;  // corners of the bounding box, rounded outwards
-    std::uint32_t first;  // in a leaf, the first triangle; in an inner node, the left child, which
-                          // the right child follows
+    // In a leaf, the first triangle. In an inner node, the left child, which the right child
+    // follows.
+    std::uint32_t first;
     std::uint32_t count;  // number of triangles in a leaf; 0 in an inner node
   };
   static constexpr std::uint32_t kLeafSize = 4;

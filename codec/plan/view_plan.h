@@ -37,8 +37,8 @@ class ViewPlan {
   const std::vector<std::uint8_t>& have_;
   const View& view_;
   std::vector<std::uint32_t> leaf_level_;  // per leaf of the region tree: the level it has reached
-  std::vector<std::uint32_t> required_;    // per chunk: number of the last missing_for() call that
-                                           // visited it
+  // Per chunk: number of the last missing_for() call that visited it.
+  std::vector<std::uint32_t> required_;
   std::uint32_t call_ = 0;
   std::uint64_t steps_ = 0;  // number of steps of all missing_for() calls
 };

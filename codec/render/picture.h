@@ -9,8 +9,8 @@ namespace vitrine::inline codec {
 
 struct Picture {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> pixels;  // rows from top to bottom; four bytes per pixel: sRGB and
-                                     // opacity
+  // Rows from top to bottom, with four bytes per pixel: sRGB and opacity.
+  std::vector<std::uint8_t> pixels;
 };
 
 }  // namespace vitrine::inline codec

@@ -309,8 +309,8 @@ class Repairer {
 
   TriangleMesh mesh_;
   std::vector<std::string> repairs_;
-  std::vector<std::uint32_t> source_;  // per face: its number in the input; empty if no face was
-                                       // removed
+  // Per face: its number in the input. Empty if no face was removed.
+  std::vector<std::uint32_t> source_;
 };
 
 }  // namespace

@@ -13,9 +13,9 @@
 namespace vitrine::inline codec {
 
 struct RepairedMesh {
-  TriangleMesh mesh;                 // accepted by Connectivity::close
-  std::vector<std::string> repairs;  // the import's repairs, then one line for each kind of repair
-                                     // made here
+  TriangleMesh mesh;  // accepted by Connectivity::close
+  // The import's repairs, then one line for each kind of repair made here.
+  std::vector<std::string> repairs;
   std::uint64_t boundary_edges = 0;
   std::uint64_t components = 0;  // number of components; shared vertices connect faces
 };

@@ -100,8 +100,8 @@ class SeamJoiner {
   const std::vector<Vec3>& positions_;
   std::span<const Triangle> faces_;
   std::vector<std::uint32_t> borders_;  // corners opposite to border edges
-  std::vector<std::uint32_t> point_;  // per end of a border edge: the lowest-numbered vertex equal
-                                      // to it
+  // Per end of a border edge: the lowest-numbered vertex equal to it.
+  std::vector<std::uint32_t> point_;
   std::vector<std::uint32_t> older_;
 };
 

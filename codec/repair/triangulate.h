@@ -10,8 +10,8 @@
 
 namespace vitrine::inline codec {
 
-inline constexpr std::size_t kMostClippedCorners = 256;  // more corners would make ear clipping,
-                                                         // which takes quadratic time, too slow
+// With more corners, ear clipping would be too slow, because it takes quadratic time.
+inline constexpr std::size_t kMostClippedCorners = 256;
 
 // Appends the n - 2 triangles of a polygon, given as n >= 3 indices into `positions` in
 // counter-clockwise order. A convex polygon becomes a fan, any other one is cut by ear clipping. A

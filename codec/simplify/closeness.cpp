@@ -101,8 +101,8 @@ bool share_slab(const Patch& one, const Patch& other, double thickness) {
   for (const Patch* patch : {&one, &other}) {
     for (const TrianglePoints& t : patch->faces()) {
       if (dot(normal_of(t), normal) <= 0) return false;
-      for (const Vec3& p : {t.a, t.b}) {  // t.c is skipped, because another face of the patch has
-                                          // it as t.b
+      // t.c is skipped, because another face of the patch has it as t.b.
+      for (const Vec3& p : {t.a, t.b}) {
         const double height = dot(p - origin, normal);
         low = std::min(low, height), high = std::max(high, height);
       }

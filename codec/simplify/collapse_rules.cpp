@@ -6,8 +6,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kLeastCosine = 0.2;  // minimum cosine of the angle between a face's normals before
-                                      // and after a collapse
+// Minimum cosine of the angle between a face's normals before and after a collapse.
+constexpr double kLeastCosine = 0.2;
 
 bool has_valence_3(const Connectivity& mesh, Corner c) {
   const VertexId v = mesh.vertex(c);

@@ -15,8 +15,8 @@ namespace vitrine::inline codec {
 // The one-ring of a vertex. corner[i] is a corner at the vertex, and vertex[i] is the i-th
 // neighbour.
 struct Star {
-  static constexpr std::uint32_t kCapacity =
-      kMaxSplitValence + 2;   // vertices of higher valence cannot collapse
+  // Vertices of higher valence cannot collapse.
+  static constexpr std::uint32_t kCapacity = kMaxSplitValence + 2;
   std::uint32_t valence = 0;  // number of neighbours; 0 if there are more than kCapacity
   bool is_on_border = false;
   std::array<Corner, kCapacity> corner;

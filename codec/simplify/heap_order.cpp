@@ -16,8 +16,8 @@ struct EdgeCost {
   VertexId a, b;        // a < b
   std::uint32_t stamp;  // sum of the two vertices' stamps when the cost was computed
 
-  bool operator<(const EdgeCost& o) const {  // reversed, because std::priority_queue pops the
-                                             // largest element first
+  // Reversed, because std::priority_queue pops the largest element first.
+  bool operator<(const EdgeCost& o) const {
     return std::tie(o.cost, o.a, o.b) < std::tie(cost, a, b);
   }
 };

@@ -19,10 +19,11 @@ struct LevelRules {
   Placement placement = Placement::kMidpoint;
   std::int32_t parity = 0;     // parity of the level (placement.h)
   bool keeps_regions = false;  // whether collapses must stay inside one region
-  double length_weight = 0;    // weight of the squared edge length in the cost; the mean squared
-                               // distance from the planes has weight 1
-  bool is_regular = false;     // whether the level allows more collapses but demands that they stay
-                               // closer to the surface
+  // Weight of the squared edge length in the cost. The mean squared distance from the planes has
+  // weight 1.
+  double length_weight = 0;
+  // Whether the level allows more collapses but demands that they stay closer to the surface.
+  bool is_regular = false;
   std::uint32_t most = 0xFFFFFFFF;  // maximum number of collapses
   Vec3i low, high;                  // v~ must lie in this box; both corners belong to it
 
@@ -59,12 +60,12 @@ class CollapseMatcher {
   void withhold_neighbours(const LevelRules& rules, const EdgeStar& edge);
 
   const Surface& surface_;
-  std::vector<KeyedIndex> edges_, scratch_;  // key: leading bits of the cost as a float; index: a
-                                             // corner
-  std::vector<std::uint8_t> is_taken_;  // per vertex: whether it can no longer collapse in this
-                                        // level
-  std::vector<Vec3> ring_sum_;  // per vertex: sum of the positions of its neighbours that are not
-                                // virtual
+  // Key: leading bits of the cost as a float; index: a corner.
+  std::vector<KeyedIndex> edges_, scratch_;
+  // Per vertex: whether it can no longer collapse in this level.
+  std::vector<std::uint8_t> is_taken_;
+  // Per vertex: sum of the positions of its neighbours that are not virtual.
+  std::vector<Vec3> ring_sum_;
   std::vector<std::uint32_t> ring_size_;
   double mean_edge_ = 0, reach_ = 0;  // reach_: the limit for keeps_near()
   std::vector<Pick> picks_;

@@ -17,8 +17,8 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr std::uint32_t kRegularLevels =
-    4;  // number of levels that keep a regular sampling, from the finest on
+// Number of levels that keep a regular sampling, from the finest on.
+constexpr std::uint32_t kRegularLevels = 4;
 // Weight of the edge length in the cost. It makes short edges collapse first, above all in the
 // finest level, where the other costs are noise. Without it, coarser levels need more bytes.
 constexpr double kFinestLengthWeight = 5e-3, kLengthWeight = 1e-3;

@@ -26,8 +26,8 @@ struct SimplifyOptions {
   // A region with more vertices than this forks. 0 means that the model is one region. Regions of
   // the coarsest levels may have fewer vertices, because each vertex costs more bytes there.
   std::uint32_t region_vertices = 0;
-  std::function<void(double)> progress = {};  // receives the completed fraction, 0 to 1, once per
-                                              // level
+  // Receives the completed fraction, 0 to 1, once per level.
+  std::function<void(double)> progress = {};
 };
 
 // Builds the hierarchy of `fine`. `original` holds the positions of its vertices, in the same

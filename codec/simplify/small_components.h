@@ -32,9 +32,9 @@ class SmallComponents {
 
  private:
   struct MemberRange {
-    std::size_t begin, size;  // index in members_ of the component's first vertex; number of its
-                              // vertices
-    bool has_shrunk = true;   // whether the last update() found fewer vertices than the one before
+    // Index in members_ of the component's first vertex, and number of its vertices.
+    std::size_t begin, size;
+    bool has_shrunk = true;  // whether the last update() found fewer vertices than the one before
   };
 
   void update(const Surface& surface);

@@ -14,13 +14,13 @@
 
 namespace vitrine::inline codec {
 
-using PositionOf = std::function<Vec3(VertexId)>;  // returns the position of a vertex that is not
-                                                   // virtual, lattice units
+// Returns the position of a vertex that is not virtual, in lattice units.
+using PositionOf = std::function<Vec3(VertexId)>;
 
 struct Surface {
   Connectivity mesh;
-  std::vector<Vec3i> position;  // the cell of each vertex, with sides of 2^shift lattice units
-                                // (codec/format/cell.h)
+  // The cell of each vertex, with sides of 2^shift lattice units (codec/format/cell.h).
+  std::vector<Vec3i> position;
   std::uint32_t shift = 0;
   LatticeAttributes attributes;
   std::vector<Quadric> quadric;

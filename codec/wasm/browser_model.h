@@ -23,8 +23,8 @@ class BrowserModel {
  public:
   static Expected<std::unique_ptr<BrowserModel>> open(std::span<const std::uint8_t> header);
   explicit BrowserModel(std::shared_ptr<const Manifest> manifest);
-  BrowserModel(const BrowserModel&) = delete;  // not copyable, because the planner points into this
-                                               // object
+  // Not copyable, because the planner points into this object.
+  BrowserModel(const BrowserModel&) = delete;
   BrowserModel& operator=(const BrowserModel&) = delete;
 
   const Manifest& manifest() const { return *manifest_; }

@@ -13,15 +13,15 @@ namespace {
 
 constexpr std::size_t kPage = 65536;
 constexpr std::size_t kShare = 16;
-constexpr std::size_t kUnit = 16;  // bytes; block sizes and the alignment of allocations are
-                                   // multiples of it
+// Bytes. Block sizes and the alignment of allocations are multiples of it.
+constexpr std::size_t kUnit = 16;
 constexpr std::size_t kMost = std::size_t{1} << 31;
 
 struct Block {
   std::size_t size_before;  // size of the previous block in memory
-  std::size_t size;  // size in bytes, including both size members; the lowest bit is set while in
-                     // use
-  Block* next;       // the allocation begins here; in a free block, links of the free list
+  // Size in bytes, including both size members. The lowest bit is set while the block is in use.
+  std::size_t size;
+  Block* next;  // the allocation begins here; in a free block, links of the free list
   Block* last;
 
   Block* at(std::size_t offset) {
@@ -63,8 +63,8 @@ bool add_pages(std::size_t count) {
 bool grow(std::size_t size) {
   const std::size_t there = __builtin_wasm_memory_size(0), pages = size / kPage + 1;
   if (!add_pages(std::max(pages, there / kShare)) && !add_pages(pages)) return false;
-  if (end == nullptr) {  // a sentinel before the first block is marked as in use, so merging stops
-                         // there
+  // A sentinel before the first block is marked as in use, so merging stops there.
+  if (end == nullptr) {
     const auto base = (reinterpret_cast<std::uintptr_t>(&__heap_base) + kUnit - 1) & -kUnit;
     auto* const front = reinterpret_cast<Block*>(base + kHeader);
     front->size = kUnit + 1;
