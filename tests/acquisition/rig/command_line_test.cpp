@@ -204,8 +204,8 @@ TEST(OperatorSocket, CommandsChangeWhatIsOnTheTable) {
     EXPECT_EQ(stage.now().target, 30);
     EXPECT_EQ(said(socket, "object\n"), "ok\n");
     EXPECT_EQ(stage.now().target, std::nullopt);
-    EXPECT_EQ(said(socket, std::string(5000, 'x')),
-              "");  // the line is too long, so the rig closes the connection
+    // The line is too long, so the rig closes the connection.
+    EXPECT_EQ(said(socket, std::string(5000, 'x')), "");
   }
   EXPECT_FALSE(std::filesystem::exists(socket));
 }

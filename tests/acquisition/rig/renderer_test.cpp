@@ -25,8 +25,8 @@ TEST(Renderer, TheSameSettingGivesTheSamePictureWhateverCameBefore) {
   one.take({at(30, false)});
   one.take({at(12.5, true)});
   EXPECT_EQ(one.take({at(77.25, true)}), other.take({at(77.25, true)}));
-  EXPECT_EQ(one.take({at(-282.75, true)}),
-            other.take({at(77.25, true)}));  // the angles are one revolution apart
+  // These angles are one revolution apart.
+  EXPECT_EQ(one.take({at(-282.75, true)}), other.take({at(77.25, true)}));
 }
 
 TEST(Renderer, TurnsDoNotShowButAngleLaserAndSeedDo) {

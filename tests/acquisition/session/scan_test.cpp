@@ -377,8 +377,8 @@ TEST_F(ScanTest, ACrashJustWhenTheStripeIsLostDoesNotHideThat) {
   const auto message = scan->status().error->message;
   const auto journal = scan->folder().journal();
   scan.reset();
-  constexpr std::uintmax_t kNote =
-      8 + 8 + 8;  // bytes: header, body and checksum of the last record
+  // Bytes of the last record: header, body and checksum.
+  constexpr std::uintmax_t kNote = 8 + 8 + 8;
   std::filesystem::resize_file(journal, std::filesystem::file_size(journal) - kNote);
   scan = reopened();
   EXPECT_EQ(run(*scan), ScanState::kFailed);

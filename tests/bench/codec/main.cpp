@@ -13,8 +13,8 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr std::size_t kSpeedFaces = 300'000;  // maximum faces of the model that the speed sections
-                                              // use
+// Maximum faces of the model that the speed sections use.
+constexpr std::size_t kSpeedFaces = 300'000;
 constexpr std::size_t kQuickFaces = 50'000;
 
 int run(int argc, char** argv) {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kMaxRate = 1.5;  // limit of the geometric mean of each model's ratios
 constexpr std::size_t kFewestFaces = 50'000;
-constexpr double kCoarsest = 0.01, kFinest = 0.5;  // range of the compared levels, as shares of the
-                                                   // faces
+// Range of the compared levels, as shares of the faces.
+constexpr double kCoarsest = 0.01, kFinest = 0.5;
 
 void compare(Report& report, const BenchmarkModel& model, const RateCurve& peer) {
   const auto all = static_cast<double>(model.clean.faces.size());

@@ -10,9 +10,9 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kMaxRegions = 1.03;     // maximum size, as a multiple of a file of one region
-constexpr double kMaxCloseUp = 1.0 / 3;  // maximum bytes of a close-up, as a share of a large
-                                         // scan's file
+constexpr double kMaxRegions = 1.03;  // maximum size, as a multiple of a file of one region
+// Maximum bytes of a close-up, as a share of a large scan's file.
+constexpr double kMaxCloseUp = 1.0 / 3;
 
 struct CloseUp {
   const char* name;

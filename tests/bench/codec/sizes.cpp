@@ -11,8 +11,8 @@ namespace vitrine::bench {
 namespace {
 
 constexpr double kMaxSize = 1.27, kMaxMeanSize = 1.03;
-constexpr std::size_t kMeanModels = 5;  // minimum number of models for a mean; a mean of fewer says
-                                        // little
+// Minimum number of models for a mean. A mean of fewer says little.
+constexpr std::size_t kMeanModels = 5;
 // Maximum bytes of the header and the base mesh, which the first request fetches, per million
 // triangles. A part of a million counts as a million.
 constexpr double kMaxHead = 32 * 1024;

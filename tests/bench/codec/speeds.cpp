@@ -20,15 +20,15 @@ namespace {
 constexpr int kRounds = 5;
 // Limits apply only from this size: for smaller scans, fixed costs outweigh the cost per triangle.
 constexpr std::size_t kJudgedVertices = 100'000;
-constexpr double kMaxBuild = 20;        // maximum build time, as a multiple of one meshopt_simplify
-constexpr double kMaxLargeBuild = 15;   // replaces kMaxBuild for at least a million faces
-constexpr double kMaxDecode = 8;        // maximum decode time, as a multiple of Draco's
-constexpr double kMaxWasm = 2;          // maximum time of the WebAssembly decoder, as a multiple of
-                                        // the native one's
+constexpr double kMaxBuild = 20;       // maximum build time, as a multiple of one meshopt_simplify
+constexpr double kMaxLargeBuild = 15;  // replaces kMaxBuild for at least a million faces
+constexpr double kMaxDecode = 8;       // maximum decode time, as a multiple of Draco's
+// Maximum time of the WebAssembly decoder, as a multiple of the native one's.
+constexpr double kMaxWasm = 2;
 constexpr double kMaxBytes = 60;        // maximum bytes per triangle in the WebAssembly decoder
 constexpr double kMaxBuildBytes = 250;  // maximum bytes per triangle during a build
-constexpr double kMaxGrowth = 1.5;      // maximum ratio of the largest model's build time per
-                                        // triangle to that of a smaller one
+// Maximum ratio of the largest model's build time per triangle to that of a smaller one.
+constexpr double kMaxGrowth = 1.5;
 
 struct MedianPair {
   double ours, peer;

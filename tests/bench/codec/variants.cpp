@@ -12,8 +12,8 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kSmallest = 0.01, kLargest = 0.5;  // range of faces or bytes, as shares of the
-                                                    // default's
+// Range of faces or bytes, as shares of the default's.
+constexpr double kSmallest = 0.01, kLargest = 0.5;
 constexpr int kSteps = 8;
 
 struct Variant {

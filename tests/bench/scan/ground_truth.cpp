@@ -12,8 +12,8 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kRms = 0.05, kP95 = 0.12, kUncovered = 0.03;  // limits: mm, mm, share of the
-                                                               // points
+// Limits: mm, mm, share of the points.
+constexpr double kRms = 0.05, kP95 = 0.12, kUncovered = 0.03;
 constexpr int kSteps = 720, kQuickSteps = 90;
 
 void report_accuracy(Report& report, const std::string& what, const Accuracy& a, bool judged) {

@@ -71,8 +71,8 @@ class Adaptation {
       dropped = StreamPeer::now();
     }
     double noticed = kNever;
-    ReceivedForecast worst{.promise = {}, .at = 0};  // counts as never kept, so a missing forecast
-                                                     // fails
+    // Counts as never kept, so a missing forecast fails.
+    ReceivedForecast worst{.promise = {}, .at = 0};
     bool any = false;
     for (const ReceivedForecast& heard : course.forecasts()) {
       if (heard.at < dropped || heard.promise.bytes_per_second >= 2 * to) continue;
@@ -102,8 +102,8 @@ class Adaptation {
       const auto event = peer->next();
       bytes += static_cast<double>(event.bytes);
       if (!event.message || !std::holds_alternative<DoneMessage>(*event.message)) continue;
-      return figures_.add(
-          {what, "seconds_queued", 0, 0, kNever, 0.15});  // the model ended before the view changed
+      // The model is too small: it arrived completely before the view changed.
+      return figures_.add({what, "seconds_queued", 0, 0, kNever, 0.15});
     }
     peer->say(WantMessage{.turn = 2, .target = Want(side_view(manifest_, -1))});
     peer->say(OpenMessage{.model = 1, .id = "none"});

@@ -20,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kChunk = 64u << 20;  // bytes; more than any viewer receives during a
-                                           // measurement
+// Bytes. It is more than any viewer receives during a measurement.
+constexpr std::size_t kChunk = 64u << 20;
 
 class Scale {
  public:

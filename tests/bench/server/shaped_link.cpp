@@ -20,9 +20,8 @@ void enter(const FileDescriptor& space) {
 }
 
 FileDescriptor here() {
-  return FileDescriptor(
-      ::open("/proc/thread-self/ns/net", O_RDONLY));  // without O_CLOEXEC, so that tools started
-                                                      // later inherit it
+  // Without O_CLOEXEC, so that tools started later inherit it.
+  return FileDescriptor(::open("/proc/thread-self/ns/net", O_RDONLY));
 }
 
 FileDescriptor fresh() {

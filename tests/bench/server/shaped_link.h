@@ -26,8 +26,8 @@ class ShapedLink {
 
   void at_server() const;
   void at_client() const;
-  void shape(double bytes_per_second);  // limits the rate to the client; leaves this thread in the
-                                        // client's namespace
+  // Limits the rate to the client. Leaves this thread in the client's namespace.
+  void shape(double bytes_per_second);
 
   static constexpr const char* kServer = "10.99.0.1";
 

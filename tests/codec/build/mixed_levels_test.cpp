@@ -334,8 +334,8 @@ TEST_P(MixedLevels, ShowACameraNoErrorAboveWhatItAllows) {
   std::size_t mixed = 0;
   for (int i = 0; i < 6; ++i) {
     const double degrees = i == 0 ? 20 : 130;
-    const double allowed = i % 2 == 0 ? 0.012 : 0.0035;  // model units, at the distance kAway from
-                                                         // the eye
+    // Model units, at the distance kAway from the eye.
+    const double allowed = i % 2 == 0 ? 0.012 : 0.0035;
     // The camera is turned away from the target, which therefore lies near the side of a wide view.
     const Vec3 target = anywhere(), from = anywhere(), to = anywhere(), aside = anywhere();
     const Vec3 eye = target + unit(to - from) * kAway;

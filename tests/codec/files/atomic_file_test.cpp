@@ -23,8 +23,8 @@ class FileSizeLimit {
     ::getrlimit(RLIMIT_FSIZE, &before_);
     const rlimit small{bytes, before_.rlim_max};
     ::setrlimit(RLIMIT_FSIZE, &small);
-    handler_ =
-        ::signal(SIGXFSZ, SIG_IGN);  // SIGXFSZ is ignored, so that the write fails with EFBIG
+    // SIGXFSZ is ignored, so that the write fails with EFBIG.
+    handler_ = ::signal(SIGXFSZ, SIG_IGN);
   }
   ~FileSizeLimit() {
     ::setrlimit(RLIMIT_FSIZE, &before_);
