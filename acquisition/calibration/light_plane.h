@@ -21,8 +21,8 @@ struct LaserPoint {  // a point of the laser's line on the target
 struct LightPlane {
   cv::Vec3d origin, x, y, normal;
 
-  cv::Vec3d within(
-      const cv::Vec3d& at) const;  // returns x, y and the distance from the plane, in mm
+  // Returns x, y and the distance from the plane, in mm.
+  cv::Vec3d within(const cv::Vec3d& at) const;
   TurntableAxis axis(const CameraFrameAxis& table) const;
 };
 

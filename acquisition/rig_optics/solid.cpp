@@ -56,8 +56,8 @@ Solid::Solid(const TriangleMesh& mesh, const Finish& finish)
       faces_(mesh.faces),
       finish_(finish) {
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
-  rtcSetSceneFlags(scene_.get(),
-                   RTC_SCENE_FLAG_ROBUST);  // no ray may pass between two adjacent triangles
+  // No ray may pass between two adjacent triangles.
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
   add_triangles(device_.get(), scene_.get(), mesh);
   rtcCommitScene(scene_.get());
 }

@@ -23,8 +23,8 @@ class SendDeadline {
  public:
   SendDeadline(Connection& connection, Pace pace) : connection_(connection), pace_(pace) {}
 
-  // Sets the deadline to `timeout` from now. If there is a minimum rate, the deadline is at most
-  // the time at which `sent` bytes become too few for that rate.
+  // Sets the deadline to `timeout` from now. If there is a minimum rate, limits the deadline to
+  // `timeout` after the moment at which `sent` bytes would have been sent at that rate.
   void renew(std::uint64_t sent) {
     Connection::Clock::duration left = pace_.timeout;
     if (pace_.min_rate > 0) {

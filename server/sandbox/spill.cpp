@@ -182,8 +182,8 @@ Expected<void> open_spill(const SpillOptions& options) {
   if (capacity == 0 || ::ftruncate(file.get(), static_cast<off_t>(capacity)) != 0) return {};
   void* base = ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
   if (base == MAP_FAILED) return {};
-  const int statm =
-      ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);  // stays open until the process ends
+  // The descriptor stays open until the process ends.
+  const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   if (statm < 0) return refused("/proc", errno);
   spill = new Spill(options, static_cast<std::byte*>(base), capacity, statm);
   return {};

@@ -46,9 +46,9 @@ class S3Client {
 
   const S3Address& address() const { return address_; }
 
-  // Sends a request, with retries. Returns the last response; kIo if no attempt got a response.
-  // For a moment after that, requests are sent once, so that visitors do not wait for a store that
-  // is known to be unreachable.
+  // Sends a request, with retries. Returns the last response; kIo if no attempt got a response. For
+  // a moment after that, failed requests are not retried, so that visitors do not wait for a store
+  // that is known to be unreachable.
   Expected<RemoteAnswer> ask(const S3Request& request);
 
   // Returns a kIo error that states the refused action, the cause and the next step.
