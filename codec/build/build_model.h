@@ -23,8 +23,8 @@ inline constexpr std::uint32_t kRegionVertices = 30'000;
 
 struct BuildOptions {
   ReadOptions reading = {};
-  int bits = 0;  // bits per coordinate, kMinBits to kMaxBits; 0 chooses them from the median edge
-                 // length
+  // Bits per coordinate, kMinBits to kMaxBits. 0 chooses them from the median edge length.
+  int bits = 0;
   Placement placement = Placement::kMidpoint;
   CollapseOrder order = CollapseOrder::kBatch;
   // See SimplifyOptions. A model with at most twice this many vertices is one region.

@@ -13,9 +13,9 @@ enum class ErrorCode {
   kBadInput,     // the input is malformed or inconsistent
   kUnsupported,  // the input is valid, but this build does not support a feature that it needs
   kLimit,        // a count or a size exceeds its limit
-  kState,  // the call is not allowed in the current state, for example applying a chunk out of
-           // order
-  kIo,     // an error of the operating system, a device or the network
+  // The call is not allowed in the current state, for example applying a chunk out of order.
+  kState,
+  kIo,  // an error of the operating system, a device or the network
 };
 
 struct Error {

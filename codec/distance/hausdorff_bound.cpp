@@ -16,7 +16,7 @@ constexpr double kManyWitnesses = 16;
 constexpr std::size_t kFine = 2;
 // One exact distance can settle a piece if the piece's radius is at most this share of the limit.
 constexpr double kOneDistance = 0.9;
-// A piece is not cut at an edge beyond which it reaches by at most this share of the limit.
+// An edge does not cut a piece that reaches beyond it by at most this share of the limit.
 constexpr double kSlack = 1e-6;
 // The limit counts as wide if it exceeds kWide times the width of the target's triangles. In that
 // case a few exact distances settle a triangle of the source faster than a patch of the target

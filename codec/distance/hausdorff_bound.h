@@ -92,8 +92,8 @@ class HausdorffBound {
   static constexpr int kCuts = 16;
   // The precision is first halved after kWork pieces, plus 4 for each face of the target.
   static constexpr std::size_t kWork = 65'536;
-  // Each of the first kMostLosses times that the precision is halved, the number of pieces allowed
-  // before the next time is divided by 4.
+  // Each time the precision is halved, the number of pieces allowed before the next time is divided
+  // by 4. After kMostLosses times, it is no longer divided.
   static constexpr unsigned kMostLosses = 4;
 
   // A region's bound is not refined below this share of the largest distance known in any region.

@@ -62,8 +62,9 @@ class PatchCover {
   struct Prism;
   // A point in the coordinates of the prism.
   struct PrismPoint {
-    Lanes at;  // lane 0: height over the plane, negative below it; lanes 1 to 3: depth behind each
-               // wall, times the length of the wall
+    // Lane 0: height over the plane, negative below it. Lanes 1 to 3: depth behind each wall, times
+    // the length of the wall.
+    Lanes at;
     float slack;    // error bound of `at`
     float squared;  // upper bound of the squared distance from the triangle
     unsigned bits;  // combination of kBeyond, kAside and kFar

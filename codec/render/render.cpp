@@ -43,8 +43,8 @@ Vec3 light(const Vec3& n) {
 }
 
 struct ShadedCorner {
-  Vec3 at;  // x to the right and y down from the picture's top left corner, z towards the eye; in
-            // samples
+  // In samples: x to the right and y down from the picture's top left corner, z towards the eye.
+  Vec3 at;
   Vec3 normal, colour;
 };
 

@@ -73,7 +73,8 @@ class Simplifier {
   // This and the functions below order levels from fine to coarse.
   std::vector<CollapseLevel> run_batches() {
     std::vector<CollapseLevel> levels;
-    // The format requires a coarsest level with one region, so that level may have no collapses.
+    // The format requires that the coarsest level has only one region. A level that joins the last
+    // regions is therefore added even if it has no collapses.
     bool enough = is_small(), shedding = false;
     while (levels.size() + 1 < Limits{}.levels && !(enough && regions_.is_whole())) {
       const std::size_t before = surface_.live.size();

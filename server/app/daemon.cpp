@@ -41,7 +41,7 @@ constexpr std::size_t kAdminConnections = 64;
 constexpr std::chrono::minutes kCollectEvery{10};
 constexpr std::chrono::milliseconds kStaleness{100};  // how long cached models may be out of date
 constexpr std::chrono::seconds kScannerLease{30};
-// Time after a job's end at which a webhook that the settings do not allow is given up.
+// A webhook that the settings do not allow is given up this long after the job's end.
 constexpr std::chrono::milliseconds kUnwanted = std::chrono::hours(24);
 // Largest number of exports that run or wait at a time. A running export holds a decoded mesh.
 constexpr std::size_t kMaxExports = 64;
@@ -387,7 +387,7 @@ class Daemon {
     public_.drain([this] { io_.stop(); });
   }
 
-  // Once the daemon waits for signals, used only on control_.
+  // Used only on control_ once the daemon waits for signals.
   Configuration configuration_;
   LiveSettings live_;
   const std::shared_ptr<LiveTls> tls_;  // null if the daemon does not use TLS

@@ -14,7 +14,7 @@
 namespace vitrine::server {
 
 struct WorkerOptions {
-  // Number of threads for Executor::kWorker, and again for Executor::kCompute.
+  // Number of threads for Executor::kWorker. Executor::kCompute has as many threads of its own.
   unsigned threads = 1;
   unsigned waiting_threads = 0;       // additional threads for handlers that wait for other daemons
   std::size_t max_computations = 64;  // computations that may run or wait at a time

@@ -78,8 +78,8 @@ class Numbering {
 
   const TriangleMesh& scan_;
   std::uint32_t n_, count_ = 0;
-  // the numbers of each vertex of the scan, of each edge's first inner point, and of each face's
-  // first inner point
+  // The numbers of each vertex of the scan, of each edge's first inner point, and of each face's
+  // first inner point.
   std::vector<std::uint32_t> corner_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edge_;
   std::vector<std::uint32_t> inside_;
