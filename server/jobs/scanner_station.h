@@ -55,7 +55,7 @@ class ScannerStation {
   void close_after_all();
 
  private:
-  // Runs `task`. Converts an exception to an error and closes the devices.
+  // Runs `task`. If it throws, closes the devices and returns the exception as an error.
   template <class Task>
   auto caught(Task task) -> decltype(task());
   // Runs `task` on the scanner's executor and returns its result.
