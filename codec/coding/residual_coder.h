@@ -37,7 +37,8 @@ class ResidualCoder {
   static constexpr int kWidths = 48;  // widths from 2^-2 to 2^10, in steps of a quarter octave
   // Number of exponents with their own context; larger ones use the last.
   static constexpr int kExponents = 12;
-  // Number of ranges of the exponent relative to the width. They are the contexts of the mantissa.
+  // Number of ranges of the exponent relative to the width. They select the contexts of the
+  // mantissa.
   static constexpr int kRanges = 8;
   static constexpr std::size_t kBits =
       kWidths * 3 + kWidths / 2 * 5 + kWidths * kExponents + kRanges * 4;
