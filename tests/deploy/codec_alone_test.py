@@ -26,9 +26,12 @@ echo "$PROJECT" >"$STATE/root/CMakeLists.txt"
 exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 chroot "$STATE/root" bash -euo pipefail -c "$INSIDE"
 """
 
+# Compiles for speed of the build, and leaves out the random meshes, which the release build tests.
 INSIDE = r"""
 cd /vitrine
-cmake --workflow --preset codec
+cmake --preset codec -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g0"
+cmake --build --preset codec
+ctest --preset codec -E ^property
 cmake --install build/codec
 cmake -G Ninja -S / -B /example
 cmake --build /example

@@ -20,7 +20,7 @@ def comments(root):
         lines, at = lint.text(root, path).splitlines(), 0
         while at < len(lines):
             end = at
-            while end < len(lines) and re.match(r"\s*(//|/?\*)", lines[end]):
+            while end < len(lines) and re.match(r"\s*(//|/\*|\*/|\*$|\* [^{])", lines[end]):
                 end += 1
             if end > at:
                 block = [line for line in lines[at:end] if "SPDX" not in line]
