@@ -43,7 +43,8 @@ double median_edge(const TriangleMesh& mesh) {
   return *middle;
 }
 
-// Returns the bits of the coarsest lattice whose step is at most 1/32 of the median edge length.
+// Returns the number of bits per coordinate of the coarsest lattice whose step is at most 1/32 of
+// the median edge length.
 int automatic_bits(const TriangleMesh& mesh) {
   const double edge = median_edge(mesh);
   int bits = kMinBits;
@@ -53,14 +54,15 @@ int automatic_bits(const TriangleMesh& mesh) {
 }
 
 // Measured shares of a build's time that have passed at the end of reading, of simplification and
-// of encoding. Progress is computed from them.
+// of encoding. They convert the progress of each stage to that of the whole build.
 constexpr double kRead = 0.02, kSimplified = 0.3, kEncoded = 0.99;
-// Share of the encoding time that is spread equally over all levels.
+// Share of the encoding time that is the same for every level. The rest is proportional to the
+// number of vertices that a level adds.
 constexpr double kPerLevel = 0.27;
 
 SimplifyOptions simplify_options(const LatticeMesh& fine, const BuildOptions& options,
                                  const ProgressReport& progress) {
-  // A model of two regions would save a viewer few bytes, but the second region costs bytes itself.
+  // With only two regions, a viewer could skip few bytes, and the second region costs bytes itself.
   const bool few = fine.positions.size() <= 2 * std::size_t{options.region_vertices};
   SimplifyOptions how{.placement = options.placement,
                       .order = options.order,

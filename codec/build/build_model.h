@@ -17,8 +17,9 @@
 
 namespace vitrine::inline codec {
 
-// Default size of a region. Slightly less than half of a level's vertices are new, and each costs
-// one to two bytes in the finest level. Regions of this size therefore have chunks of 10 to 30 KB.
+// Default size of a region, in vertices. Slightly less than half of a level's vertices are new, and
+// each costs one to two bytes in the finest level. Regions of this size therefore have chunks of 10
+// to 30 KB.
 inline constexpr std::uint32_t kRegionVertices = 30'000;
 
 struct BuildOptions {
@@ -27,7 +28,7 @@ struct BuildOptions {
   int bits = 0;
   Placement placement = Placement::kMidpoint;
   CollapseOrder order = CollapseOrder::kBatch;
-  // See SimplifyOptions. A model with at most twice this many vertices is one region.
+  // See SimplifyOptions. A model with at most twice this many vertices has only one region.
   std::uint32_t region_vertices = kRegionVertices;
   unsigned threads = 1;  // at least 1; does not change the output
 };

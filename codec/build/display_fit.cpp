@@ -14,9 +14,9 @@ constexpr std::size_t kFaces = 1000;
 // at about this share of the fitted strength.
 constexpr double kShare = 0.8;
 
-// Least-squares fit of `a` in offset = a * shift. Both are signed distances along the normal of a
-// face: `offset` from the face's centroid to the original, `shift` the centroid's movement by the
-// filter at full strength.
+// Least-squares fit of `a` in offset = a * shift. `offset` is the signed distance from a face's
+// centroid to the original surface, along the face's normal. `shift` is how far the filter at full
+// strength moves the centroid along this normal.
 struct Fit {
   double product = 0, square = 0;
 

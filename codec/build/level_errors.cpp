@@ -13,9 +13,10 @@ namespace {
 
 constexpr std::size_t kAtOnce = 8;  // maximum number of levels measured at the same time
 
-// Raises the chunk's error to cover faces between its region and a region that is one level finer.
-// Such a face also occurs in the mesh of one of the two levels, except for the low bits of its
-// corners in the coarser region. These bits arrive with the coarser region's next chunk.
+// Raises the chunk's error bound so that it also covers faces between the chunk's region and a
+// neighbour region that is one level finer. Each such face is also a face of one of the two levels,
+// except for the low bits of its corners in the coarser region. These bits arrive with the coarser
+// region's next chunk.
 void allow_for_finer_neighbours(ChunkInfo& chunk, const Manifest& manifest) {
   const std::uint32_t finer = chunk.level + 1;
   if (finer >= manifest.levels.size() || manifest.tree.regions_at(finer).size() == 1) return;
@@ -83,9 +84,10 @@ void LevelErrors::finish(Manifest& manifest) {
     allow_for_finer_neighbours(chunk, manifest);
 }
 
-// Waits until a level with `faces` faces may be measured, and returns its weight, an estimate of
-// the memory that it takes. The weights of all levels measured at the same time add up to at most
-// the number of the original's faces, unless there is only one such level.
+// Waits until a thread and memory are free to measure a level with `faces` faces. Returns the
+// level's weight: an estimate of this memory, in units of the memory for one face. The weights of
+// all levels measured at the same time add up to at most the number of the original's faces, unless
+// there is only one such level.
 std::size_t LevelErrors::make_room(std::size_t faces) {
   const std::size_t original = meter_.original().size(), weight = faces + original / kAtOnce;
   while (!pending_.empty() && (pending_.size() + 1 >= threads_ || weight_ + weight > original))
@@ -104,7 +106,7 @@ TriangleMesh LevelErrors::displayed(const MeshState& level, double filter) const
   return mesh;
 }
 
-// Returns for each leaf the number of the current level's region that contains it. Adds the number
+// Returns for each leaf the index of the current level's region that contains it. Adds the number
 // of these regions to `count`.
 std::vector<std::uint16_t> LevelErrors::number_regions(std::uint32_t& count) const {
   std::vector<std::uint16_t> of_leaf(tree_.leaves());
@@ -116,8 +118,8 @@ std::vector<std::uint16_t> LevelErrors::number_regions(std::uint32_t& count) con
   return of_leaf;
 }
 
-// Returns the regions of the level and of the original. `leaves` holds the leaf of each vertex of
-// the level.
+// Returns the region of each vertex of the level and of the original, or empty lists if the level
+// has only one region. `leaves` holds the leaf of each vertex of the level.
 LevelRegions LevelErrors::regions_of(std::vector<std::uint16_t> leaves) const {
   LevelRegions out{.of_level = std::move(leaves), .of_original = leaf_, .count = 0};
   const auto of_leaf = number_regions(out.count);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the display filters and the errors of a model's levels while further levels are encoded.
+// Fits the display filter of each level and measures the level's error, in parallel with the
+// encoding of further levels.
 #pragma once
 
 #include <cstddef>

@@ -25,9 +25,9 @@ void add_level(const MeshState& level, Manifest& manifest) {
       {.vertices = level.vertex_count(), .faces = level.real_face_count(), .shift = level.shift});
 }
 
-// Enlarges the boxes of the regions of `level` to include the faces at their vertices in the
-// current state. A face between two regions is in the boxes of both, so the order of refinement
-// does not matter.
+// Enlarges the box of each region of `level` to include the faces of `mesh` at the region's
+// vertices. A face between two regions is in the boxes of both, so the boxes hold for every order
+// of refinement.
 void add_to_boxes(const MeshState& mesh, std::uint32_t level, RegionTree& tree) {
   std::vector<LatticeBox*> box(tree.leaves(), nullptr);
   for (const std::uint32_t node : tree.regions_at(level))

@@ -15,8 +15,8 @@
 namespace vitrine::inline codec {
 
 struct EncodedModel {
-  Manifest
-      manifest;  // manifest without errors, display filters and offsets, which are not known yet
+  // The manifest without errors, display filters and offsets, which are not known yet.
+  Manifest manifest;
   // The file after its header: base mesh, then chunks in level order.
   std::vector<std::uint8_t> body;
 };

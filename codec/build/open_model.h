@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens a `.pmesh` in memory for refinement.
+// Opens a `.pmesh`, given as bytes in memory, for refinement.
 #pragma once
 
 #include <cstdint>

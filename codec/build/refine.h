@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refines a model to a detail target, with chunks in memory.
+// Refines a model to a detail target, with chunks from a function that the caller supplies.
 #pragma once
 
 #include <functional>
@@ -9,10 +9,12 @@
 
 namespace vitrine::inline codec {
 
-// Returns the bytes of chunk number `chunk` of the manifest after it has checked their SHA-256.
+// A function that checks the SHA-256 of chunk number `chunk` of the manifest and returns the bytes
+// of the chunk.
 using ChunkReader = std::function<Expected<std::span<const std::uint8_t>>(std::size_t chunk)>;
 
-// Applies the chunks that the planner chooses for `want`, in the planner's order. Fails with the
+// Applies the chunks that the planner chooses for `want`, in the planner's order. If `want` is
+// WantTriangles, then undoes the splits of the last chunk that exceed this number. Fails with the
 // error of `read` or of Refiner::apply().
 Expected<void> refine(Refiner& refiner, const Want& want, const ChunkReader& read);
 

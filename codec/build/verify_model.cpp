@@ -135,7 +135,8 @@ Expected<Refiner> refine_at_random(ByteSpan pmesh, std::uint32_t seed) {
   return refiner;
 }
 
-// Refines in random orders. A model with one region has only one order.
+// Refines in random orders, each of which must end with the faces `expected`. Returns the number of
+// orders checked, including the order by level. A model with one region has only that order.
 Expected<std::uint32_t> check_orders(ByteSpan pmesh, const Manifest& manifest,
                                      const std::vector<FaceKey>& expected,
                                      const ProgressReport& progress) {

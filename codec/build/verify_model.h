@@ -20,7 +20,7 @@ struct OriginalFile {
 struct Verification {
   std::uint32_t levels = 0;
   std::uint64_t chunks = 0, vertices = 0, faces = 0;
-  std::uint32_t orders = 0;         // number of random refinement orders checked
+  std::uint32_t orders = 0;  // number of refinement orders checked, including the order by level
   std::optional<bool> is_lossless;  // nullopt if no original was given
 };
 
@@ -30,7 +30,7 @@ struct Verification {
 //   lie in the region's box, that its stated error is at most the largest error stated for its
 //   chunks, and that it is a manifold with boundary;
 // - that full resolution has as many boundary loops as the header states;
-// - that refinement in random orders reaches the same mesh, always through manifolds;
+// - that refinement in random orders reaches the same mesh, through states that are manifolds;
 // - if `input` is given: that the finest level has the same set of faces as the repaired input
 //   rounded to the lattice.
 // Fails (kBadInput) at the first fault. A difference from `input` is not a fault; it sets
