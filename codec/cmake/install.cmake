@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cmake --install` of the codec alone: its headers, one static library, and the package that
-# find_package(vitrine) finds, which gives the target vitrine::codec.
+# Installs the codec alone: its headers, one static library and a CMake package. Programs that call
+# find_package(vitrine) link the target vitrine::codec.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 

@@ -39,7 +39,8 @@ function(vitrine_find_library name out)
     find_package(PkgConfig REQUIRED)
     pkg_check_modules(${name} REQUIRED QUIET IMPORTED_TARGET GLOBAL ${by_MODULE})
     set(targets PkgConfig::${name})
-    # -pthread would set a macro that the tests' precompiled header lacks; glibc no longer needs it.
+    # Drops -pthread: it would set a macro that the tests' precompiled header lacks, and glibc no
+    # longer needs it.
     set_property(TARGET ${targets} PROPERTY INTERFACE_COMPILE_OPTIONS "")
   elseif(by_FILE)
     find_library(VITRINE_LIBRARY_${name} ${by_FILE} REQUIRED)
@@ -50,7 +51,8 @@ function(vitrine_find_library name out)
   set(${out} ${targets} PARENT_SCOPE)
 endfunction()
 
-# OpenCV's own CMake files are only in the package of all its modules and their viewers.
+# Makes the targets itself: Debian has OpenCV's CMake files only in the package of all modules,
+# which also brings viewers.
 function(vitrine_find_opencv out)
   find_path(VITRINE_OPENCV opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
   foreach(module IN LISTS ARGN)

@@ -77,7 +77,7 @@ function(vitrine_modules top)
   endforeach()
 endfunction()
 
-# A static library of the folder's sources without its programs (main.cpp, *_main.cpp).
+# Makes a static library of the folder's sources, without its programs (main.cpp, *_main.cpp).
 function(vitrine_module folder)
   cmake_parse_arguments(module "" "" "MODULES;LIBRARIES" ${ARGN})
   vitrine_module_target(${folder} target)
@@ -88,7 +88,8 @@ function(vitrine_module folder)
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE vitrine_flags)
     vitrine_unity(${target})
-    # The server's modules wait more than they compute, and most of a sanitised build is compiling.
+    # Compiles the server's modules without optimisation: they wait more than they compute, and a
+    # sanitised build spends most of its time compiling.
     if(folder MATCHES "^server/" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
       target_compile_options(${target} PRIVATE -O0)
     endif()
@@ -105,7 +106,8 @@ function(vitrine_module folder)
     vitrine_find_library(${name} found)
     target_link_libraries(${target} ${scope} ${found})
   endforeach()
-  # The codec's hot loops cross files: link-time optimisation saves 5 % of a build's time.
+  # The codec's hot loops span several files: link-time optimisation makes building a model 5 %
+  # faster.
   if(sources AND folder MATCHES "^codec/" AND CMAKE_BUILD_TYPE STREQUAL "Release")
     set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
     if(VITRINE_TESTS)  # otherwise the link of each test would optimise the codec again
