@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the difference in one attribute between the two vertices of a split, component by
-// component. The caller supplies a prediction from predicted_difference() in surroundings.h, which
-// chooses the predictor by semantic.
+// Codes the difference in one attribute between the two vertices of a split, one channel at a time.
+// The caller supplies a prediction from predicted_difference() in surroundings.h, which chooses the
+// predictor by semantic.
 #pragma once
 
 #include <array>

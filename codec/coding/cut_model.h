@@ -21,7 +21,7 @@ struct RingGeometry {
   double scale = 1;
   std::array<Vec3, kMaxSplitValence> at{};  // positions relative to the vertex
   std::array<bool, kMaxSplitValence> is_virtual{};
-  std::array<std::int8_t, kMaxSplitValence> valence{};  // valences; 6 if unknown
+  std::array<std::int8_t, kMaxSplitValence> valence{};  // 6 if unknown
 };
 
 struct RingCut {
@@ -31,7 +31,8 @@ struct RingCut {
 
 class CutModel {
  public:
-  // The ratio of D = V1 - V2 to the difference of the two arcs' means, in a regular triangulation.
+  // D = V1 - V2 is the difference of the positions of a split's two vertices. In a regular
+  // triangulation, D is this number times the difference of the two arcs' mean positions.
   static constexpr double kArcToEdge = 0.7;
 
   // Estimates D from the two arcs of the ring, in lattice units.
@@ -102,8 +103,8 @@ class CutModel {
   std::uint32_t count_ = 0;
   // Has one extra entry because candidates are written two at a time.
   std::array<Candidate, kMaxPairs + 1> candidates_;
-  std::array<double, kMaxPairs + 1>
-      probability_;  // per candidate: its probability, negated once its flag is coded
+  // Per candidate: its probability, negated once its flag is coded.
+  std::array<double, kMaxPairs + 1> probability_;
   std::array<AdaptiveBit, kBits> bits_;
 };
 

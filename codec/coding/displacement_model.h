@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the difference D = V1 - V2 of a vertex split. D is predicted as a weighted sum of features
-// of the fine one-rings; the weights are learned online (recursive least squares).
+// Codes the difference D = V1 - V2 of the positions of a split's two vertices. D is predicted as a
+// weighted sum of features of the fine one-rings; the weights are learned online (recursive least
+// squares).
 //
 // The error of the prediction is modelled as a Gaussian in a frame of three axes: the predicted
 // direction, the normal, and the direction across both. The components x, y and z of D are coded in
 // turn, each conditional on the previous ones. The variance along each axis of the frame is a
-// product with one factor per clue. The mean along the prediction is a sum with one term per clue.
-// Factors and terms are learned online.
+// product with one factor per clue (SplitSurroundings::Clue). The mean along the prediction is a
+// sum with one term per clue. Factors and terms are learned online.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@
 
 namespace vitrine::inline codec {
 
-// The surroundings of a split in the mesh after the splits. All positions are relative to v~.
+// The surroundings of a split in the mesh after pass 1 (layer_pass.h). All positions are relative
+// to v~, the position of the vertex before its split.
 struct SplitSurroundings {
   static constexpr std::size_t kFeatures = 9;
   std::array<Vec3, kFeatures> features{};  // each changes its sign if V1 and V2 are swapped
@@ -34,7 +36,8 @@ struct SplitSurroundings {
     kRingSizes,
     kScale,
     kParallelogram,  // length of the prediction by parallelograms, relative to `scale`
-    // Mean squared height of the neighbours over the plane through v~, relative to scale^2.
+    // Mean squared height of the neighbours over the plane through v~ that is perpendicular to
+    // `normal`, relative to scale^2.
     kHeight,
     kDistance,  // variance of the neighbours' distances from v~, relative to scale^2
     kSettled,   // share of the neighbours whose positions are final
@@ -84,7 +87,7 @@ class DisplacementModel {
   // The contribution of one level of one clue to the model of the error.
   struct Evidence {
     std::array<double, 3> factor{};  // factors of the variances along the three axes of the frame
-    double bias = 0;                 // term of the mean along the prediction, units of scale
+    double bias = 0;                 // term of the mean along the prediction, in units of scale
     double seen = 0;  // number of splits from which it was learned, including the start weight
   };
 
@@ -101,8 +104,8 @@ class DisplacementModel {
 
   struct ErrorGaussian {
     std::array<Vec3, 3> frame;         // unit vectors: along the prediction, normal, across
-    std::array<double, 3> variance{};  // along the axes of the frame, units of scale squared
-    double bias = 0;                   // mean along the prediction, units of scale
+    std::array<double, 3> variance{};  // along the axes of the frame, in units of scale squared
+    double bias = 0;                   // mean along the prediction, in units of scale
   };
 
   ErrorGaussian gaussian_of(const SplitSurroundings& s, const Vec3& linear) const;

@@ -54,9 +54,10 @@ class LayerEncoder {
   const Hierarchy* hierarchy_;
   MeshState mesh_;
   std::vector<VertexId> fine_;  // per vertex of mesh_: its fine id
-  // Per fine id: its vertex of mesh_, or kNoCorner if it does not exist yet.
+  // Per fine id: its vertex of mesh_, or 0xFFFFFFFF if it does not exist yet.
   std::vector<VertexId> state_;
-  // Per fine id: index of the collapse that creates the vertex, in the level being encoded.
+  // Per fine id: index of the collapse that the vertex's split undoes, in the level being encoded.
+  // 0xFFFFFFFF if the vertex does not split in this level.
   std::vector<std::uint32_t> collapse_of_;
   // Per fine id: its cell in the level being encoded. Empty if the lattice stays the same.
   std::vector<Vec3i> cell_;

@@ -153,7 +153,7 @@ class LayerPass {
     RingCut cut;
     bool is_swapped = false;
     if constexpr (Coder::kEncodes) {
-      // Returns the position of q in the ring. At most one ring vertex is virtual, because no
+      // Returns the index of q in the ring. At most one ring vertex is virtual, because no
       // vertex is on two boundary loops.
       const auto at = [&](VertexId q) {
         std::uint32_t k = 0;

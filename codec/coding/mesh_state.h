@@ -86,8 +86,8 @@ struct MeshState {
   // Undoes the last add(). The state must not have changed since.
   void remove(const InsertedComponent& newest);
 
-  // Call this before each visit of a vertex order[k]. Prefetches the one-rings of later vertices in
-  // `order`, eight at a time, so that their visits do not wait for memory.
+  // Call this before each visit of the vertex order[k]. Prefetches the one-rings of later vertices
+  // in `order`, eight at a time, so that their visits do not wait for memory.
   void fetch_rings(std::span<const VertexId> order, std::size_t k) const;
 
   void count_valence(VertexId v);

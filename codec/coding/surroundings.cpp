@@ -36,7 +36,7 @@ HalfRing half_ring(const MeshState& mesh, Corner towards_partner) {
 }
 
 // The positions of a half ring's vertices as a chunk of `region` uses them, relative to `origin`.
-// Undefined for virtual vertices.
+// Positions and lengths are undefined for virtual vertices.
 struct Spokes {
   std::array<double, kMaxNeighbours> x, y, z, length;
   std::array<bool, kMaxNeighbours> is_own;  // whether the vertex belongs to `region`
@@ -68,13 +68,13 @@ struct Mean {
 
 struct HalfFeatures {
   Mean all, inner, parallelogram, tip;
-  Vec3 shoulders;  // sum of the neighbours next to the two cut vertices
+  Vec3 shoulders;  // sum of the positions of the neighbours next to the two cut vertices
   double distance = 0;
 };
 
 struct NeighbourSplits {
   Mean d;
-  SplitError error;  // sum of the errors of the predictions of the D in `d`
+  SplitError error;  // sum of the prediction errors of the splits whose D is in `d`
   // Number of neighbours that split in this level and whose D is still an estimate.
   int pending = 0;
 };
@@ -285,8 +285,8 @@ struct SplitRings {
   }
 };
 
-// Averages the D of the neighbours that split in this level. Negates a D if it points against
-// `arcs`.
+// Averages the D of the neighbours that split in this level. Negates each D whose dot product with
+// `arcs` is negative.
 NeighbourSplits neighbour_splits(const MeshState& mesh, const ChunkSplits& chunk,
                                  std::span<const SplitError> errors, const SplitRings& rings,
                                  const Vec3& arcs) {
@@ -312,7 +312,7 @@ struct Predictions {
   Vec3 neighbours;      // mean D of the neighbours that split in this level
   Vec3 bend;            // cross product of normal and chord
   Vec3 tips;            // difference of the sums of the tips, scaled; see add_parallelogram()
-  Vec3 shoulders;       // half the difference of the sums of the neighbours next to q_i and q_j
+  Vec3 shoulders;       // half the difference of HalfFeatures::shoulders of v and w
 };
 
 Predictions predictions_of(const SplitRings& rings, const NeighbourSplits& around,

@@ -26,7 +26,7 @@ struct ChunkSplits {
   VertexId first_vertex = 0;  // the new vertex of the first split
   std::uint32_t first_face = 0;
   std::vector<Split> splits;
-  // Attributes before the splits, by column of the mesh and then by split.
+  // The attributes of v before the splits: for each attribute of the mesh, one value per split.
   std::array<std::vector<Vec3i>, kSemantics> merged_attributes;
 
   std::size_t size() const { return splits.size(); }
@@ -53,9 +53,9 @@ FlagFeatures flag_features(const MeshState& mesh, VertexId v, const OneRing& rin
 
 RingGeometry ring_geometry(const MeshState& mesh, VertexId v, const OneRing& ring);
 
-// Returns the surroundings of the s-th split, in the mesh after all splits of pass 1. The vertices
-// of the s previous splits have their final positions; `errors` holds the prediction errors of
-// their D.
+// Returns the surroundings of split s = errors.size(), in the mesh after pass 1 (layer_pass.h). The
+// vertices of all splits before s have their final positions; `errors` holds the prediction errors
+// of these splits.
 SplitSurroundings split_surroundings(const MeshState& mesh, const ChunkSplits& chunk,
                                      std::span<const SplitError> errors);
 

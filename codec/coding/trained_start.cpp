@@ -7,7 +7,8 @@ namespace vitrine::inline codec::trained {
 namespace {
 
 // Reads a number and the space after it. The result is the nearest double, because it is a quotient
-// of two whole numbers that are exact. A test checks this for all numbers of the tables.
+// of two whole numbers that a double holds exactly. A test checks this for all numbers of the
+// tables.
 double read_number(const char*& text) {
   const bool negative = *text == '-';
   if (negative) ++text;

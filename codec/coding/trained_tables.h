@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trained start values of the models of a chunk. The program `train-tables` (tests/training)
-// writes them and names the meshes used. Changing them changes the format. They are stored in the
-// form that takes the least space in the browser's compressed module.
+// The trained initial values of the probability models and predictors that code a chunk.
+// tests/training/train_tables.cpp generates them and lists the training meshes. Changing these
+// values changes the format. They are stored in the form that takes the least space in the
+// browser's compressed module.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@ namespace vitrine::inline codec::trained {
 extern const char kCutWeights[];         // CutModel::kFeatures numbers
 extern const char kTangentialWeights[];  // DisplacementModel::kKinds * kFeatures numbers
 extern const char kNormalWeights[];      // DisplacementModel::kKinds * kFeatures numbers
-extern const char kEvidence[];  // DisplacementModel::kClues * kLevels * 4 members of Evidence
+// Four numbers for each of the DisplacementModel::kClues * kLevels Evidence structs.
+extern const char kEvidence[];
 
 // Two numbers per bit: kHalf plus eight times the logit of the bit's probability, and an index into
 // kSeen.
