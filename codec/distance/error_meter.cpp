@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kSamples = 2'000;  // number of samples on each surface
 constexpr std::uint64_t kSeed = 1;
-// Number of samples on each surface whose triangles are bounded first.
+// Number of samples with the largest distances on each surface. The triangles that contain them are
+// bounded first.
 constexpr std::size_t kWorst = 32;
 constexpr double kTolerance = 1.02;
 constexpr double kNegligible = 1e-6;  // share of the diagonal of the original's bounding box
@@ -75,7 +76,7 @@ RegionedSurface in_regions(const TriangleBvh& bvh, std::span<const std::uint16_t
   return surface;
 }
 
-// Builds the hierarchy of `mesh` and frees the mesh at once.
+// Builds the bounding volume hierarchy of `mesh` and frees the mesh at once.
 TriangleBvh consume(TriangleMesh mesh) {
   TriangleBvh bvh(mesh);
   mesh = {};

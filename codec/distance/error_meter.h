@@ -38,8 +38,8 @@ class ErrorMeter {
   ErrorMeter(const ErrorMeter&) = delete;
 
   // Measures the displayed mesh of a level, in model units. `mesh` must have at least one face.
-  // max_error exceeds the true maximum by at most 2 % or 1e-6 of the diagonal, except for tangled
-  // surfaces (see HausdorffBound).
+  // max_error exceeds the true maximum by at most 2 % or 1e-6 of the diagonal of the original's
+  // bounding box, except for tangled surfaces (see HausdorffBound).
   LevelError measure(TriangleMesh mesh, const LevelRegions& regions = {}) const;
   // Measures a copy of the original whose vertices are moved by `move`, for example rounded to a
   // lattice. Fast if the vertices move little.

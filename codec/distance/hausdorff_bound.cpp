@@ -14,11 +14,11 @@ constexpr double kManyWitnesses = 16;
 // The source counts as finer if it has at least kFine times as many triangles as the target. In
 // that case one witness may bound a whole triangle of the source.
 constexpr std::size_t kFine = 2;
-// One exact distance can settle a piece if the piece's radius is at most this share of the limit.
+// One exact distance can settle a piece if the piece's radius is at most this share of limit().
 constexpr double kOneDistance = 0.9;
-// An edge does not cut a piece that reaches beyond it by at most this share of the limit.
+// An edge does not cut a piece that reaches beyond it by at most this share of limit().
 constexpr double kSlack = 1e-6;
-// The limit counts as wide if it exceeds kWide times the width of the target's triangles. In that
+// limit() counts as wide if it exceeds kWide times the width of the target's triangles. In that
 // case a few exact distances settle a triangle of the source faster than a patch of the target
 // does.
 constexpr double kWide = 4;
@@ -27,7 +27,7 @@ Vec3 centre_of(const TrianglePoints& t) {
   return (t.a + t.b + t.c) * (1.0 / 3);
 }
 
-// Returns the squared area of the parallelogram of which the triangle is one half.
+// Returns the square of twice the triangle's area.
 double squared_area(const TrianglePoints& t) {
   const Vec3 normal = normal_of(t);
   return dot(normal, normal);

@@ -13,10 +13,10 @@ using Ints __attribute__((vector_size(16))) = std::int32_t;
 // Error bound of a point's prism coordinates, relative to 1 plus the point's distance from corner
 // a. Covers eight roundings, and two more for safety.
 constexpr float kRounding = 6e-7f;
-// Largest distance of a point, in units of the prism; keeps floats finite.
+// Patches do not reach points farther away than this, in units of the prism. This keeps floats
+// finite.
 constexpr float kFarthest = 1e5f;
-// Minimum of twice a triangle's area, in squared units of the prism. No patch covers a thinner
-// triangle.
+// Patches do not cover a triangle if twice its area is at most this, in squared units of the prism.
 constexpr double kLeastArea = 1e-6;
 constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0};
 
@@ -35,8 +35,8 @@ double plane_height(const TrianglePoints& s, const Vec3& direction, const Triang
   return most / std::abs(dot(normal, direction));
 }
 
-// Returns the error bound of twice the area of a triangle whose points have this slack. The sides
-// of the triangle are at most 2 slack / kRounding long.
+// Returns an error bound for twice the area of a triangle. `slack` is the largest error bound of
+// its corners, so its sides are at most 2 slack / kRounding long.
 float doubtful_area(float slack) {
   return 16 / kRounding * slack * slack;
 }

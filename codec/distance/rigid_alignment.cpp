@@ -8,7 +8,7 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr int kMaxIterations = 100;
-// Alignment ends if an iteration lowers the mean squared distance by a smaller share.
+// Alignment ends if an iteration lowers the mean squared distance by less than this share.
 constexpr double kConverged = 1e-7;
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;

@@ -33,8 +33,8 @@ struct SurfaceDistance {
 Expected<SurfaceDistance> measure(const TriangleMesh& a, const TriangleMesh& b,
                                   const MeasureOptions& options = {});
 
-// Returns only the rms distance, the larger of both directions. Takes hierarchies, so that the
-// caller builds each only once even if it measures a surface several times. Ignores
+// Returns only the rms distance, the larger of both directions. Takes bounding volume hierarchies,
+// so that the caller builds each only once even if it measures a surface several times. Ignores
 // `options.aligns`. Both surfaces must have at least one face.
 double rms_distance(const TriangleBvh& a, const TriangleBvh& b, const MeasureOptions& options = {});
 

@@ -16,8 +16,8 @@ class WitnessSurface {
  public:
   // `bvh` must outlive this object.
   explicit WitnessSurface(const TriangleBvh& bvh);
-  // Makes the surface of `bvh`, which must have been made with moved vertices from the hierarchy of
-  // `shape`. Both arguments must outlive this object.
+  // Makes the surface of `bvh`, which must be a copy of the hierarchy of `shape` with moved
+  // vertices. Both arguments must outlive this object.
   WitnessSurface(const TriangleBvh& bvh, const WitnessSurface& shape);
   WitnessSurface(WitnessSurface&&) = default;
 
@@ -28,7 +28,7 @@ class WitnessSurface {
   // Returns the triangle on the other side of an edge of t, or t itself if the edge is a border
   // edge. Edge k runs from corner k to the next corner.
   std::uint32_t across(std::uint32_t t, std::uint32_t edge) const { return across_[t][edge] / 3; }
-  // Returns the number that the edge has in the triangle across it.
+  // Returns the index that the edge has in the triangle on its other side.
   std::uint32_t edge_across(std::uint32_t t, std::uint32_t edge) const {
     return across_[t][edge] % 3;
   }
