@@ -8,8 +8,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Limit of the coordinates, in longest sides. A rounding error is at most 2^-24 of the coordinate,
-// so at most 2^-20 of the longest side.
+// A mesh is far from the origin if a coordinate exceeds this many times the longest side of its
+// bounding box. A rounding error is at most 2^-24 of a coordinate, so at most 2^-20 of the longest
+// side for all other meshes.
 constexpr double kFarthest = 16;
 
 double farthest(const Bounds& bounds) {

@@ -6,8 +6,8 @@
 
 namespace vitrine::inline codec {
 
-// Whether single precision would move vertices by more than about a millionth of the longest side.
-// This happens to objects in map coordinates.
+// Whether single precision would move vertices by more than about a millionth of the longest side
+// of their bounding box. This happens to objects in map coordinates.
 bool is_far_from_origin(const Bounds& bounds);
 
 // Returns the largest distance by which single precision moves a coordinate.

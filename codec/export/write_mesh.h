@@ -55,7 +55,7 @@ constexpr const ExportFormat& row_of(MeshFormat format) {
   return kExportFormats[static_cast<std::size_t>(format)];
 }
 
-// The three texts below: "ply, glb, obj, stl, drc or wrl", ".ply, .glb, …" and
+// The three constants below are "ply, glb, obj, stl, drc or wrl", ".ply, .glb, …" and
 // "ply,glb,obj,stl,drc,wrl".
 constexpr std::string_view extension_of(const ExportFormat& format) {
   return format.extension;
