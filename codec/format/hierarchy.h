@@ -46,8 +46,8 @@ struct Hierarchy {
   std::vector<VertexId> base_ids;     // per base vertex: its id in the fine mesh
   std::uint32_t loops = 0;            // number of boundary loops of the fine mesh
   std::vector<CollapseLevel> levels;  // levels[0] leads from level 1 to the base
-  std::vector<std::vector<Component>>
-      insertions;                    // insertions[l]: components that level l + 1 adds to level l
+  // insertions[l] holds the components that level l + 1 adds to level l.
+  std::vector<std::vector<Component>> insertions;
   std::vector<std::uint32_t> shift;  // per level, base first: shift of its lattice (cell.h)
   // refined[l] holds all vertices of level l. It is empty if level l + 1 has the same lattice.
   std::vector<std::vector<Refined>> refined;

@@ -89,8 +89,8 @@ struct Manifest {
   std::size_t find_chunk(std::uint32_t level, std::uint32_t leaf) const;
 };
 
-// Returns the size of the header in bytes. `prefix` holds at least the first kHeaderPrefix bytes of
-// the file.
+// header_bytes() returns the size of the header in bytes. `prefix` holds at least the first
+// kHeaderPrefix bytes of the file.
 inline constexpr std::size_t kHeaderPrefix = 16;
 Expected<std::uint64_t> header_bytes(std::span<const std::uint8_t> prefix);
 
