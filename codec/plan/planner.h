@@ -41,14 +41,14 @@ class Planner {
   void want(const Want& want);
   void have(std::size_t chunk);  // marks a chunk as applied or requested
 
-  // Returns the next chunk to fetch, or nullopt if the detail target is reached. All chunks that it
-  // requires (see Refiner) have been given to have().
+  // Returns the next chunk to fetch, or nullopt if the detail target is reached. All chunks that
+  // the returned chunk requires (see Refiner) have been given to have().
   std::optional<std::size_t> next() const;
 
-  // Returns the bytes of the header, the base mesh and the chunks given to have().
+  // Returns the total size in bytes of the header, the base mesh and the chunks given to have().
   std::uint64_t bytes_held() const { return bytes_; }
 
-  // Estimates the number of faces of the base mesh and the chunks given to have().
+  // Estimates the number of faces after the chunks given to have() are applied to the base mesh.
   std::uint64_t faces_held() const;
 
  private:
@@ -58,8 +58,8 @@ class Planner {
   const Manifest* manifest_;
   Want want_;
   std::vector<std::uint8_t> have_;
-  // The members below follow from have_. They are stored because next() may run once for each of
-  // 300,000 chunks.
+  // The members below can be computed from have_. They are stored because next() may run once for
+  // each of 300,000 chunks.
   std::size_t first_missing_ = 0;
   std::uint64_t bytes_;
   double faces_;

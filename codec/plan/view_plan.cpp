@@ -6,9 +6,9 @@
 namespace vitrine::inline codec {
 namespace {
 
-// If the error bound of a chunk's level equals that of the coarser level, the chunk still has this
-// small gain, so that finer levels can be reached.
-constexpr double kLeastGain = 0.01;  // share of the coarser level's error, in pixels
+// The gain of a chunk is at least this share of the coarser level's error in pixels. Finer levels
+// can then be reached even if the error bound of a level equals that of the coarser level.
+constexpr double kLeastGain = 0.01;
 
 }  // namespace
 
