@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Applies enhancement layers to a base mesh. The chunk of level l and region k can be applied once
-// k and every adjacent region have level l - 1. Every order that obeys this rule gives the same
-// final mesh. Every intermediate state is a valid manifold without cracks.
+// Refines a base mesh chunk by chunk. The chunk of level l and region k can be applied once k and
+// every adjacent region have level l - 1. Every order that obeys this rule gives the same final
+// mesh. Every intermediate state is a valid manifold without cracks.
 //
 // Contract: safe on hostile bytes. A damaged chunk gives an error or a valid mesh. After an error
 // the refiner is unusable (apply() keeps failing with kState) but can be destroyed safely.
