@@ -47,8 +47,8 @@ const std::vector<Pick>& CollapseMatcher::match(const LevelRules& rules) {
   reach_ = mean_edge_ * (rules.is_regular ? kReachRegular : kReach);
   choose(rules, {edges_.data(), cheap}, rules.most);
   const std::size_t enough = std::min<std::size_t>(rules.most, surface_.live.size() / 5);
-  if (picks_.size() <
-      enough) {  // few edges pass on a rough surface, so all edges are tried with the larger reach
+  if (picks_.size() < enough) {
+    // Few edges pass on a rough surface, so all edges are tried with the larger reach.
     reach_ = mean_edge_ * kReach;
     choose(rules, edges_, enough);
   }

@@ -75,7 +75,8 @@ RegionLabels label_regions(std::span<const Vec3i> positions, std::uint32_t capac
   std::vector<std::uint32_t> vertices(count);
   std::iota(vertices.begin(), vertices.end(), 0u);
   // Each fork halves the number of vertices, so a leaf has at least about half the capacity, unless
-  // many vertices coincide.
+  // many vertices coincide. The capacity is therefore raised until about kMostLeaves leaves
+  // suffice.
   RegionTreeBuilder(positions, std::max(capacity, count / (kMostLeaves / 2)), labels)
       .build(vertices);
   labels.tree.link();

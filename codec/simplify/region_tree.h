@@ -49,8 +49,9 @@ class RegionJoiner {
   }
 
   RegionTree& tree_;
-  std::vector<std::uint32_t>
-      joined_;  // per node: number (from 1) of the join() call that joined it; 0 if not joined
+  // Per node: number of the join() call, from 1, that joined its children; 0 if they are not
+  // joined.
+  std::vector<std::uint32_t> joined_;
   std::uint32_t calls_ = 0;
 };
 

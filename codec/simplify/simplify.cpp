@@ -17,7 +17,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-// Number of levels that keep a regular sampling, from the finest on.
+// Number of finest levels that keep a regular sampling (LevelRules::is_regular).
 constexpr std::uint32_t kRegularLevels = 4;
 // Weight of the edge length in the cost. It makes short edges collapse first, above all in the
 // finest level, where the other costs are noise. Without it, coarser levels need more bytes.

@@ -36,9 +36,9 @@ struct SimplifyOptions {
 // the planes of faces that are only a few lattice steps wide.
 //
 // Fails (kBadInput) if Connectivity::close refuses the faces. The base mesh has more vertices than
-// requested if no legal collapse is left (high genus; with kHeap also many components) or if the
-// maximum number of levels is reached. If the coarsest level would have more than one region, the
-// model is simplified as a single region.
+// requested if no legal collapse is left or if the maximum number of levels is reached. The
+// collapses run out in meshes of high genus and, with kHeap, in meshes of many components. If the
+// coarsest level would have more than one region, the model is simplified as a single region.
 //
 // With midpoint placement, v~ lies inside the lattice. With pyramid placement, v~ lies at most a
 // quarter of the lattice's side outside it. The same input gives the same hierarchy on every
