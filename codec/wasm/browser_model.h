@@ -51,7 +51,7 @@ class BrowserModel {
 
   // The displayed surface is returned in pieces, which avoids a second copy. Call display() first.
   // Then each call of next_vertices() or next_faces() fills the arrays below with the next vertices
-  // or faces. Both return the number of these, or 0 at the end.
+  // or faces. Both return the number of vertices or faces in the arrays, or 0 at the end.
   static constexpr std::uint32_t kPiece = 4096;  // maximum number of vertices or faces in a piece
   void display();
   std::uint32_t next_vertices();
@@ -88,9 +88,9 @@ class BrowserModel {
   bool needs_restart_ = false;  // whether no chunk can be applied until restart()
 
   std::vector<double> summary_;
-  Segments<std::array<float, 3>>
-      shown_;                  // displayed positions of all vertices, lattice units from the centre
-  VertexId vertices_out_ = 0;  // number of vertices returned since display()
+  // Displayed positions of all vertices, in lattice units from the centre.
+  Segments<std::array<float, 3>> shown_;
+  VertexId vertices_out_ = 0;    // number of vertices returned since display()
   std::uint32_t faces_out_ = 0;  // number of faces of connectivity() visited since display()
   std::vector<std::array<float, 3>> positions_;
   std::vector<std::array<std::int16_t, 4>> normals_;

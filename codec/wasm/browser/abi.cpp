@@ -168,7 +168,7 @@ VITRINE_EXPORT(face_count) std::uint32_t face_count(BrowserModel* model) {
 
 // The displayed surface is returned in pieces. Call display() first. Then each call of
 // next_vertices() or next_faces() fills the arrays below with the next vertices or faces. Both
-// functions return how many there are, or 0 at the end.
+// functions return the number of vertices or faces in the arrays, or 0 at the end.
 VITRINE_EXPORT(display) void display(BrowserModel* model) {
   model->display();
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kPage = 65536;
 constexpr std::size_t kShare = 16;
-// Bytes. Block sizes and the alignment of allocations are multiples of it.
+// Alignment of allocations, in bytes. Block sizes are multiples of it.
 constexpr std::size_t kUnit = 16;
 constexpr std::size_t kMost = std::size_t{1} << 31;
 
@@ -21,7 +21,9 @@ struct Block {
   std::size_t size_before;  // size of the previous block in memory
   // Size in bytes, including both size members. The lowest bit is set while the block is in use.
   std::size_t size;
-  Block* next;  // the allocation begins here; in a free block, links of the free list
+  // In a block in use, the allocation begins at `next`. In a free block, `next` and `last` are
+  // links of the free list.
+  Block* next;
   Block* last;
 
   Block* at(std::size_t offset) {
