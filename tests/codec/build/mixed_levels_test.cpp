@@ -63,7 +63,7 @@ class Bust {
 
   const Manifest& manifest() const { return built_.report.manifest; }
   const TriangleMesh& original() const { return original_; }
-  const TriangleBvh& bvh() const { return bvh_; }  // tree of the original mesh
+  const TriangleBvh& bvh() const { return bvh_; }  // bounding volume hierarchy of the original
   std::uint32_t leaf(VertexId original) const { return leaf_[original]; }
 
   Refiner start() const { return std::move(*open_model(built_.file)); }
@@ -101,14 +101,14 @@ class Bust {
   std::vector<std::uint32_t> leaf_;
 };
 
-// The region at one corner of a face.
+// The level of the region at one corner of a face, and the error that this region states.
 struct CornerRegion {
   std::uint32_t level;
   double stated;
 };
 using Places = std::array<CornerRegion, 3>;
 
-// Returns the smallest error that the coarsest of the three regions state.
+// Returns the smallest error stated by those of the three regions that have the coarsest level.
 double least_stated(const Places& places) {
   const std::uint32_t coarsest = std::min({places[0].level, places[1].level, places[2].level});
   double least = std::numeric_limits<double>::infinity();
@@ -334,7 +334,7 @@ TEST_P(MixedLevels, ShowACameraNoErrorAboveWhatItAllows) {
   std::size_t mixed = 0;
   for (int i = 0; i < 6; ++i) {
     const double degrees = i == 0 ? 20 : 130;
-    // Model units, at the distance kAway from the eye.
+    // The largest error allowed, in model units, at the distance kAway from the eye.
     const double allowed = i % 2 == 0 ? 0.012 : 0.0035;
     // The camera is turned away from the target, which therefore lies near the side of a wide view.
     const Vec3 target = anywhere(), from = anywhere(), to = anywhere(), aside = anywhere();
@@ -347,7 +347,7 @@ TEST_P(MixedLevels, ShowACameraNoErrorAboveWhatItAllows) {
     const DisplayedSurface shown(bust, refiner);
     Largest there, back;
     const auto look = [&](const Vec3& p, double distance, const Places& places, Largest& largest) {
-      // Close to the eye even full resolution exceeds the tolerance.
+      // Close to the eye, even the error of full resolution exceeds the allowed number of pixels.
       const double least = camera.pixels(p, m.levels.back().max_error);
       largest.add(camera.pixels(p, distance), std::max(camera.view.pixel_error, least),
                   is_mixed(places));

@@ -86,8 +86,8 @@ TEST(CutModel, EveryCutOfAnyRingComesBack) {
 
 SplitSurroundings random_surroundings(Dice& dice) {
   SplitSurroundings s;
-  // Many features are equal, because features that depend on each other leave the regression
-  // without a solution.
+  // Makes many features equal. Features that depend on each other leave the regression without a
+  // unique solution.
   const double bound = dice.one_in(2) ? 400'000 : 10;
   const Vec3 one = {random_double(dice, bound), random_double(dice, bound),
                     random_double(dice, bound)};

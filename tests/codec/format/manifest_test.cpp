@@ -289,7 +289,8 @@ TEST(Manifest, NamesTheVersionAndTheFeaturesItDoesNotKnow) {
   bytes[8] = 1;
   bytes[10] = 7;  // readers accept newer minor versions
   EXPECT_TRUE(parse_header(test::sealed(bytes)));
-  for (const int bit : {0x08, 0x40}) {  // flags: the attribute table, and one without a meaning
+  // Flag 0x08 is reserved for the attribute table; 0x40 has no meaning.
+  for (const int bit : {0x08, 0x40}) {
     auto with_bit = bytes;
     with_bit[16] = static_cast<std::uint8_t>(with_bit[16] | bit);
     with_bit = test::sealed(with_bit);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that a camera gets less than the whole model, all that it needs, and other chunks than
-// another camera.
+// Checks that a camera gets all chunks that it needs, less than the whole model, and other chunks
+// than another camera.
 #include "codec/plan/view.h"
 
 #include <gtest/gtest.h>
@@ -175,11 +175,11 @@ TEST(View, ABoxIsAsNearAsWhatIsInSightOfIt) {
     const double slope = std::tan(view.field_of_view / 2 * std::numbers::pi / 180);
     const double depth = kSmall / pixels * view.height / (2 * slope);
     EXPECT_LE(depth, sampled * (1 + kSmall)) << i;
-    // the box is next to the eye, or no point of the grid is in sight
+    // skips a box next to the eye, and a box of which no grid point is in sight
     if (depth < 2 || sampled > 1e9) continue;
-    EXPECT_GT(depth, sampled - 6) << i;  // 6 is four steps of the grid
+    EXPECT_GT(depth, sampled - 6) << i;  // four steps of the coarsest grid
     ++seen;
-    // the part in sight begins deeper than the box
+    // counts the boxes whose visible part begins deeper than the box
     beside += sampled > low.x - view.camera[12] + 10 ? 1 : 0;
   }
   EXPECT_GT(seen, 100);

@@ -31,8 +31,8 @@ TEST(SmallComponents, OfAModelOfSpecksAloneTheLargestAreTheBase) {
     EXPECT_LE(width(component.mesh.positions), width(hierarchy->base.positions));
 }
 
-// The torus of seven vertices, which are all adjacent to each other. No torus has fewer vertices,
-// or more faces per vertex.
+// The torus of seven vertices, each adjacent to all others. No torus has fewer vertices. Like every
+// torus, it has two faces per vertex, the most that an inserted component may have.
 TEST(SmallComponents, TheSmallestTorusIsBornWhole) {
   LatticeMesh mesh = on_lattice(sheet(30, 30));
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
