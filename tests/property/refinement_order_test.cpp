@@ -93,7 +93,7 @@ TEST(RefinementOrder, TheSameChunksGiveTheSameMeshInEveryOrder) {
 }
 
 // Returns the surface with its positions converted to cells of `level`. This drops the lower bits,
-// which a layer adds to the positions and an undo does not clear.
+// which a chunk adds to the positions and an undo does not clear.
 SurfaceFaces surface_in_cells(const Refiner& refiner, std::uint32_t level) {
   LatticeMesh mesh = refiner.lattice_mesh();
   for (Vec3i& p : mesh.positions)
