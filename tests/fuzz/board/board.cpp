@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds arbitrary bytes to the framing of each chip and to the grammar of each dialect.
+// Passes arbitrary bytes to the code that reads a motor board: the framing of each USB serial chip,
+// and the parsers of the Horus and FabScanPi answers.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

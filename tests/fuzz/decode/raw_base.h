@@ -12,8 +12,8 @@
 
 namespace vitrine::fuzz {
 
-// Returns the positions, faces and attributes of level 0. In `bytes`, each element of these is
-// three 32-bit integers. The result is incomplete if bytes are missing.
+// Returns the positions, faces and attributes of level 0. In `bytes`, each position, face and
+// attribute value is three 32-bit integers. The result is incomplete if bytes are missing.
 BaseMesh read_raw_base(std::span<const std::uint8_t> bytes, const Manifest& manifest);
 
 // Returns the file `pmesh` with its base mesh replaced by `base` in raw form. Both must be valid,

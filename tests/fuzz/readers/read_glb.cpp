@@ -6,7 +6,7 @@ namespace {
 
 // Returns the memory bound for a file. A file that may contain compressed data or pictures gets a
 // larger bound, because decoding needs memory. This includes files with a backslash, because a JSON
-// escape may hide one of the words.
+// escape may hide the words "compression" and "image".
 vitrine::test::HeapBound heap_for(std::string_view glb) {
   for (const char* word : {"compression", "image", "\\"}) {
     if (glb.find(word) != glb.npos) return vitrine::test::kReadingCompressedHeap;
