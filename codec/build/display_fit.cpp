@@ -9,7 +9,7 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::size_t kFaces = 1000;
-// The fit uses only the centroids of faces. It alone would make the filter too strong, because the
+// The fit uses only the centroids of faces. Its full strength would be too much, because the
 // corners of a face lie farther out than its centroid. In measurements, the rms error was smallest
 // at about this share of the fitted strength.
 constexpr double kShare = 0.8;
