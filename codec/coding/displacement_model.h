@@ -30,8 +30,8 @@ struct SplitSurroundings {
   // 1 if both vertices have at least five neighbours, not counting each other; else 0.
   std::size_t kind = 0;
 
-  // Clues that indicate how large the error of the prediction is. Each has a level in [0, kLevels -
-  // 1].
+  // Clues that indicate how large the error of the prediction is. Each clue has an integer value in
+  // [0, kLevels - 1].
   enum Clue : std::size_t {
     kRingSizes,
     kScale,
@@ -84,7 +84,7 @@ class DisplacementModel {
   static constexpr std::size_t kLevels = SplitSurroundings::kLevels;
   using Weights = std::array<double, kFeatures>;
 
-  // The contribution of one level of one clue to the model of the error.
+  // The contribution of one value of one clue to the model of the error.
   struct Evidence {
     std::array<double, 3> factor{};  // factors of the variances along the three axes of the frame
     double bias = 0;                 // term of the mean along the prediction, in units of scale

@@ -31,8 +31,8 @@ double read_number(const char*& text) {
 
 using Probabilities = std::array<std::uint16_t, 2 * kHalf>;
 
-// Converts a probability to units of 1/65536, with a precision of 12 bits. The result is never 0 or
-// 1.
+// Converts a probability to units of 1/65536, with a precision of 12 bits. The result never means a
+// probability of 0 or 1.
 std::uint16_t twelve_bits(double probability) {
   return static_cast<std::uint16_t>(std::max(static_cast<int>(probability * 4096), 1) << 4 | 8);
 }
