@@ -14,7 +14,7 @@
 namespace vitrine::inline codec {
 
 struct LevelError {
-  // Model units. No point of either surface is farther from the other surface.
+  // In model units. No point of either surface is farther than this from the other surface.
   double max_error = 0;
   // The larger rms distance of the two directions, in model units. Each is computed from 2,000
   // samples.

@@ -34,7 +34,7 @@ namespace vitrine::inline codec {
 // its corners.
 struct RegionedSurface {
   const TriangleBvh& bvh;
-  // Per vertex of `bvh`: its region, from 0; empty: all in region 0.
+  // Per vertex of `bvh`: its region, numbered from 0. Empty if all vertices are in region 0.
   std::vector<std::uint16_t> region;
 
   // Returns the regions of a triangle's corners. The distinct regions come first; the last of them
@@ -132,7 +132,7 @@ class HausdorffBound {
   // Whether the source has so many more triangles than the target that one witness may bound
   // several.
   bool is_source_finer_ = false;
-  // Limits above this value exceed the width of the target's triangles several times.
+  // kWide times the width of the target's triangles; a larger limit() counts as wide.
   double wide_ = 0;
   std::uint32_t last_ = 0;  // the newest witness, from which the next search starts
 };

@@ -10,11 +10,11 @@ namespace {
 
 using Ints __attribute__((vector_size(16))) = std::int32_t;
 
-// Error bound of a point's prism coordinates, relative to 1 plus the point's distance from corner
-// a. Covers eight roundings, and two more for safety.
+// Error bound of a point's prism coordinates, relative to 1 plus the point's distance from corner a
+// of the prism's triangle. Covers eight roundings, and two more for safety.
 constexpr float kRounding = 6e-7f;
-// Patches do not reach points farther away than this, in units of the prism. This keeps floats
-// finite.
+// No patch reaches a point farther than this from corner a of the prism's triangle, in units of the
+// prism. This keeps floats finite.
 constexpr float kFarthest = 1e5f;
 // Patches do not cover a triangle if twice its area is at most this, in squared units of the prism.
 constexpr double kLeastArea = 1e-6;

@@ -62,8 +62,8 @@ class PatchCover {
   struct Prism;
   // A point in the coordinates of the prism.
   struct PrismPoint {
-    // Lane 0: height over the plane, negative below it. Lanes 1 to 3: depth behind each wall, times
-    // the length of the wall.
+    // Lane 0: height over the plane, negative below it. Lanes 1 to 3: distance from each wall,
+    // positive inside the prism, times the length of the wall.
     Lanes at;
     float slack;    // error bound of `at`
     float squared;  // upper bound of the squared distance from the triangle
