@@ -14,8 +14,8 @@
 
 namespace vitrine::inline codec {
 
-// Positions have single precision, except in OBJ and VRML (nine digits) and DRC (24 bits of the
-// bounding box).
+// Positions have single precision, except in OBJ and VRML (nine digits) and in DRC (24 bits per
+// coordinate of the bounding box).
 enum class MeshFormat {
   kPly,   // binary little-endian; colours as bytes
   kGlb,   // glTF 2.0; colours in linear light, as glTF requires, as normalised 16-bit numbers
