@@ -59,7 +59,7 @@ struct Manifest {
   Placement placement = Placement::kMidpoint;
   PerSemantic<Semantic> attributes;  // vertex attributes in ascending order
   bool has_insertions = false;       // whether chunks may insert small components
-  // Number of boundary loops at full resolution; without insertions, at every level.
+  // Number of boundary loops at full resolution. Without insertions, every level has this number.
   std::uint32_t loops = 0;
 
   std::vector<LevelInfo> levels;  // levels[0] is the base mesh
