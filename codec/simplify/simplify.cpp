@@ -23,8 +23,9 @@ constexpr std::uint32_t kRegularLevels = 4;
 // finest level, where the other costs are noise. Without it, coarser levels need more bytes.
 constexpr double kFinestLengthWeight = 5e-3, kLengthWeight = 1e-3;
 constexpr double kCellPerError = 1;  // side of a cell, in units of the rms distance from the planes
-// If a level removes less than 1/50 of the vertices, it is the last one: topology prevents most
-// collapses, and each further level costs bytes.
+// A level that removes less than 1/50 of the vertices is the last one, unless small components can
+// be removed next. In such a level, topology prevents most collapses, and each further level costs
+// bytes.
 constexpr std::uint32_t kLeastShare = 50;
 
 Surface make_surface(const LatticeMesh& fine, Connectivity mesh, std::span<const Vec3> original) {
