@@ -86,11 +86,11 @@ TEST(CutModel, EveryCutOfAnyRingComesBack) {
 
 SplitSurroundings random_surroundings(Dice& dice) {
   SplitSurroundings s;
-  // Makes many features equal. Features that depend on each other leave the regression without a
-  // unique solution.
   const double bound = dice.one_in(2) ? 400'000 : 10;
   const Vec3 one = {random_double(dice, bound), random_double(dice, bound),
                     random_double(dice, bound)};
+  // Makes many features equal. Features that depend on each other leave the regression without a
+  // unique solution.
   for (Vec3& f : s.features)
     f = dice.one_in(3) ? Vec3{random_double(dice, bound), 0, random_double(dice, bound)} : one;
   s.normal = dice.one_in(3) ? Vec3{} : Vec3{0, 0.6, 0.8};
