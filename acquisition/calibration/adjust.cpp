@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refines the calibration by the Levenberg-Marquardt method, over all pictures at once. A picture
-// depends only on the camera, the axis, its placement and its slip, so the normal equations are
-// summed picture by picture.
+// depends only on the camera, the axis, its placement and its slip (the error of the table's
+// angle). So the normal equations are summed picture by picture.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,10 +14,12 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kCornerNoise = 0.05;  // pixels
-// Error of a stepper motor, in radians.
+// Standard deviation of a corner's position, in pixels.
+constexpr double kCornerNoise = 0.05;
+// Standard deviation of the error of the table's angle, in radians, with a stepper motor.
 constexpr double kSlipNoise = 0.05 * std::numbers::pi / 180;
-constexpr double kRobust = 4;  // standard deviations: beyond this, Huber's loss grows linearly
+// Beyond this many standard deviations, Huber's loss grows linearly.
+constexpr double kRobust = 4;
 
 // The unknowns on which one picture depends.
 struct PictureUnknowns {
@@ -31,7 +33,7 @@ constexpr int kCamera = 8, kPose = 6, kAxis = 4;
 constexpr int kFree = kCamera + kPose;
 constexpr int kPart = kFree + kAxis + 1;
 using Deltas = cv::Vec<double, kPart>;
-// Steps of the unknowns, from which the derivatives are estimated.
+// Steps by which the unknowns are varied to estimate the derivatives.
 constexpr std::array<double, kPart> kSteps = {
     // Camera: fx fy cx cy k1 k2 p1 p2.
     0.1, 0.1, 0.1, 0.1, 1e-4, 1e-3, 1e-5, 1e-5,

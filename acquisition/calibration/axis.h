@@ -11,9 +11,10 @@ namespace vitrine::acquisition {
 // positive in the direction of the plane's normal, x × y. [WLL] eq. 1 assumes that the axis lies in
 // the plane: offset = tilt = 0.
 struct TurntableAxis {
-  double a = 0, b = 0;          // mm, mm per mm
-  double offset = 0, tilt = 0;  // mm, mm per mm
-  // Whether the table turns clockwise, seen from above, as the board's angle grows.
+  double a = 0, b = 0;          // a in mm, b in mm per mm
+  double offset = 0, tilt = 0;  // offset in mm, tilt in mm per mm
+  // Whether the table turns clockwise, seen from above, as the angle that the motor board reports
+  // grows.
   bool is_clockwise = false;
 };
 

@@ -85,7 +85,7 @@ std::vector<LaserPoint> on_target(const CalibrationInput& input, const Calibrati
   return points;
 }
 
-// Replaces the poses of the points by the numbers 0, 1, 2, … and returns how many poses there are.
+// Renumbers the poses of the points as 0, 1, 2, … and returns how many poses there are.
 int number_poses(std::vector<LaserPoint>& points) {
   std::map<int, int> numbers;
   for (LaserPoint& p : points) {

@@ -11,15 +11,15 @@
 
 namespace vitrine::acquisition {
 
-// The pictures taken at one position of the table: the target in the picture without laser, and the
-// laser's line on the target.
+// One position of the table: the corners seen in the picture without laser, and the points of the
+// laser's line seen in the picture with laser.
 struct TargetPicture {
   // Pictures with the same placement differ only by the table's angle: the target was not touched
   // between them.
   int placement = 0;
-  double angle = 0;  // degrees, as the board counts the table's angle
+  double angle = 0;  // the table's angle in degrees, as reported by the motor board
   TargetView view;
-  // Pixels of the whole picture. Empty if the laser misses the target.
+  // The laser's line, with points on and beside the target. Empty if no line is seen.
   std::vector<ImagePoint> stripe;
 };
 
@@ -43,8 +43,8 @@ struct CalibrationOptions {
 // determine the calibration or contradict each other.
 Expected<Calibrated> calibrate(const CalibrationInput& input, const CalibrationOptions& options);
 
-// Computes the calibration of a scanner that was measured by other means. Fits the map to points
-// with known coordinates in the laser plane. `camera` and `region` have the same meaning as in
+// Computes a calibration without pictures, from a known axis and points with known coordinates in
+// the laser plane. Fits the map to these points. `camera` and `region` have the same meaning as in
 // CalibrationInput.
 Expected<Calibrated> calibrate(std::span<const Correspondence> points, const TurntableAxis& axis,
                                const std::string& camera, const SensorRegion& region,

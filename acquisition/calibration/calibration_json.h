@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads and writes a calibration as JSON. Numbers are written with all their bits. When read, they
-// are checked against bounds.
+// Reads and writes a calibration as JSON. Numbers are written with enough digits to restore every
+// bit. When read, they are checked against bounds.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads points of the laser plane, measured by other means, from CSV text.
+// Reads pairs of an image point and its known position in the laser plane from CSV text.
 #pragma once
 
 #include <string>

@@ -32,10 +32,10 @@ Expected<std::vector<HeldOutPoint>> judge(int poses, int degree, const LeaveOut&
   return points;
 }
 
-// Returns the root mean square of the residuals without outliers. Falsely detected corners or
-// stripes do not help to choose a degree.
+// Returns the root mean square of the residuals without outliers. Outliers are falsely detected
+// corners or stripes, which say nothing about the degree.
 double without_strays(std::span<const HeldOutPoint> points) {
-  constexpr double kFar = 4;  // times the median distance
+  constexpr double kFar = 4;  // residuals beyond this multiple of the median are outliers
   std::vector<double> sizes;
   for (const HeldOutPoint& p : points)
     sizes.push_back(p.size());

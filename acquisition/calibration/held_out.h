@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cross-validation: judges each pose once by a map fitted without it.
+// Cross-validation: judges the points of each pose by a map that was fitted without that pose.
 #pragma once
 
 #include <functional>

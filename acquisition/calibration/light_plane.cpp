@@ -11,7 +11,8 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kLeastPoints = 100;
-// Least standard deviation, in mm, of the points perpendicular to their longest extent.
+// Points whose standard deviation perpendicular to their longest extent is smaller than this, in
+// mm, lie nearly on a line and do not determine a plane.
 constexpr double kLeastSpread = 2;
 constexpr double kLeastInlier = 0.02;  // mm: a point this close always counts as an inlier
 

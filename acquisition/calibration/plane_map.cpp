@@ -21,7 +21,8 @@ int terms_of(int degree) {
   return (degree + 1) * (degree + 2) / 2;
 }
 
-// Writes the powers of u and v that belong to the coefficients, in the order of evaluate().
+// Writes to `row` the powers of u and v by which the coefficients are multiplied, in the order of
+// the coefficients (PlaneMap::terms_).
 void write_powers(double u, double v, int degree, double* row) {
   for (int j = degree; j >= 0; --j) {
     for (int i = degree - j; i >= 0; --i)

@@ -33,14 +33,15 @@ struct Coverage {
 struct CalibrationReport {
   int pictures = 0;
   std::size_t points = 0;  // stripe points on the target
-  std::size_t strays = 0;  // points left out: on the target, but off the stripe
-  int unclear = 0;         // pictures left out because too many of their points were strays
+  // Number of points on the target that were left out because they are off the stripe.
+  std::size_t strays = 0;
+  int unclear = 0;  // pictures left out because too many of their points were strays
   // Rms reprojection error of the target's corners, in pixels. 0 if there are no pictures.
   double reprojection = 0;
   // Rms difference, in degrees, between the angles that the table reports and those in the
   // pictures.
   double table_error = 0;
-  ResidualSummary residuals;  // same value as in the calibration
+  ResidualSummary residuals;  // equal to Calibration::residuals
   Coverage coverage;
   std::vector<DegreeResult> degrees;
   std::vector<HeldOutPoint> held_out;
@@ -49,7 +50,7 @@ struct CalibrationReport {
 };
 
 struct Calibrated {
-  Calibration calibration;  // without a number
+  Calibration calibration;  // its number is not set
   CalibrationReport report;
 };
 

@@ -11,7 +11,8 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kMostArrows = 1500;
-constexpr double kArrow = 40;  // pixels: length of an arrow at the 95th percentile
+// Length of the arrow for the 95th percentile of the residuals, in pixels.
+constexpr double kArrow = 40;
 constexpr int kHueStep = 137;  // degrees of hue between consecutive poses
 
 }  // namespace

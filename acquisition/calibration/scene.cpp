@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLeastPictures = 6;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastTurn = 5 * kDegree, kLeastSpan = 20 * kDegree;
-constexpr double kWorstMisfit = 1;  // pixels
+constexpr double kWorstMisfit = 1;  // largest accepted misfit() of a picture, in pixels
 
 // Estimates the focal length from the homographies of the views. The principal point is set to the
 // image's centre; the adjustment refines it later.
@@ -27,7 +27,7 @@ cv::Matx33d first_camera(std::span<const SeenTarget> seen, int width, int height
   }
   cv::Matx33d matrix = cv::initCameraMatrix2D(boards, images, {width, height});
   const double focal = matrix(0, 0);
-  if (!(focal > 0.3 * width && focal < 30 * width)) {  // the case if all views are frontal
+  if (!(focal > 0.3 * width && focal < 30 * width)) {  // happens if all views are frontal
     matrix(0, 0) = matrix(1, 1) = 2.5 * width;
   }
   return matrix;

@@ -77,7 +77,7 @@ double spacing(const std::vector<cv::Point2f>& corners) {
   return least;
 }
 
-// Refines the corners in windows as large as the white around the markers allows.
+// Refines the corners in windows as large as the white margin around the markers allows.
 // interpolateCornersCharuco() uses smaller windows, which shift corners by half a pixel.
 void refine(const cv::Mat& image, const CharucoTarget& t, std::vector<cv::Point2f>& corners) {
   constexpr int kLeastWindow = 3, kMostWindow = 12;

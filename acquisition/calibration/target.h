@@ -17,7 +17,7 @@ struct CharucoTarget {
 };
 
 struct TargetPoint {
-  double x = 0, y = 0;  // mm from one corner of the board, along its edges
+  double x = 0, y = 0;  // mm from one corner of the target, along its edges
 };
 
 // The inner corners found in a picture. `ids` are the corners' numbers on the target, counted row

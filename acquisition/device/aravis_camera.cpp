@@ -18,7 +18,7 @@ namespace {
 // If an answer takes this long, the request may have been repeated.
 constexpr std::chrono::milliseconds kAskedAgain{450};
 constexpr int kBuffers = 4;
-// Packet size in bytes. The path's MTU cannot be probed on loopback.
+// Packet size in bytes on the loopback interface, where the path's MTU cannot be probed.
 constexpr int kLoopbackPacket = 8192;
 
 struct AravisUnref {

@@ -59,9 +59,8 @@ class Board {
 
   // Returns the table's angle in degrees, to the nearest motor step. The angle is the last
   // set_position() plus all later motions, even those of an earlier process. Returns nullopt if the
-  // board cannot know the angle: after a restart or an emergency stop, or if the board does not
-  // count steps. A FabScan board does not count steps, so the angle is known only in the process
-  // that set it.
+  // board does not know the angle, as after a restart or an emergency stop. A FabScan board does
+  // not count steps, so its angle is known only in the process that set it.
   virtual Expected<std::optional<double>> position() = 0;
   // Declares that the table stands at `degrees` now. The table ends where it stood, but it may turn
   // to 0 and back, because a Horus board can reset its counter only at 0.

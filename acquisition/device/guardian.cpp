@@ -97,7 +97,8 @@ bool switch_off(const BoardSelector& selector) {
   return false;
 }
 
-// Returns whether the guarded process sent the dismissal before it closed the socket.
+// Waits until the guarded process dismisses the guardian or closes the socket. Returns true if it
+// dismissed the guardian.
 bool dismissed() {
   char byte = 0;
   ssize_t count = 0;

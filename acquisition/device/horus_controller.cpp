@@ -28,8 +28,8 @@ class HorusController final : public Controller {
   void halt() noexcept override;
 
  private:
-  // Waits for a reply of that kind and skips all remarks and confirmations before it. Returns
-  // nullopt after `timeout`.
+  // Waits for a reply of that kind and skips all other replies before it. Returns nullopt after
+  // `timeout`.
   Expected<std::optional<horus::Reply>> await(ReplyKind kind, milliseconds timeout);
   Expected<std::optional<horus::Reply>> ask_modes();
   Expected<std::string> ask_version();

@@ -38,7 +38,8 @@ std::vector<ControlRequest> ftdi_set_up(int baud) {
           vendor_request(9, 1, 0)};  // latency: 1 ms
 }
 
-// Returns the divisor of CH340 and CH341: a counter up to 2^16 after a prescaler of 8^(3 - p).
+// Returns the divisor of CH340 and CH341 for a baud rate. Its high byte gives the start of a
+// counter, which runs up to 2^16. Its low bits, p, select the prescaler 8^(3 - p).
 std::uint16_t ch34x_divisor(int baud) {
   std::uint32_t factor = 1'532'620'800u / static_cast<std::uint32_t>(baud);
   std::uint32_t prescaler = 3;
@@ -100,7 +101,8 @@ ControlRequest modem_lines(SerialChip chip, bool up, std::uint8_t interface) {
 
 void append_payload(SerialChip chip, std::span<const std::uint8_t> transfer,
                     std::size_t packet_size, std::vector<std::uint8_t>& out) {
-  constexpr std::size_t kFtdiStatus = 2;  // bytes of modem and line state before each packet
+  // Each packet of an FTDI chip starts with two bytes: the states of modem and line.
+  constexpr std::size_t kFtdiStatus = 2;
   const std::size_t skip = chip == SerialChip::kFtdi ? kFtdiStatus : 0;
   for (std::size_t at = 0; at < transfer.size(); at += packet_size) {
     const auto packet = transfer.subspan(at, std::min(packet_size, transfer.size() - at));

@@ -38,9 +38,10 @@ struct UsbDevice {
   std::string port;    // same format as in BoardSelector
 };
 
-// choose() picks the candidate that `selector` selects; open_usb_device() also lists the devices.
-// The serial number of a device that cannot be opened is unknown. If no other device matches, the
-// error names the device that could not be opened.
+// choose() returns the candidate that `selector` selects. open_usb_device() makes the candidates
+// from the connected devices and calls choose(). The serial number of a device that cannot be
+// opened is unknown. If no other device matches, the error names the device that could not be
+// opened.
 Expected<UsbDevice> choose(std::vector<Expected<UsbDevice>> candidates,
                            const BoardSelector& selector);
 Expected<UsbDevice> open_usb_device(libusb_context* context, const BoardSelector& selector);

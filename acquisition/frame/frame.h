@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of the camera, and positions in it. In pixel coordinates, u points to the right and v
-// down. Pixel centres are integers, and (0, 0) is the top left pixel.
+// A camera picture, and positions in it. In pixel coordinates, u points to the right and v down.
+// Pixel centres are integers, and (0, 0) is the top left pixel.
 #pragma once
 
 #include <cstdint>

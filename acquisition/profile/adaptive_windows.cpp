@@ -10,8 +10,9 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr std::size_t kNone = ~std::size_t{0};
-// If two windows lie on a common line, merging them costs only squared noise. That cost has a
-// chi-square distribution with two degrees of freedom, and 95 % of it lies below this value.
+// If two windows lie on a common line, the cost of merging them comes from noise alone. Divided by
+// the noise's variance, it has a chi-square distribution with two degrees of freedom. 95 % of that
+// distribution lies below this value.
 constexpr double kInsignificant = 6;
 
 struct Join {

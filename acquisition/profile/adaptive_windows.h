@@ -11,7 +11,7 @@
 namespace vitrine::acquisition {
 
 struct Window {
-  std::size_t first = 0, count = 1;  // points
+  std::size_t first = 0, count = 1;  // index of the first point; number of points
   LineFit line;                      // fits z as a function of rho
 };
 

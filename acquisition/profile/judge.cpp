@@ -12,18 +12,18 @@
 namespace vitrine::acquisition {
 namespace {
 
-constexpr double kLeastRows = 2;  // average number of rows in a frame
+constexpr double kLeastRows = 2;  // least average number of rows with a stripe in a frame
 constexpr double kMostSaturated = .8, kMostDoubled = .5;
-// Largest accepted share of full pixels. A stripe, or a lamp in view, covers a hundredth of a
-// picture.
+// Largest accepted share of pixels at the end of the camera's range. A stripe, or a lamp in view,
+// covers only a hundredth of a picture.
 constexpr double kMostFull = .05;
 constexpr int kFullLevel = 254;     // grey level at which a stripe counts as saturated
-constexpr double kLeastHeight = 1;  // mm
-constexpr double kStrays = .02;     // share of the points left out at either end
-constexpr double kMostShift = 10;   // pixels between adjacent rows
+constexpr double kLeastHeight = 1;  // mm: least height of an object
+constexpr double kStrays = .02;     // share of the points left out at the top, and at the bottom
+constexpr double kMostShift = 10;   // pixels: largest shift of a line between adjacent rows
 
-// Returns whether two points belong to a line. Noise exceeds the threshold in single rows, but not
-// in two adjacent rows.
+// Returns whether two points belong to a line. Noise often exceeds the threshold in a single row,
+// but rarely at nearly the same place in the next row too.
 bool is_line(const StripePoint& a, const StripePoint& b) {
   return b.row == a.row + 1 && std::abs(b.u - a.u) <= kMostShift;
 }

@@ -46,8 +46,9 @@ class LineFit {
     const double along = (x - x_ / n_) * along_x + (y - y_ / n_) * along_y;
     return {x_ / n_ + along * along_x, y_ / n_ + along * along_y};
   }
-  // Returns whether one line fits all points, which must be three or more. It does if squares()
-  // does not exceed its 95th percentile (approximate) under noise of standard deviation `noise`.
+  // Returns whether one line fits all points, which must be three or more. The line fits if
+  // squares() is at most a limit. If the points deviate only by noise of standard deviation
+  // `noise`, squares() stays below that limit in about 95 % of all cases.
   bool is_within(double noise) const {
     if (n_ < 3) return false;
     return squares() <= noise * noise * (n_ - 2) * (1 + 2.5 / std::sqrt(n_ - 2));

@@ -10,8 +10,8 @@
 
 namespace vitrine::acquisition {
 
-// `angle` is the angle, in degrees, by which the board has turned the table. Profile::theta always
-// grows counter-clockwise, seen from above; the calibrated axis defines the table's sense of
+// `angle` is the angle, in degrees, by which the motor board has turned the table. Profile::theta
+// always grows counter-clockwise, seen from above; the calibrated axis defines the table's sense of
 // rotation. Points outside the calibrated region are left out.
 Profile profile_of(std::span<const StripePoint> stripe, const Calibration& calibration,
                    double angle);

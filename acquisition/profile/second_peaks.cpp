@@ -9,8 +9,8 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr int kShortestLine = 5;  // shortest line, in rows
-constexpr int kMostSlant = 10;    // pixels between adjacent rows
-// Largest strength between two surfaces, as a share of the weaker peak's strength.
+constexpr int kMostSlant = 10;    // pixels: largest shift of a line between adjacent rows
+// Largest strength in the dark gap between two surfaces, as a share of the weaker peak's strength.
 constexpr double kMostLit = .1;
 
 // For each peak of a row, the number of rows of the line that ends at this peak.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the peaks that show a second surface behind or before the stripe's first.
+// Finds the rows that show a second surface, and the peak of that surface in each of them.
 #pragma once
 
 #include <span>

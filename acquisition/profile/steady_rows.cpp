@@ -10,8 +10,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Corrects the estimate from the median, which is too small. Speckle moves a few rows much more
-// than most, and the median ignores them.
+// The estimate from the median is multiplied by this factor, because it is too small. Speckle moves
+// a few rows much more than most, and the median ignores them.
 constexpr double kTails = 1.4;
 
 // Estimates the standard deviation of one row's position. The median of the third differences |a -

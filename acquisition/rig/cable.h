@@ -8,10 +8,10 @@
 
 namespace vitrine::acquisition::rig {
 
-// Time that the cable stays unplugged. A client repeats an unacknowledged request for a shorter
-// time (Aravis: 3 s). A simulated camera that restarted earlier would take the repeated trigger for
-// a new one. It would accept the trigger before a client controls it, keep it until streaming
-// starts, and from then on deliver each frame one trigger late.
+// Time that the cable stays unplugged. It is longer than a client repeats an unacknowledged request
+// (Aravis: 3 s). A camera that came back earlier would receive the repeated trigger before a client
+// controls it. It would keep that trigger until streaming starts, and deliver each later frame one
+// trigger late.
 inline constexpr std::chrono::milliseconds kUnplugged{5000};
 
 class Cable {

@@ -9,6 +9,7 @@
 
 namespace vitrine::acquisition::rig {
 
+// "That motion" is the motion of the table after which the fault occurs (RigFault::step).
 enum class FaultKind {
   kLostPackets,    // from then on, one frame in twenty lacks packets
   kCameraUnplug,   // the camera is absent after that motion, and back after kUnplugged
@@ -32,12 +33,12 @@ inline constexpr double kCreepMm = 0.002;
 // error lists the names.
 Expected<RigFault> parse_fault(std::string_view text);
 
-// due() returns whether a fault of that kind occurs at exactly motion `turns`. lasting() returns
-// whether it occurs at that motion or has occurred at an earlier one.
+// due() returns whether a fault of that kind occurs exactly when the table has completed `turns`
+// motions. lasting() returns whether it has occurred by then.
 bool due(const std::vector<RigFault>& faults, FaultKind kind, int turns);
 bool lasting(const std::vector<RigFault>& faults, FaultKind kind, int turns);
 
-// Returns the laser's shift so far, in mm.
+// Returns the laser's shift, in mm, after `turns` motions of the table.
 double crept(const std::vector<RigFault>& faults, int turns);
 
 }  // namespace vitrine::acquisition::rig

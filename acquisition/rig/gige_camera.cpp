@@ -78,7 +78,7 @@ class GigeCamera::Plugged {
   }
 
   void fill(ArvBuffer* buffer, const Exposure& exposure) {
-    // Width and height are already set; the buffer's own size is not.
+    // Aravis has set the buffer's width and height, but not its size in bytes.
     const int width = arv_buffer_get_image_width(buffer);
     const int height = arv_buffer_get_image_height(buffer);
     std::size_t unset = 0;

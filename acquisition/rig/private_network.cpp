@@ -37,8 +37,8 @@ bool raise_loopback() {
   std::strcpy(request.ifr_name, "lo");
   request.ifr_flags = IFF_UP | IFF_RUNNING;
   if (::ioctl(socket.get(), SIOCSIFFLAGS, &request) != 0) return false;
-  // Aravis's camera answers only at an address that belongs to an interface, so this adds an
-  // address.
+  // Aravis's simulated camera answers only at an address that belongs to an interface. This adds
+  // the address 127.0.0.2.
   std::strcpy(request.ifr_name, "lo:2");
   sockaddr_in second{};
   second.sin_family = AF_INET;

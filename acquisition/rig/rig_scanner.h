@@ -36,7 +36,8 @@ struct RigScannerOptions {
   std::filesystem::path commands;
 };
 
-// The same seed always gives the same scanner, even after a restart.
+// Return the camera's serial number and the board's settings. They depend only on the arguments, so
+// a restarted rig simulates the same scanner.
 std::string camera_serial(std::uint64_t seed);
 UsbBoardSettings board_settings(std::uint64_t seed, bool fabscan);
 

@@ -17,8 +17,8 @@ inline constexpr double kGrazing = 85;
 // Returns one flag for each vertex: whether the scanner can see it. A vertex lies in the laser
 // sheet at two angles of the table. It is seen if, at one of these angles, laser source and camera
 // both have a free line of sight to it, on the same side of the surface and within kGrazing of the
-// vertex's normal (the mean of its faces' normals), and it is inside the picture. The result is the
-// limit for ever finer steps of the table, not a sample.
+// vertex's normal (the mean of its faces' normals), and it is inside the picture. The flags do not
+// depend on a scan's number of steps, because both angles are computed exactly.
 std::vector<std::uint8_t> seen_vertices(const TriangleMesh& mesh, const Solid& solid,
                                         const Optics& optics);
 

@@ -33,7 +33,8 @@ constexpr double kHold = 0.0015;  // seconds
 // Interval in seconds at which FTDI chips send their status even if they have no data.
 constexpr double kFtdiIdle = 0.016;
 constexpr std::size_t kMostUnread = 4096;
-constexpr std::chrono::seconds kGuardians(15);  // longer than the guardians' retries
+// How long the destructor waits for guardian processes: longer than they retry.
+constexpr std::chrono::seconds kGuardians(15);
 
 constexpr char kPath[] = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-2";
 constexpr char kPreload[] = "libumockdev-preload.so.0";
@@ -86,7 +87,8 @@ class UsbBoard::Impl {
   explicit Impl(UsbBoardEvents events);
   ~Impl();
 
-  std::string bus() const;  // NAME=value
+  // Returns "NAME=value" of the environment variable by which a process finds the simulated bus.
+  std::string bus() const;
   std::vector<std::string> environment() const;
   Expected<void> plug(const UsbBoardSettings& settings);
   void unplug();
@@ -180,7 +182,7 @@ UmockdevRef<UMockdevIoctlData> resolve(UMockdevIoctlData* data, std::size_t offs
 
 // Returns whether the client's process has ended. umockdev does not notice every client that is
 // killed during a call. But a living client that holds an interface polls for transfers
-// continuously.
+// continuously, so a silent client is dead.
 bool is_dead(const Client& client, double now) {
   constexpr double kSilent = 1;
   return umockdev_ioctl_client_get_connected(client.handle.get()) == FALSE ||

@@ -44,7 +44,7 @@ void enter_testbed(char** argv);
 // A simulated board. All functions may be called from any thread.
 class UsbBoard {
  public:
-  // Creates the board unplugged. Also sets UMOCKDEV_DIR in this process, which has no other effect.
+  // Creates the board unplugged. Also sets UMOCKDEV_DIR in the environment of this process.
   explicit UsbBoard(UsbBoardEvents events);
   ~UsbBoard();
   UsbBoard(const UsbBoard&) = delete;

@@ -38,7 +38,8 @@ class PixelRays {
   Vec3 direction(const Lens& lens, double u, int v) const;
 
  private:
-  // For each pixel, the pair right over forward and down over forward. Rows have one spare column.
+  // For each pixel, the components of its direction to the right and down, each divided by the
+  // forward component. Rows have one spare column.
   std::vector<float> slopes_;
 };
 

@@ -37,9 +37,9 @@ struct Shot {
 // standard deviation of 0.05 degrees and is a function of seed and angle.
 double reached(const Realism& realism, double degrees);
 
-// Renders the camera's pictures, for one thread. All noise is a function of seed, angle within a
-// revolution (in millionths of a degree), target and laser. So the same setting always gives the
-// same picture.
+// Renders the camera's pictures. Only one thread may use it. All noise is a function of seed, angle
+// within a revolution (in millionths of a degree), target and laser. So the same setting always
+// gives the same picture.
 class Renderer {
  public:
   // `object` must outlive the renderer. Null means that nothing reflects light.

@@ -14,7 +14,8 @@ constexpr double kPeak = 185;  // grey levels of a white surface facing the lase
 // The sheet is dark beyond this distance from its middle, in standard deviations of its profile.
 constexpr double kReach = 3.4;
 constexpr double kShine = 40;  // exponent of the specular lobe
-// Rays for each pixel, side by side. On steep parts the stripe is narrower than a pixel.
+// Number of rays that are cast side by side for each pixel. One is not enough, because on steep
+// parts the stripe is narrower than a pixel.
 constexpr int kSub = 3;
 constexpr int kTaps = 4;  // reach of the blur, in rays to either side
 

@@ -17,7 +17,7 @@ class FirstLook {
   // Adds the frames taken with the table at `angle` degrees.
   Expected<void> add(const FramePair& frames, double angle);
 
-  // Judges all views added so far.
+  // Judges all frames added so far.
   Expected<void> judgement() const;
 
  private:

@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kPairTries = 3;
 
-// A picture counts as noisy if more than one in this many pixels differs from the pixel before it.
+// A picture counts as noisy if more than one in this many pixels differs from the preceding pixel
+// of the picture.
 constexpr std::size_t kNoisy = 10;
 
 // Returns whether a picture shows noise. Pictures taken with the lens cap on, over-exposed pictures
@@ -42,7 +43,7 @@ LiveScanner::LiveScanner(std::unique_ptr<Camera> camera, std::unique_ptr<Board> 
 
 LiveScanner::~LiveScanner() {
   if (!board_) return;  // this object was moved from
-  // Closing the board switches both off anyway, and no caller is left to receive an error.
+  // Closing the board switches laser and motor off anyway. No caller is left to receive an error.
   (void)board_->laser(false);
   (void)board_->rest();
   stop_->guard(nullptr);

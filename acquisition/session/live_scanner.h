@@ -22,8 +22,8 @@ struct FramePair {
   Frame dark, lit;  // the frames without and with laser, at one position of the table
 };
 
-// One thread must use it from open() to the end. After an error of any call, destroy it and open it
-// again.
+// All calls, from open() to the destructor, must come from one thread. After an error, destroy this
+// object and call open() again.
 class LiveScanner {
  public:
   // Opens camera and board. `stop` must outlive the result.

@@ -28,7 +28,7 @@ struct Measured {
 };
 
 // Computes the profile of one position of the table. `angle` is the angle, in degrees, by which the
-// board has turned the table. Fails with kBadInput if the frames differ in size.
+// motor board has turned the table. Fails with kBadInput if the frames differ in size.
 Expected<Measured> measure_profile(const FramePair& frames, const Calibration& calibration,
                                    const StripeOptions& options, double angle);
 

@@ -15,9 +15,9 @@
 namespace vitrine::acquisition {
 namespace {
 
-// The kinds of records. kUncounted is a profile in the format without stripe counts, which is still
-// read. A record consists of its kind, the size of its body, the body, and the first eight bytes of
-// the SHA-256 of all these.
+// The kinds of records. kUncounted is a profile in an older format without stripe counts, which can
+// still be read. A record consists of its kind, the size of its body, the body, and the first eight
+// bytes of the SHA-256 of all these.
 constexpr std::uint32_t kUncounted = 1, kTurn = 2, kProfile = 3, kGivenUp = 4;
 constexpr std::size_t kHeadBytes = 8, kChecksumBytes = 8, kPointBytes = 3 * 8 + 4 + 1;
 constexpr std::size_t kThetaBytes = 8, kCountBytes = 5 * 8;

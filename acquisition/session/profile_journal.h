@@ -42,8 +42,8 @@ class ProfileJournal {
   // return. After an error (kIo, such as a full disk) the file must be opened again.
   Expected<void> append(const Profile& profile, const StripeCount& stripe);
 
-  // Discards the profiles after the first `kept`, which are to be measured again. The record is on
-  // disk on return.
+  // Keeps the first `kept` profiles and discards the others, whose steps must be measured again.
+  // `steps_done` is the number of steps done so far. The record is on disk on return.
   Expected<void> give_up(int kept, int steps_done);
 
   // Records that the table stands at `step` or is moving there. (A motion in progress completes

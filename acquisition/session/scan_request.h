@@ -13,7 +13,7 @@
 namespace vitrine::acquisition {
 
 inline constexpr int kLeastSteps = 8, kMostSteps = 36'000;
-inline constexpr int kMostCalibration = 1'000'000'000;       // calibration number
+inline constexpr int kMostCalibration = 1'000'000'000;       // largest number of a calibration
 inline constexpr double kMostExposure = 1e6;                 // microseconds
 inline constexpr double kMostAngle = 90, kMostHole = 1'000;  // degrees, mm
 

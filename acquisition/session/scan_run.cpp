@@ -232,8 +232,8 @@ Expected<void> ScanRun::settle() {
   return judged ? Expected<void>{} : refuse(judged.error());
 }
 
-// Refuses the last steps. A resumed scan measures them again, because the laser may be back by
-// then.
+// Discards the steps that the stripe watch judged together, and returns `judgement`. A resumed scan
+// measures these steps again, because the laser may work again by then.
 Expected<void> ScanRun::refuse(const Error& judgement) {
   const int kept = steps_done() - stripe_watch_->span();
   if (auto noted = journal_->give_up(kept, steps_done()); !noted) return noted;

@@ -15,8 +15,8 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Reads a hexadecimal number such as "0x2341". Also accepts a number without the prefix, because
-// lsusb prints numbers so.
+// Reads a hexadecimal number such as "0x2341". Also accepts a number without the prefix, as lsusb
+// prints it.
 std::uint16_t usb_number(JsonMembers& members, std::string_view key) {
   const std::string text = members.text(key);
   const char* first = text.data() + (text.starts_with("0x") ? 2 : 0);

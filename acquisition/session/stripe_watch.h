@@ -31,8 +31,9 @@ class StripeWatch {
   const std::size_t most_;
   const int accepted_;
   std::vector<StripeCount> last_;
-  std::size_t good_ = 0;                   // number of consecutive good judgements
-  bool is_lost_ = false, is_odd_ = false;  // whether the condition has been reported
+  std::size_t good_ = 0;  // number of consecutive good judgements
+  // Whether a lost stripe, or another condition, has been reported.
+  bool is_lost_ = false, is_odd_ = false;
 };
 
 }  // namespace vitrine::acquisition

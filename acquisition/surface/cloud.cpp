@@ -9,12 +9,13 @@ namespace vitrine::acquisition {
 namespace {
 
 constexpr double kDepths = 4;  // multiples of s_max: [WLL] eq. 5
-// Share of the points that are closer to the axis than the radius at which the spacing is measured.
+// The distance between steps is measured at the radius within which this share of the points lies.
 constexpr double kOutermost = .95;
 
 constexpr double kLeastHeight = 1e-3;  // mm: rows of real cameras are farther apart than this
 
-// Multiple of the median, because sampled profiles have irregular rows.
+// Sampled profiles have irregular rows. In them, only points farther apart than this multiple of
+// the median number of rows have a gap between them.
 constexpr int kSampledGap = 4;
 
 template <class T>

@@ -42,7 +42,9 @@ struct Spacing {
   // Consecutive points at most this many rows apart have no gap between them.
   int gap = 1;
   double row_height = 1;  // mm: median height of a row
-  double largest = 0;     // s_max, mm
+  // s_max of [WLL] eq. 5, in mm: the spacing of points along strands or between steps, whichever is
+  // larger.
+  double largest = 0;
   // 4 s_max, in mm. Closer points are joined by [WLL] eq. 5 at any angle.
   double near = 0;
   // Strands whose points are farther apart than this, in mm, are not joined.

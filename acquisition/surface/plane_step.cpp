@@ -9,7 +9,7 @@ namespace vitrine::acquisition {
 namespace {
 
 using Vector6 = std::array<double, 6>;
-// Multiple of the largest diagonal entry. A smaller pivot is only rounding error.
+// A pivot smaller than this multiple of the largest diagonal entry is only rounding error.
 constexpr double kDetermined = 1e-9;
 
 // Solves a positive semidefinite system by Gaussian elimination. Returns zero if the system is

@@ -19,7 +19,7 @@ struct Side {
   std::size_t first;  // index of the strand's first point in the cloud
   // For each point, the strand of the other step to which an edge may lead.
   std::vector<std::size_t> nearest;
-  int rows;  // least number of rows between points
+  int rows;  // median number of rows between points (Spacing::rows)
 
   std::size_t size() const { return points.size(); }
   bool goes_on(std::size_t i) const { return i + 1 < size() && !(points[i + 1].flags & kApart); }
@@ -166,8 +166,8 @@ class Strip {
     return is_accepted(i, j) ? length_across(i, j) : kNever;
   }
 
-  // Rows go down, and in the next step the object has been turned back further. So this order is
-  // counter-clockwise, seen from the laser's side. Beyond the axis the object turns the other way.
+  // Orders the corners counter-clockwise, seen from the laser. Beyond the axis (rho < 0), strand b
+  // lies on the other side of strand a, so the order is reversed.
   void add(std::size_t i, std::size_t j, std::uint32_t third, std::vector<Triangle>& faces) const {
     if (a_.points[i].at.rho < 0)
       faces.push_back({vertex_a(i), third, vertex_b(j)});
