@@ -20,12 +20,12 @@ using test::ScannerNoise;
 using test::SyntheticScanner;
 using testing::HasSubstr;
 
-struct TruthError {  // errors over the map's hull: rms, mm
+struct TruthError {  // rms errors over the map's hull, in mm
   double radial = 0, tangential = 0, axial = 0;
 };
 
-// Returns the error of a scan with this calibration: compares each pixel's point about the axis
-// with the truth. Mean height and mean angle are ignored, because their origins are arbitrary.
+// Returns the errors of the positions that this calibration gives for a grid of pixels. Mean height
+// and mean angle are ignored, because their origins are arbitrary.
 TruthError error_of(const SyntheticScanner& scanner, const Calibration& c) {
   double radial = 0, tangential = 0, tangential_sum = 0, axial = 0, axial_sum = 0, swings = 0;
   int count = 0;
@@ -114,7 +114,7 @@ TEST(Calibrate, BearsCornersAndStripePointsThatAreFarOff) {
   EXPECT_LT(result->calibration.noise, 0.03);
 }
 
-// Moves every tenth point of every third picture to any place on the target.
+// Moves every tenth point of every third picture sideways by 6 to 86 pixels.
 CalibrationInput with_strays(CalibrationInput input) {
   for (std::size_t i = 0; i < input.pictures.size(); i += 3) {
     std::vector<ImagePoint>& stripe = input.pictures[i].stripe;

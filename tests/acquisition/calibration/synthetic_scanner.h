@@ -13,9 +13,9 @@
 namespace vitrine::test {
 
 struct ScannerNoise {
-  double corner = 0.05;  // pixels
-  double stripe = 0.05;  // pixels, across the stripe
-  double table = 0.05;   // degrees
+  double corner = 0.05;  // standard deviation of a corner's position, in pixels
+  double stripe = 0.05;  // standard deviation of a stripe point across the stripe, in pixels
+  double table = 0.05;   // standard deviation of the table's angle, in degrees
 };
 
 class SyntheticScanner {

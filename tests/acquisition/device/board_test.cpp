@@ -144,7 +144,7 @@ TEST_P(EveryBoard, TellsItsFirmwareEachTimeItIsOpened) {
     auto board = open();
     ASSERT_TRUE(board) << board.error().message;
     EXPECT_EQ((*board)->identity().firmware, banner);
-    ASSERT_TRUE((*board)->set_position(0));  // from here on the Horus is not restarted
+    ASSERT_TRUE((*board)->set_position(0));  // later openings do not restart the Horus board
   }
 }
 

@@ -43,7 +43,7 @@ class SimulatedCamera {
     ArvFakeCamera* fake = arv_gv_fake_camera_get_fake_camera(camera_);
     EXPECT_TRUE(arv_fake_camera_write_register(fake, static_cast<guint32>(address), value));
   }
-  // Loses the same packets in each run. No packet is sent again.
+  // Loses the share `part` of all packets, the same ones in each run. No packet is sent again.
   void lose_packets(double part) {
     g_random_set_seed(1);
     g_object_set(camera_, "gvsp-lost-ratio", part, nullptr);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""guest_test.py without its kernel says so, and deploy/test counts that as a failure."""
+"""Tests guest_test.py without a kernel: it reports that, and deploy/test counts it as a failure."""
 import os
 import subprocess
 import sys

@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Boards driven by the kernel's own USB stack, not by a stand-in for it: guest_test.py KERNEL BIN TESTS
+"""Drives boards through the Linux kernel's USB stack in a virtual machine.
 
-KERNEL is what deploy/setup unpacks, BIN and TESTS hold the programs. The guest is emulated, so no
-right is needed. Where something is missing it is left out, which is a failure with VITRINE_NO_SKIPS
-set. In it drive_board drives QEMU's usb-serial, a real FTDI chip to the kernel, whose
-line ends here in serve_firmware, and g_serial, a real CDC-ACM device, whose line ends in the guest.
+Usage: guest_test.py KERNEL BIN TESTS. KERNEL is the folder into which deploy/setup unpacks a
+kernel. BIN and TESTS hold the programs. QEMU emulates the guest, so the test needs no privileges.
+The test is skipped if a tool or the kernel is missing; if VITRINE_NO_SKIPS is set, that is a
+failure.
+
+In the guest, drive_board drives two devices. One is QEMU's usb-serial, which the kernel takes for
+an FTDI chip; serve_firmware answers it outside the guest. The other is g_serial, a CDC-ACM device;
+serve_firmware answers it inside the guest.
 """
 import os
 import re
@@ -24,11 +28,11 @@ MODULES = ("usb-common usbcore xhci-hcd xhci-pci usbserial ftdi_sio cdc-acm conf
 KERNEL, BIN, TESTS = (Path(word) for word in sys.argv[1:4])
 PROGRAMS = [TESTS / "drive_board", TESTS / "serve_firmware", BIN / "vitrine-guardian"]
 FTDI, ACM = "0403:6001", "0525:a4a7"
-PATIENCE = 240  # seconds, of a busy machine
+PATIENCE = 240  # seconds; enough on a busy machine
 
 
 def missing():
-    """The reason that this cannot run here; None if it can."""
+    """Returns why the test cannot run here; empty if it can."""
     for tool in ("qemu-system-x86_64", "busybox", "cpio"):
         if not shutil.which(tool):
             return f"there is no {tool}"
@@ -42,13 +46,13 @@ def put(root, source, target):
 
 
 def libraries(program):
-    """All libraries that the loader maps, and the loader."""
+    """Returns the paths of the loader and of all libraries that it maps."""
     said = subprocess.run(["ldd", program], text=True, capture_output=True, check=True).stdout
     return re.findall(r"(/\S+) \(0x", said)
 
 
 def initramfs(folder):
-    """Archives the guest's files."""
+    """Writes the guest's files to an archive, and returns its path."""
     root = folder / "root"
     put(root, shutil.which("busybox"), "bin/busybox")
     put(root, Path(__file__).with_name("guest_init"), "init")
@@ -78,14 +82,14 @@ def boot(folder, line):
 
 
 def serve(line):
-    """The firmware at the host's end of the line, when it has started."""
+    """Starts the firmware at the host's end of the serial line as soon as that end exists."""
     while not line.exists():
         time.sleep(0.01)
     return subprocess.Popen([TESTS / "serve_firmware", line], stdout=subprocess.PIPE, text=True)
 
 
 def run():
-    """What the guest printed, and what the firmware at the host's end did."""
+    """Runs the guest to its end. Returns its output and that of the firmware at the host's end."""
     with tempfile.TemporaryDirectory() as name:
         line = Path(name) / "line"
         guest = boot(Path(name), line)
@@ -103,14 +107,14 @@ def run():
 
 
 class Guest(unittest.TestCase):
-    """One boot; each test checks a part of it."""
+    """Boots the guest once. Each test checks a part of the output."""
     @classmethod
     def setUpClass(cls):
         cls.console, cls.ftdi_board = run()
         print(cls.console)
 
     def assertInOrder(self, text, *lines):
-        """Each line follows the preceding one."""
+        """Checks that `text` contains the lines in this order."""
         at = 0
         for line in lines:
             found = text.find(line, at)
@@ -120,7 +124,7 @@ class Guest(unittest.TestCase):
     def drives(self, board):
         says = [f"{board}: {what}" for what in (
             "opened Horus 0.2", "stands anywhere", "set:0", "turn:45", "laser:on", "laser:off", "stands at 45.000",
-            "closed", "opened Horus", "laser:on",  # and killed
+            "closed", "opened Horus", "laser:on",  # this process is then killed
             "opened Horus", "stands at 45.000", "turn:90", "closed")]
         self.assertInOrder(self.console, *says)
 

@@ -42,7 +42,7 @@ TEST(PaperSampling, ABlockWithinThreeSigmaBecomesItsMean) {
   EXPECT_DOUBLE_EQ(kept.points[0].at.rho, 3);
   EXPECT_NEAR(kept.points[0].at.z, -.2, 1e-12);
   EXPECT_EQ(kept.points[0].row, 2);
-  EXPECT_DOUBLE_EQ(kept.points[1].at.rho, 15);  // the last block uses its own number of points
+  EXPECT_DOUBLE_EQ(kept.points[1].at.rho, 15);  // mean of the two points in the last block
   EXPECT_NEAR(kept.points[1].at.z, -.55, 1e-12);
 }
 
@@ -56,7 +56,8 @@ TEST(PaperSampling, ABlockWithAPointBeyondThreeSigmaStaysAsItIs) {
   EXPECT_EQ(kept.points[15].at.rho, 10);
 }
 
-// (n - 1) / sqrt(n) < 3 up to n = 10, so any outlier is averaged in.
+// No value deviates from the mean by more than (n - 1) / sqrt(n) standard deviations. That is less
+// than 3 up to n = 10, so outliers are averaged in.
 TEST(PaperSampling, UpToTenPointsNothingIsEverBeyondThreeSigma) {
   for (const int length : {5, 10}) {
     std::vector<double> rho(100, 10);
@@ -85,7 +86,7 @@ TEST(PaperSampling, KeepsAFifthAtFive) {
   EXPECT_LT(ratio, .206);
 }
 
-// Returns a flat profile with a narrow groove of 1 mm.
+// Returns a flat profile with a narrow groove, 1 mm deep.
 std::vector<double> grooved(std::size_t count) {
   std::vector<double> rho(count, 30);
   for (std::size_t i = 0; i < count; ++i) {

@@ -13,7 +13,7 @@ RowPeaks row_of(Peak strong, Peak weak, int valley = 0) {
   return {2, {strong, weak}, valley};
 }
 
-// Returns rows with one surface at 100 and a weaker one at `u(row)`.
+// Returns rows with two peaks: one in column 100, and a weaker one in column `u(row)`.
 template <class Course>
 std::vector<RowPeaks> two_surfaces(int rows, Course u) {
   std::vector<RowPeaks> peaks;

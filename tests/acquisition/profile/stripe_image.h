@@ -13,7 +13,7 @@ struct StripeImage {
   int width = 320, height = 200;  // pixels of the picture
   // Returns u for each row. NaN means no stripe in that row.
   std::function<double(double)> centre;
-  double peak = 160, sigma = 2.5;  // grey levels at the stripe's peak; width in pixels
+  double peak = 160, sigma = 2.5;  // grey levels at the stripe's peak; standard deviation in pixels
   double speckle = 0;              // contrast, independent for each pixel
   double noise = 0;                // grey levels, independent for each pixel of each picture
   double ambient = 0;              // grey levels at full albedo, in both pictures

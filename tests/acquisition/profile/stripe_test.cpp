@@ -11,7 +11,7 @@
 namespace vitrine::acquisition {
 namespace {
 
-// Returns a curve with slants, bends and a step.
+// Returns the stripe's column in row v: a slanted, bent curve with a step.
 double shape(double v) {
   return 160 + 40 * std::sin(v / 45) + .1 * v + (v > 120 ? 25 : 0);
 }

@@ -29,7 +29,8 @@ TEST_F(NamedErrors, ALaserThatDoesNotLightIsNoStripe) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out"})));
 }
 
-// The pictures with and without laser are equal, although the camera has no fault.
+// Without noise, the pictures with and without laser are equal. This must not be reported as a
+// fault of the camera.
 TEST_F(NamedErrors, BeforeAnIdealCameraItIsNoStripeEither) {
   expect_no_stripe(error_of(with_object(kScan, {"--fault", "laser-out", "--ideal"})));
 }

@@ -23,7 +23,8 @@ using BufferPtr = std::unique_ptr<ArvBuffer, Unref>;
 
 const std::string kAddress = "127.0.0.1";
 
-// Enters a private network before a second thread exists, because tests run side by side.
+// Gives this process a network of its own, because tests run side by side and GigE Vision's port is
+// fixed. This must happen before a second thread exists (enter_private_network()).
 class PrivateNetwork final : public ::testing::Environment {
  public:
   void SetUp() override {

@@ -21,7 +21,7 @@ struct Deviation {
   int rows = 0;
 };
 
-// Returns the distances between the stripe's centres in the rows and the projected cut.
+// Compares the stripe's centre in each row with the projected cut. Deviations are in pixels.
 Deviation deviation(const Optics& optics, const Subject& subject, const Cut& cut) {
   Renderer renderer(optics, &subject, ideal());
   const Exposure bright{.us = 8000};  // reduces rounding
@@ -140,7 +140,8 @@ TEST(Stripe, GlossAddsLightWhereItMirrorsTheLaserIntoTheCamera) {
             1.1 * light_at(optics, matt(mesh), point, ideal(), {.us = 1500}));
 }
 
-// Adds the stripe's light in each row of a wall at `x` that faces the camera.
+// Appends to `rows` the sum of the stripe's light in each row of a wall. The wall is at `x` and
+// faces the camera.
 void add_rows(const Optics& optics, double x, std::vector<double>& rows) {
   const Solid solid(wall({x, 0, 40}, -10, 80), {.is_painted = true, .gloss = 0});
   Renderer renderer(optics, &solid, ideal());

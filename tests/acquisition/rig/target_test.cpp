@@ -33,7 +33,7 @@ std::vector<Corner> detect(const Frame& frame) {
   cv::aruco::detectMarkers(image, dictionary, markers, ids);
   if (!ids.empty())
     cv::aruco::interpolateCornersCharuco(markers, ids, image, board, corners, corner_ids);
-  // OpenCV 4.6 leaves these half a pixel too far right and down.
+  // OpenCV 4.6 finds the corners half a pixel too far right and down. cornerSubPix() corrects that.
   if (!corners.empty()) cv::cornerSubPix(image, corners, {6, 6}, {-1, -1}, {3, 30, 1e-3});
   std::vector<Corner> found;
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -88,7 +88,7 @@ TEST(Target, ThePoseOnTheTableTurnsWithItAndOthersDoNot) {
   ASSERT_GE(corners.size(), 30U);
   for (const Corner& corner : corners) {
     const ImagePoint truth = *project(optics.camera, in_world(turned, on_sheet(corner.id)));
-    EXPECT_NEAR(corner.at.u, truth.u, 3) << corner.id;  // the motor has an error
+    EXPECT_NEAR(corner.at.u, truth.u, 3) << corner.id;  // allows for the motor's error
     EXPECT_NEAR(corner.at.v, truth.v, 3) << corner.id;
   }
   const auto held = detect(dark_frame(2, 0, 0)), still = detect(dark_frame(2, 0, 30));
@@ -115,7 +115,7 @@ TEST(Target, TheLaserCrossesEveryPoseAndTheyCoverTheVolume) {
       const LaserSheet laser = optics_in(pose.frame, optics).laser;
       const PrintedTarget target;
       int lit = 0;
-      // Visits the points at which the sheet cuts the target, by their heights on the target.
+      // Steps along the line in which the sheet cuts the target. y is the height on the target.
       for (double y = -55; y <= 55; y += 5) {
         const double x = (laser.offset - laser.normal.y * y) / laser.normal.x;
         const Vec3 at = in_world(pose.frame, {x, y, 0});

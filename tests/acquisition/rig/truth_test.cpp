@@ -49,7 +49,7 @@ TEST(Truth, WhatTheLaserAloneSeesDoesNotCount) {
   for (const double side : {-2.5, 2.5}) {
     add_quad(grooved, {20, side, 20}, {20, 0, 0}, {0, 0, 40});
   }
-  add_quad(grooved, {19, -10, 10}, {0, 20, 0}, {0, 0, 60});  // not visible from behind either
+  add_quad(grooved, {19, -10, 10}, {0, 20, 0}, {0, 0, 60});  // hides the bottom from behind
   EXPECT_EQ(seen_of(open), std::vector<std::uint8_t>(4, 1));
   const auto seen = seen_of(grooved);
   EXPECT_EQ(std::vector<std::uint8_t>(seen.begin(), seen.begin() + 4),
@@ -84,7 +84,7 @@ TEST(Truth, SeenIsWhatShowsLightInAPicture) {
   for (std::size_t v = 0; v < seen.size(); ++v)
     differing += seen[v] != lit[v];
   EXPECT_GT(std::count(seen.begin(), seen.end(), 1), 40);
-  EXPECT_LE(differing, 4);  // the poles, and vertices with only one lit face
+  EXPECT_LE(differing, 4);  // at most the poles and vertices with only one lit face
 }
 
 TEST(Truth, ThePlyHasTheMeshInMillimetresAndTheFlag) {

@@ -17,7 +17,7 @@ namespace {
 // Distances from the axis, in mm. They are so large that the first and the last profile are not
 // joined.
 constexpr double kFront = 38, kBehind = 16;
-constexpr double kHeight = 40;  // mm: height of the rear sheet; the front sheet has half
+constexpr double kHeight = 40;  // mm: height of the rear sheet; the front sheet is half as high
 constexpr double kStep = .5;    // degrees
 constexpr int kSteps = 17;
 

@@ -9,7 +9,7 @@
 namespace vitrine::test {
 namespace {
 
-// Counts a call. Fails if the device is lost.
+// Counts a call of the device function `name`. Fails if FakeWorld::fault returns true for it.
 Expected<void> call(FakeWorld& world, const std::string& name) {
   int count = 0;
   {
@@ -106,7 +106,7 @@ class FakeBoard : public Board {
     const std::lock_guard lock(world_.mutex);
     return world_.position_known ? std::optional(world_.degrees) : std::nullopt;
   }
-  // Only the test knows the table's true angle. The caller must declare the same angle.
+  // position() still returns the true angle afterwards, so the caller must declare the true angle.
   Expected<void> set_position(double degrees) override {
     if (auto there = use("set position"); !there) return there;
     const std::lock_guard lock(world_.mutex);
@@ -140,7 +140,8 @@ class FakeBoard : public Board {
   }
 
  private:
-  // An unplugged board has no power.
+  // Counts a call of the board. Once the board is lost, laser and motor are off, because an
+  // unplugged board has no power.
   Expected<void> use(const std::string& name) {
     auto there = call(world_, name);
     const std::lock_guard lock(world_.mutex);

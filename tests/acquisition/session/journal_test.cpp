@@ -14,7 +14,8 @@ namespace {
 
 class Journal : public testing::Test {
  protected:
-  // Writes profiles with 0, 1, 2, … points, and notes the file's size after each.
+  // Writes a turn and a profile with i points for each step i. Notes the file's size after each
+  // record.
   void write(int profiles) {
     JournalContents contents;
     auto journal = ProfileJournal::open(path_, contents);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests failures; the tests with vitrine-rig cover success.
+// Tests the failures of picture_target(). The tests with vitrine-rig cover its success.
 #include "acquisition/session/target_pictures.h"
 
 #include "scan_test.h"

@@ -11,8 +11,8 @@
 
 namespace vitrine::acquisition {
 
-// Returns rho, in mm, at an angle about the axis (radians) and a height (mm). Returns nullopt
-// beside the surface.
+// Returns rho, in mm, at an angle about the axis (radians) and a height (mm). Returns nullopt where
+// there is no surface.
 using Shape = std::function<std::optional<double>(double angle, double z)>;
 
 struct Scanned {
@@ -25,7 +25,8 @@ struct Scanned {
 std::vector<Profile> scan_of(const Shape& shape, const Scanned& how = {});
 
 Shape cylinder(double radius);
-// A shape around (0, 0, height).
+// An ellipsoid with its centre on the axis at the height `height`. `across` and `up` are its half
+// axes. All are in mm.
 Shape ellipsoid(double across, double up, double height);
 Shape box(double half);
 

@@ -57,8 +57,8 @@ TEST(Strands, ASurfaceThatIsAloneAgainStaysInItsStrand) {
   EXPECT_THAT(rhos(strands[1]), testing::ElementsAre(12, 12, 12, 12));
 }
 
-// The nearest strand may have no point in that row: its position there is interpolated. It is not
-// interpolated if the surface ends between the strand's points.
+// The nearest strand may have no point in the row of the given point. Then its position in that row
+// is interpolated, unless the surface ends between the strand's points.
 TEST(NearestStrand, IsNearAtThePointsRow) {
   Profile sparse{0, {point(0, 20), point(40, 20)}}, dense{0, {}};
   for (int row = 0; row <= 40; ++row)

@@ -19,8 +19,8 @@ using testing::HasSubstr;
 
 struct Topology {
   std::size_t most = 0;      // largest number of faces at one edge
-  std::size_t boundary = 0;  // edges with one face
-  bool oriented = true;      // no edge is traversed twice in the same direction
+  std::size_t boundary = 0;  // number of edges with one face
+  bool oriented = true;      // whether no edge is traversed twice in the same direction
 };
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -282,7 +282,7 @@ TEST(Surface, ASmallGapIsFilledLinearlyALargeOneIsNot) {
   EXPECT_EQ(unfilled->report.filled, 0);
 }
 
-// The laser misses the top, which leaves a hole smaller than largest_hole.
+// The laser misses the top, which leaves a hole with a diameter between 1 and 2 mm.
 TEST(Surface, ASmallHoleInTheMeshIsClosed) {
   const auto dome = [](double, double z) { return std::sqrt(20 * 20 - z * z); };
   const Scanned how = {.profiles = 180, .rows = 400, .top = 19.99, .bottom = 0};
@@ -311,7 +311,7 @@ TEST(Surface, OfTwoInEachRowIsBoth) {
   EXPECT_TRUE(topology.oriented);
 }
 
-// A pocket lies in front of a wall. At the pocket's rim both surfaces continue or end.
+// A pocket lies in front of a wall. So some rows of some profiles show two surfaces.
 TEST(Surface, OfTwoInSomeRowsIsBothThere) {
   auto pocket = scan_of(cylinder(24));
   for (std::size_t k = 0; k < pocket.size(); ++k) {
