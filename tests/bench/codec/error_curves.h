@@ -11,7 +11,7 @@
 namespace vitrine::bench {
 
 struct ErrorPoint {
-  double x = 0;      // faces or bytes
+  double x = 0;      // number of faces or bytes
   double error = 0;  // rms error of the displayed mesh, in % of the diagonal (single_files.h)
 };
 

@@ -10,7 +10,9 @@
 namespace vitrine::bench {
 namespace {
 
-constexpr double kMaxRate = 1.5;  // limit of the geometric mean of each model's ratios
+// Largest accepted ratio of our bytes to those of the single file: geometric mean over a model's
+// levels.
+constexpr double kMaxRate = 1.5;
 constexpr std::size_t kFewestFaces = 50'000;
 // Range of the compared levels, as shares of the faces.
 constexpr double kCoarsest = 0.01, kFinest = 0.5;

@@ -19,9 +19,9 @@ struct CloseUp {
   double share;  // share of the diagonal that fills the height of the viewport
   double limit;
 };
-// Closer views would need full resolution everywhere in sight, because a pixel would hardly exceed
-// the rounding of the lattice. A scan also needs full resolution if only its last level has an
-// error of at most one pixel.
+// In views closer than these, a pixel would hardly be larger than the rounding of the lattice, so
+// all visible regions would need full resolution. A scan needs full resolution even here if only
+// its last level has an error of at most one pixel.
 constexpr CloseUp kCloseUps[] = {{"close_up_quarter", 0.25, kMaxCloseUp},
                                  {"close_up_eighth", 0.125, kNoThreshold}};
 

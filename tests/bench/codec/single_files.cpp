@@ -17,7 +17,7 @@ constexpr int kTargets = 14;
 constexpr double kFewest = 0.004, kMost = 0.65;  // range of targets, as shares of the faces
 constexpr int kFewestBits = 8, kMostBits = 12;
 constexpr std::size_t kSamples = 50'000;
-constexpr std::size_t kFewestPoints = 12;  // minimum number of points of a curve used as reference
+constexpr std::size_t kFewestPoints = 12;  // a curve with fewer points is rejected
 
 // Returns numbers of faces from kFewest to kMost of the original's, evenly spaced on a logarithmic
 // scale.

@@ -12,7 +12,8 @@
 namespace vitrine::bench {
 namespace {
 
-// Range of faces or bytes, as shares of the default's.
+// Range in which errors are compared, as shares of the faces or bytes of the default's finest
+// level.
 constexpr double kSmallest = 0.01, kLargest = 0.5;
 constexpr int kSteps = 8;
 

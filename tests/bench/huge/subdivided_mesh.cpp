@@ -19,7 +19,7 @@ constexpr int kWaves = 6;              // number of waves; each is half as long 
 constexpr double kLongest = 1.0 / 24;  // length of the longest wave, as a share of the diagonal
 constexpr double kHeight = 1.0 / 40;   // height of a wave, as a share of its length
 
-// Returns unit normals; (0, 0, 0) for a vertex without one.
+// Returns the unit normal of each vertex; (0, 0, 0) if a vertex has no normal.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size());
   for (const auto& [a, b, c] : mesh.faces) {

@@ -86,7 +86,8 @@ Accuracy accuracy(const TriangleMesh& scan, const Truth& truth) {
 }
 
 TriangleMesh at_height_of(const TriangleMesh& scan, const TriangleMesh& truth) {
-  constexpr double kFarthest = 8, kNearest = 0.2;  // mm
+  // `reach`, in mm, falls from the first value to the second. Points farther away do not count.
+  constexpr double kFarthest = 8, kNearest = 0.2;
   const TriangleBvh surface(truth);
   std::vector<Vec3> points = points_on(scan, kAlignSamples);
   double height = top(truth) - top(scan);

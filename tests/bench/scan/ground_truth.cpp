@@ -12,7 +12,7 @@
 namespace vitrine::bench {
 namespace {
 
-// Limits: mm, mm, share of the points.
+// Limits: rms and 95th percentile of the distances, in mm; share of points that are not covered.
 constexpr double kRms = 0.05, kP95 = 0.12, kUncovered = 0.03;
 constexpr int kSteps = 720, kQuickSteps = 90;
 

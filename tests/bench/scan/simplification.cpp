@@ -25,12 +25,13 @@
 namespace vitrine::bench {
 namespace {
 
-using Polygons = std::array<std::uint64_t, 4>;  // a, b, c, d of [WLL] table 2, finest first
+// Numbers of polygons of the levels a, b, c and d of [WLL] table 2, finest first.
+using Polygons = std::array<std::uint64_t, 4>;
 constexpr Polygons kPortrait = {57'168, 31'951, 22'729, 15'964};
 constexpr Polygons kSkull = {100'182, 55'796, 39'934, 28'526};
 
-// [WLL] table 2, as shares of the finest level in VRML: the layer from b to a, the base with all
-// layers, and all levels as separate files.
+// Sizes from [WLL] table 2, as shares of the VRML file of the finest level: the layer from b to a,
+// the base with all layers, and all levels as separate files.
 constexpr double kPaperLayer = 0.81, kPaperLayered = 1.26, kPaperFiles = 1.96;
 
 struct State {

@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kExtraction = 3, kSurface = 5;  // limits: ms for a stripe, s for a surface
 constexpr double kStripeNoise = 0.03;            // mm, standard deviation
-// Limit of a scan's time relative to the camera's alone: a scan processes one pair of pictures
-// while the camera takes the next, and then makes the mesh.
+// Largest accepted time of a scan, as a multiple of the time that the camera alone takes. A scan
+// processes one pair of pictures while the camera takes the next, and then makes the mesh.
 constexpr double kOverCamera = 1.25;
 
 double median(std::vector<double> values) {

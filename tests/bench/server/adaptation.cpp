@@ -71,7 +71,8 @@ class Adaptation {
       dropped = StreamPeer::now();
     }
     double noticed = kNever;
-    // Counts as never kept, so a missing forecast fails.
+    // This default counts as a forecast that never came true, so the figure fails if the server
+    // sends no forecast.
     ReceivedForecast worst{.promise = {}, .at = 0};
     bool any = false;
     for (const ReceivedForecast& heard : course.forecasts()) {

@@ -134,7 +134,7 @@ class Throughput {
         load.requests.push_back(request_of(i, host));
       return deliver(load).requests_per_second;
     };
-    rate(kThree);  // fills each daemon's copies and caches
+    rate(kThree);  // lets each daemon fill its copies and caches before the measurement
     std::vector<double> ones, threes, ratios;
     for (int run = 0; run < 5; ++run) {
       ones.push_back(rate(kOne));

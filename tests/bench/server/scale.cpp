@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Bytes. It is more than any viewer receives during a measurement.
+// Size of the model's chunk in bytes. It is more than any viewer receives during a measurement.
 constexpr std::size_t kChunk = 64u << 20;
 
 class Scale {
@@ -110,7 +110,7 @@ class Scale {
 }  // namespace
 
 void scale(Report& report, const Effort& effort) {
-  constexpr double kIdle = 20'000, kOneChunk = 64 * 1024;  // bytes per viewer
+  constexpr double kIdle = 20'000, kOneChunk = 64 * 1024;  // limits in bytes per viewer
   test::raise_descriptor_limit();
   const std::size_t viewers = effort.is_quick ? 1'000 : 10'000, active = viewers / 5;
   {

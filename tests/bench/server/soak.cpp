@@ -200,7 +200,7 @@ class Soak {
   std::atomic<std::size_t> visits_ = 0;
 };
 
-// Returns the slope in kilobytes per minute, by least squares.
+// Fits a line to the samples from `first` on. Returns the growth of memory in kilobytes per minute.
 double slope(const std::vector<Soak::Sample>& samples, std::size_t first) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t i = first; i < samples.size(); ++i) {

@@ -16,7 +16,8 @@ import { diagonal, dracoGlb } from "./draco_glb.mjs";
 import { Line } from "./line.mjs";
 
 const kLine = { rate: 200_000, delay: 75 };
-const kWarm = 1000, kHead = 50_000; // ms, bytes
+// Limits of a warm first picture: time in ms, and bytes of the model by then.
+const kWarm = 1000, kHead = 50_000;
 const web = new URL("../../../web/", import.meta.url);
 const { build } = createRequire(new URL("package.json", web))("esbuild");
 

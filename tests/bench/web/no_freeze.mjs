@@ -10,7 +10,8 @@ import { join } from "node:path";
 import { ViewerPage, launch } from "../../e2e/browser.mjs";
 import { StaticHost } from "../../e2e/static_host.mjs";
 
-const kSlowDown = 4, kMost = 12; // a factor; ms of CPU time
+// Factor by which Chromium is slowed down, and limit of a task in ms of CPU time.
+const kSlowDown = 4, kMost = 12;
 const kCategories = ["toplevel", "devtools.timeline", "blink.user_timing", "v8"];
 const kCollection = /^(MajorGC|MinorGC|V8\.GCIncrementalMarking.*)$/;
 
