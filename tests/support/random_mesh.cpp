@@ -83,7 +83,7 @@ ComponentMesh plate(std::uint32_t u, std::uint32_t v) {
     part.positions.push_back({2.0 * i / u - 1, 2.0 * j / v - 1, k < layer ? 0.1 : -0.1});
   }
   const auto at = [&](std::uint32_t i, std::uint32_t j) { return j * (u + 1) + i; };
-  // an index below zero wraps to a large one
+  // An index below zero wraps to a large number, which counts as outside the plate.
   const auto solid = [&](std::uint32_t i, std::uint32_t j) {
     return i < u && j < v && !(i % 2 == 1 && j % 2 == 1);
   };
