@@ -24,8 +24,8 @@ struct DetailRequest {
   double kbps = 0;     // the client's bandwidth in kilobits per second; 0: unknown
 };
 
-// Reads the detail request from a query. Without detail parameters, the result is the whole model,
-// or kSavedDataBytes if the header has `Save-Data: on`.
+// Reads the detail request from a query. Without detail parameters, requests the whole model, or
+// at most kSavedDataBytes bytes of it if the header has `Save-Data: on`.
 tl::expected<DetailRequest, ParameterFault> read_detail_request(const Query& query,
                                                                 const RequestHeader& header,
                                                                 const Manifest& manifest);
@@ -33,15 +33,15 @@ tl::expected<DetailRequest, ParameterFault> read_detail_request(const Query& que
 bool saves_data(const RequestHeader& header);
 
 // Returns a key under which the result of `want` can be cached. Equal requests have equal keys,
-// however they are written. All numbers of triangles, or of bytes, beyond those of the whole model
-// have one key.
+// however they are written. Requests for more triangles than the whole model has share one key.
+// The same holds for bytes.
 std::string key_of(const Want& want, const Manifest& manifest);
 
 // The result of a detail request, estimated from the manifest without decoding.
 struct DetailForecast {
   std::uint32_t level = 0;  // the finest complete level
-  // Number of triangles, at least that of `level`. If a chunk is used only in part, the number may
-  // be off by up to one split.
+  // Number of triangles, at least that of `level`. If only a part of the last chunk is used, the
+  // number may be off by the triangles that one split adds, at most two.
   std::uint64_t triangles = 0;
   std::uint64_t bytes = 0;  // total size of the header, the base mesh and the chunks used
   double error = 0;         // upper bound of the error of `level`, in model units

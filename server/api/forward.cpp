@@ -15,8 +15,8 @@ namespace vitrine::server {
 namespace {
 
 constexpr const char* kForwardedField = "Vitrine-Passed-On";
-constexpr std::size_t kMostBytes = 64 << 20;  // bytes in the largest response, such as a picture
-// Short, as the daemons are on one local network.
+constexpr std::size_t kMostBytes = 64 << 20;  // largest accepted response in bytes
+// Short, since the daemons are on one local network.
 constexpr std::chrono::seconds kConnectTimeout{3};
 constexpr std::chrono::seconds kQuickTimeout{5};
 // Long enough for the turntable to finish a motion first.
@@ -118,7 +118,7 @@ std::vector<nlohmann::ordered_json> ask_daemons(std::span<const DaemonQuery> que
     const auto* const text = std::get_if<std::string>(&answer.body);
     return answer.status == 200 && text != nullptr ? object_in(*text) : nullptr;
   };
-  // One pass suffices for all queries, as only one worker waits.
+  // One pass of the admission limit covers all queries, since only this worker waits for them.
   const auto pass = pass_for(request, services);
   if (!pass) return std::vector<nlohmann::ordered_json>(queries.size());
   std::vector<std::future<nlohmann::ordered_json>> asked;

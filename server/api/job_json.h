@@ -23,11 +23,12 @@ nlohmann::ordered_json job_json(const JobStatus& job);
 nlohmann::ordered_json scan_json(const ScanInfo& scan);
 nlohmann::ordered_json scanner_json(const ScannerStatus& scanner);
 
-// Returns the JSON as a response that caches must not store, as its content changes often.
+// Returns the JSON as a response that caches must not store, since its content changes often.
 Response json_answer(const nlohmann::ordered_json& json, unsigned status = 200);
 
 // Returns the response to a failed operation: 409 for kState, 422 for kBadInput, 507 for kLimit (no
-// room). Other errors are answered by internal_error(), which sends the reason only to the log.
+// space left). Other errors are answered by internal_error(), which writes the reason only to the
+// log.
 Response refused(const Error& error, const Request& request, Services& services);
 
 // Returns the response to an error of JobQueue::begun_by() or add(): like refused(), except that a

@@ -43,7 +43,7 @@ Response accepted(const JobRecord& job) {
 }
 
 // Whether an If-Match list matches the model. Compares with the entity tags of both the full and
-// the public view, as a client may read the model without a token and then change it with one.
+// the public view, since a client may read the model without a token and then change it with one.
 bool matches(std::string_view list, const ModelRecord& model) {
   return matches_any(list, model_tag(model)) || matches_any(list, model_tag(public_view(model)));
 }
@@ -151,7 +151,7 @@ static Response make_model(const Request& request, Services& services) {
   auto& jobs = services.scans.jobs();
   const auto begun = jobs.begun_by(*once);
   if (!begun) return refused_job(begun.error(), request, services);
-  // Checked before check(), as the upload of a job that has begun may have been removed already.
+  // Tested before check(), since the upload of a job that has begun may have been removed already.
   if (*begun) return accepted(**begun);
   const auto held = services.uploads.hold();
   if (const auto faults = check(*order, request, services); !faults.empty())

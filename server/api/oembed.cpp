@@ -19,8 +19,8 @@ struct Room {
   std::uint32_t width = 640, height = 480;
 };
 
-// Lowers `room` to the largest size that the embedding site allows. Returns the fault if a
-// parameter is invalid, else nullopt.
+// Reduces `room`, the size of the embedded frame, to `maxwidth` and `maxheight` of the query.
+// Returns the fault if one of these parameters is invalid, else nullopt.
 std::optional<ParameterFault> read_room(const Query& query, Room& room) {
   for (const auto& [name, side] :
        {std::pair("maxwidth", &room.width), std::pair("maxheight", &room.height)}) {

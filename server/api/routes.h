@@ -14,7 +14,7 @@ namespace vitrine::server {
 // routes.cpp lists all of them.
 struct ApiNoun {
   std::span<const ApiRoute> routes;
-  // The noun's part of `components` in the OpenAPI document, such as `schemas`, as a JSON object.
+  // A JSON object: the noun's part of `components` in the OpenAPI document, such as its schemas.
   // Names that several nouns use are in common_components.cpp.
   std::string_view components = {};
 };

@@ -12,7 +12,7 @@
 namespace vitrine::server {
 namespace {
 
-constexpr double kFarthest = 360 * 100;  // largest jog in degrees
+constexpr double kFarthest = 360 * 100;  // largest angle of one jog, in degrees
 
 Response state_of(ScannerStation& scanner) {
   return json_answer(scanner_json(scanner.status()));

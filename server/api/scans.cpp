@@ -12,7 +12,7 @@
 namespace vitrine::server {
 namespace {
 
-constexpr std::size_t kMaxPoints = 250'000;  // points per response
+constexpr std::size_t kMaxPoints = 250'000;  // largest number of points in one response
 
 // Calls `answer(scan)` with the scan that the request names, or forwards the request to the daemon
 // that drives the scan's scanner. Returns 401 or 404 if there is no scan that the caller may see,
@@ -68,7 +68,8 @@ Response state_after(const Expected<void>& done, const ScanId& id, const Request
   if (!done) return refused(done.error(), request, services);
   const auto scan = services.scans.find(id);
   if (!scan || !*scan) return problem(404, "there is no such scan", request.id);
-  return json_answer(scan_json(**scan), 202);  // 202, as the command takes effect at the next step
+  // 202, since the command takes effect only at the next step.
+  return json_answer(scan_json(**scan), 202);
 }
 
 std::optional<std::size_t> read_from(const Query& query) {
@@ -175,7 +176,7 @@ static Response reprocess_scan(const Request& request, Services& services) {
     auto before = ScanService::order_of(scan.entry);
     if (!before) return refused(before.error(), request, services);
     const bool is_whole = scan.entry.step == scan.entry.steps;
-    // A scan of only a part of an object becomes public only if the order asks for it.
+    // If the scan is incomplete, its model becomes public only if this order asks for it.
     before->is_public = before->is_public && is_whole;
     const auto order = parse_reprocess_order(request.body, *before);
     if (!order) return invalid(order.error(), request);

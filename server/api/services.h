@@ -51,7 +51,7 @@ struct Services {
   // stops have separate limits. One address may use at most half of the limit for requests without
   // a token. For each forwarded request there is an additional waiting thread (WorkerOptions), so
   // that other requests and the watchdog never wait for another daemon.
-  static constexpr std::size_t kMostForwarded = 8;  // for each of the three kinds
+  static constexpr std::size_t kMostForwarded = 8;  // for each of the three kinds of requests
   static constexpr unsigned kWaitingThreads = 3 * kMostForwarded;
   const std::shared_ptr<AdmissionLimit> forwarded_for_strangers =
       std::make_shared<AdmissionLimit>(kMostForwarded, kMostForwarded / 2);

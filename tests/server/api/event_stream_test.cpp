@@ -61,7 +61,7 @@ Response events(const Request&, Services&) {
 class EventStream : public ::testing::Test {
  protected:
   void SetUp() override {
-    while (released.try_acquire()) {  // drops the releases of earlier tests
+    while (released.try_acquire()) {  // discards the releases that earlier tests left
     }
   }
 };

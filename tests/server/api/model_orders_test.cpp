@@ -60,7 +60,7 @@ class ModelOrders : public testing::Test {
   // Returns once all earlier tasks are done.
   void settle() {
     server_.scans().jobs().executor("").run([] {});
-    // Without this, the cache would notice the change up to a tenth of a second later.
+    // Otherwise the cache could return the old state of a model for a tenth of a second.
     server_.services().models.refresh();
   }
   json job_of(const HttpAnswer& accepted) {
@@ -224,7 +224,7 @@ TEST_F(ModelOrders, AModelThatIsReplacedKeepsItsIdAndWhatIsNotSaidAnew) {
   const std::string before = model(id)["bytes"].dump();
   const std::string now =
       publish(ply_of(test::torus(30, 20)), {{"replace", id}, {"metadata", {{"title", "New"}}}});
-  server_.services().models.refresh();  // without this, the cache notices the change a little later
+  server_.services().models.refresh();  // otherwise the cache could return the old model
   EXPECT_EQ(now, id);
   EXPECT_EQ(model(id)["title"], "New");
   EXPECT_EQ(model(id)["creator"], "A. N. Other");

@@ -147,7 +147,7 @@ TEST(Overload, CallsThatWaitForDevicesOrTheDiskLeaveTheWorkersToOthers) {
   const test::LocalServer server(kCrowdedRoutes);
   for (const std::string path : {"/device", "/disk", "/pour"}) {
     std::vector<std::unique_ptr<test::HttpClient>> waiting;
-    for (int i = 0; i < 4; ++i) {  // as many requests as there are threads for them
+    for (int i = 0; i < 4; ++i) {  // the device and the disk executor have four threads each
       waiting.push_back(std::make_unique<test::HttpClient>(server.port()));
       waiting.back()->send("POST " + path + " HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n");
       entered.acquire();
@@ -191,7 +191,7 @@ TEST(Overload, AnswersThatNobodyTakesHoldNoMoreMemoryThanTheyMay) {
     EXPECT_EQ(refused.field("retry-after"), "5");
     EXPECT_EQ(test::http_get(server.port(), "/quick").status, 200);
     EXPECT_EQ(test::http_get(server.port(), "/text", "", "HEAD").status, 200);
-    if (path == "/shared") {  // all responses share one body in memory
+    if (path == "/shared") {  // a second response with the same body takes no more memory
       EXPECT_EQ(ask(path)->receive(false).status, 200);
     }
     first->read_exactly(kLarge);

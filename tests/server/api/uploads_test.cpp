@@ -124,7 +124,7 @@ TEST_F(UploadRoutes, ACallWhosePeerHasGoneIsAuditedAndCounted) {
   const auto line = [](const std::string& target) { return "target=" + target + " status=499"; };
   std::string told;
   while (told.find(line(path)) == told.npos || told.find(line(publish)) == told.npos) {
-    EXPECT_EQ(head(path).status, 200);  // later requests are served
+    EXPECT_EQ(head(path).status, 200);  // the server still answers other requests
     told = server_.events();
   }
   head(path);  // once this is answered, the metrics count the aborted requests
