@@ -240,8 +240,8 @@ class Daemon {
       if (const auto kept = installation_.jobs->set_notified(id); !kept)
         events_.event(Severity::kError, kept.error().message);
     };
-    // Another daemon may have newer settings that allow the webhook, so this daemon gives up only
-    // after a while.
+    // Another daemon may have newer settings that allow the webhook, and then call it. So this
+    // daemon gives the webhook up only after kUnwanted.
     const bool is_old = now_in_milliseconds() - ended.ended > kUnwanted.count();
     if (!webhooks_.allows(ended.webhook) && is_old) {
       events_.event(Severity::kWarning,
@@ -309,7 +309,8 @@ class Daemon {
         signals_.cancel();
         return drain();
       }
-      wait_for_reload();  // first, as the calls below may throw
+      // Waits for the next signal first, since the calls below may throw.
+      wait_for_reload();
       signal == SIGHUP ? reload() : reopen_log(live_.get()->access_log);
     });
   }
@@ -387,7 +388,7 @@ class Daemon {
     public_.drain([this] { io_.stop(); });
   }
 
-  // Used only on control_ once the daemon waits for signals.
+  // Once the daemon waits for signals, only handlers on the strand control_ use this member.
   Configuration configuration_;
   LiveSettings live_;
   const std::shared_ptr<LiveTls> tls_;  // null if the daemon does not use TLS
@@ -444,7 +445,7 @@ int serve(Configuration configuration) {
   // port.
   auto tls = open_tls(settings);
   if (!tls) return report(tls.error());
-  // Checks the files; uses no device.
+  // Checks the scanners' configuration files without using a device.
   if (const auto valid = open_scanners(scanners_of(settings), {}); !valid)
     return report(valid.error());
   if (const auto usable = check_addresses(settings); !usable) return report(usable.error());
@@ -472,7 +473,7 @@ int serve(Configuration configuration) {
 int check(const Settings& settings) {
   if (const auto usable = check_paths(settings); !usable) return report(usable.error());
   if (const auto tls = open_tls(settings); !tls) return report(tls.error());
-  // Checks the files; uses no device.
+  // Checks the scanners' configuration files without using a device.
   if (const auto scanners = open_scanners(settings.scanners, {}); !scanners)
     return report(scanners.error());
   return print("the configuration is valid\n");
@@ -482,7 +483,9 @@ int check(const Settings& settings) {
 
 int run_daemon(std::span<const std::string_view> arguments,
                std::span<const std::string_view> environment) {
-  std::signal(SIGPIPE, SIG_IGN);  // sendfile(2) has no MSG_NOSIGNAL
+  // A connection that the client has closed must not kill the daemon. Unlike send(2), sendfile(2)
+  // has no MSG_NOSIGNAL.
+  std::signal(SIGPIPE, SIG_IGN);
   const auto read = [=] { return parse_command_line(arguments, environment, read_config_file); };
   const auto line = read();
   if (!line) return report(line.error());

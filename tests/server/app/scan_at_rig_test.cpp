@@ -68,7 +68,8 @@ class DaemonAtRig : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  // The command line of vitrine-rig. Its script restarts the daemon whenever the daemon ends.
+  // The command line of vitrine-rig, which runs the script below. The script restarts the daemon
+  // whenever the daemon ends.
   std::vector<std::string> words() const {
     std::vector<std::string> all = {VITRINE_BIN_DIR "/vitrine-rig",
                                     "--mesh",
@@ -203,7 +204,7 @@ TEST_F(DaemonAtRig, TheWalkthroughInTheReadmeEndsWithAPublicModel) {
       run_program({"env", fmt::format("URL=http://127.0.0.1:{}", std::stoi(text(path("port")))),
                    "T=" + token_, "SCANNER=rig", script});
   ASSERT_EQ(walked.exit_code, 0) << walked.errors << walked.output;
-  const json models = get("/models")["models"];  // the models that visitors see
+  const json models = get("/models")["models"];  // published models only
   ASSERT_EQ(models.size(), 1u) << walked.output;
   EXPECT_EQ(models[0]["title"], "Bust");
 }

@@ -31,8 +31,8 @@ namespace {
 using ::testing::StartsWith;
 using namespace std::chrono_literals;
 
-// Receives notifications as systemd does. A thread receives all the time, because a daemon whose
-// messages are not received is held up.
+// Receives notifications as systemd does. A thread receives them all the time, because the daemon
+// would block as soon as the socket's queue is full.
 class ServiceManager {
  public:
   explicit ServiceManager(const std::filesystem::path& path)
@@ -63,7 +63,8 @@ class ServiceManager {
     return message;
   }
 
-  // Whether the daemon sends more watchdog messages than can be on their way already.
+  // Whether the daemon is still sending watchdog messages. Waits for more messages than can have
+  // been in transit before the call.
   bool hears_of_life() {
     std::unique_lock lock(mutex_);
     const std::uint64_t before = alive_;
@@ -71,7 +72,7 @@ class ServiceManager {
   }
 
   // Whether no watchdog message arrives for a second, which is 50 times the daemon's interval. Up
-  // to kUnderWay messages that were on their way may arrive first.
+  // to kUnderWay messages may arrive first, because they were already in transit.
   bool hears_no_more() {
     std::unique_lock lock(mutex_);
     const std::uint64_t before = alive_;
@@ -83,7 +84,7 @@ class ServiceManager {
 
  private:
   static constexpr auto kPatience = 20s;
-  static constexpr std::uint64_t kUnderWay = 30;  // the most messages that may be on their way
+  static constexpr std::uint64_t kUnderWay = 30;  // largest number of messages in transit
 
   void listen() {
     char text[512];
@@ -139,7 +140,7 @@ TEST_F(ServiceManagerTest, HearsNoMoreOfADaemonWhoseWorkersAreAllStuckAndDoesWhi
   const auto object = file_in(served.path() / "objects");
   const auto aside = served.path() / "aside", pipe = served.path() / "pipe";
   std::filesystem::rename(object, aside);
-  // an open of a FIFO blocks until the other end is opened
+  // Replaces the object by a FIFO: a worker that opens it blocks until the other end is opened.
   ASSERT_EQ(::mkfifo(object.c_str(), 0600), 0);
   Daemon daemon(served.path());
   EXPECT_EQ(manager.hear(), "READY=1");

@@ -117,7 +117,7 @@ TEST_F(StreamTest, OpeningModelsIsBoundToTheRateOfRequests) {
     return told(client)["reason"];
   };
   EXPECT_EQ(reason(), "there is no such model");
-  for (int i = 0; i < 100; ++i) {  // the rate limit allows ten calls at once
+  for (int i = 0; i < 100; ++i) {  // the rate limit allows only ten calls at once
     if (reason() == "too many requests; wait") return;
   }
   FAIL() << "a hundred calls were answered";

@@ -192,7 +192,8 @@ TEST(Limits, AllOfAnIpv6NetworkShareOnesBudget) {
   EXPECT_EQ(client.get(model, from("2001:db8:0:1::")).status, 200);
 }
 
-// The five HTTP requests are too few to use up the budget by themselves.
+// The test sends at most five HTTP requests, which are within the limit. One of them is refused
+// only if the messages on the stream use up the same budget.
 TEST(Limits, ModelsThatAreOpenedOnAStreamAreOfItsNetworksBudget) {
   ServedFolder folder;
   const std::string model = "/api/v1/models/" + folder.publish("A small bust");
