@@ -15,7 +15,7 @@ namespace vitrine::server {
 class RateLimit {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr double kBurst = 10;  // seconds' worth of calls that may be made at once
+  static constexpr double kBurst = 10;  // seconds in which an empty budget becomes full
 
   explicit RateLimit(std::uint32_t rate);  // `rate`: calls per second; 0: no limit
 
