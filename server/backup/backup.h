@@ -18,8 +18,9 @@ struct BackupReport {
 
 // Backs up the installation in `data` to `file`, which is written completely or not at all. A
 // daemon may serve the installation during the backup. The backup shows the state at one moment,
-// except for scans in progress, which are stored as after a crash. Reads every object and checks
-// its hash. kIo if a file cannot be read or written, kState if the installation is damaged.
+// except for scans in progress, which it stores as a crash of the daemon would leave them. Reads
+// every object and checks its hash. kIo if a file cannot be read or written, kState if the
+// installation is damaged.
 Expected<BackupReport> back_up(const std::filesystem::path& data,
                                const std::filesystem::path& file);
 

@@ -36,7 +36,7 @@ Expected<void> copy_file(const ObjectStore& from, ObjectStore& to, const NamedFi
   return put ? Expected<void>() : tl::unexpected(put.error());
 }
 
-// Copies the files that `done` does not contain.
+// Copies the files that `done` does not contain yet, and adds them to `done`.
 Expected<void> copy_files(Installation& from, Installation& to, MigrationReport& report,
                           FilesByHash& done, const MigrationProgress& progress) {
   const auto files = named_files(from, report);

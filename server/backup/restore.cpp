@@ -51,7 +51,7 @@ class Restoration {
   Restoration(fs::path file, fs::path data) : file_(std::move(file)), data_(std::move(data)) {}
 
   Expected<BackupReport> run() {
-    std::error_code error;  // an error also makes the next call fail
+    std::error_code error;  // not checked, since unpack() then fails as well
     const bool made = fs::create_directories(data_, error);
     auto done = unpack();
     if (!done) take_back(made);
@@ -112,7 +112,7 @@ class Restoration {
   Expected<void> take_scan(const TarEntry& entry) {
     const fs::path path = data_ / entry.name;
     std::error_code error;
-    fs::create_directories(path.parent_path(), error);  // an error also makes the next call fail
+    fs::create_directories(path.parent_path(), error);  // if this fails, the next call fails, too
     return write_file_atomically(path, entry.bytes);
   }
 

@@ -17,8 +17,8 @@ struct archive;
 
 namespace vitrine::server {
 
-// Writes an archive to a temporary file beside `file`, which only its owner can read. finish()
-// renames the temporary file to `file`. All functions fail with kIo.
+// Writes an archive to a temporary file beside `file`. Only the owner can read the archive.
+// finish() renames the temporary file to `file`. All functions fail with kIo.
 class TarWriter {
  public:
   static Expected<TarWriter> create(const std::filesystem::path& file);
