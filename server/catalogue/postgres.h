@@ -60,7 +60,8 @@ class PostgresConnection final : public sql::DatabaseConnection {
   };
   std::unique_ptr<PGconn, CloseConnection> handle_;
   std::map<std::string, std::unique_ptr<sql::Statement>> statements_;
-  bool hangs_ = false;  // a response timed out; data received later could belong to that old query
+  // Whether a response has timed out. Data received later could belong to that old query.
+  bool hangs_ = false;
 };
 
 inline constexpr std::chrono::seconds kResponseTimeout{10};  // longest wait for a response

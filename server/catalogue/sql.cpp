@@ -29,8 +29,8 @@ void apply(DatabaseConnection& connection, std::span<const char* const> steps) {
   }
 }
 
-// Returns the table version of the oldest programs that can use tables of version `version`, or
-// nullopt if none is recorded.
+// Tables have versions, and each program is made for one of them. Returns the version of the oldest
+// programs that can use tables of version `version`, or nullopt if none is recorded.
 std::optional<std::int64_t> compatible_since(DatabaseConnection& connection, std::int64_t version) {
   const ScopedStatement row(connection.prepare("SELECT since FROM compatible WHERE version = ?"));
   if (!row->bind(version).step()) return std::nullopt;

@@ -141,9 +141,9 @@ auto with_connection(Database& database, Action action) -> decltype(action(*data
 // Never edit a step that has been released.
 struct Migrations {
   std::span<const char* const> steps;
-  // The table version of the oldest programs that can use the newest tables, so that old and new
-  // daemons may run side by side. Raise it with each step that does more than add columns with
-  // defaults.
+  // Programs made for tables of this version or a later one can use the newest tables, so that old
+  // and new daemons may run side by side. Raise it with each step that does more than add columns
+  // with defaults.
   std::int64_t since;
 };
 

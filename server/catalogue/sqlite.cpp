@@ -8,7 +8,7 @@
 namespace vitrine::server::sqlite {
 namespace {
 
-constexpr int kBusyMilliseconds = 10'000;  // timeout while another process writes
+constexpr int kBusyMilliseconds = 10'000;  // longest wait while another process writes
 
 constexpr const char* kAdvice = "check the data folder";
 

@@ -98,7 +98,7 @@ CREATE TABLE scanner (
 ALTER TABLE scan ADD COLUMN turn TEXT NOT NULL DEFAULT '';
 )sql",
 };
-constexpr std::int64_t kSince = 8;  // programs for earlier tables refuse all newer ones
+constexpr std::int64_t kSince = 8;  // programs made for earlier tables refuse all newer tables
 
 class SqliteConnection final : public sql::DatabaseConnection {
  public:
@@ -132,7 +132,8 @@ class SqliteConnection final : public sql::DatabaseConnection {
   const char* now() const override {
     return "CAST((julianday('now') - 2440587.5) * 86400000 AS INTEGER)";
   }
-  const char* skip_locked() const override { return ""; }  // begin() admits one writer at a time
+  // No clause is needed, since begin() admits only one writer at a time.
+  const char* skip_locked() const override { return ""; }
 
  private:
   SqliteHandle database_;
