@@ -139,7 +139,8 @@ Expected<void> PartialModel::set_head(const Bytes& head) {
       sha256(all.subspan(manifest->base_offset)) != manifest->base_sha256) {
     return wrong("sends a damaged head");
   }
-  if (manifest_) return {};  // the head is known already: the file's name contains the model's hash
+  // If the file already has a head, it is the same one: the file's name contains the model's hash.
+  if (manifest_) return {};
   if (::ftruncate(file_.get(), 0) != 0 ||
       ::ftruncate(file_.get(), static_cast<off_t>(manifest->file_bytes)) != 0) {
     return cannot("write", path_);

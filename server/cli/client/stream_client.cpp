@@ -213,8 +213,8 @@ class Fetching {
     return {};
   }
 
-  // Acknowledges the bytes processed. Once per connection, also sends the chunks that the part file
-  // contains and the detail request.
+  // Acknowledges the bytes processed. Once per connection, also tells the server which chunks the
+  // part file already contains, and sends the detail request.
   asio::awaitable<bool> report_progress(WebSocket& socket) {
     std::vector<ClientMessage> messages;
     if (taken_ > 0) messages.emplace_back(AckMessage{std::exchange(taken_, 0)});

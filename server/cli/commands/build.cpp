@@ -103,7 +103,7 @@ CommandOutcome check_outputs(const Arguments& arguments) {
     if (const auto distinct = check_distinct(path, out); !distinct) return failed(distinct.error());
   }
   using std::filesystem::weakly_canonical;
-  std::error_code unknown;  // ignored, as writing the outputs then fails
+  std::error_code unknown;  // ignored, since writing the outputs then fails
   if (outputs.size() == 2 &&
       weakly_canonical(outputs[0], unknown) == weakly_canonical(outputs[1], unknown)) {
     return misused("-o and --report name the same file; choose another name for the report");

@@ -112,7 +112,7 @@ class FetchBar {
   explicit FetchBar(const std::optional<DetailTarget>& target) : target_(target) {}
 
   void show(const PartialModel& model) {
-    // Limits how often triangles are counted, as that examines every chunk.
+    // Counts the triangles only once per interval, since counting examines every chunk.
     constexpr std::chrono::milliseconds kInterval{100};
     const auto now = Clock::now();
     if (now - shown_ < kInterval) return;
@@ -148,7 +148,8 @@ tl::expected<Fetched, Fault> receive(FetchOptions options) {
   return std::move(*fetched);
 }
 
-// Decodes all complete chunks in file order, as far as they can be applied. Returns the mesh file.
+// Decodes the complete chunks in file order, except those that depend on a missing chunk. Returns
+// the mesh file.
 Expected<Product> decode_held(const PartialModel& model, std::span<const std::uint8_t> pmesh,
                               const Order& order) {
   auto refiner = open_model(pmesh);

@@ -50,8 +50,8 @@ tl::expected<InputFile, Fault> open_input(const Arguments& arguments) {
   return std::move(*file);
 }
 
-// Returns the bytes to upload. A mesh that refers to files beside it is built here, as the server
-// cannot open those files.
+// Returns the bytes to upload. If a mesh refers to files beside it, builds the .pmesh file here,
+// since the server cannot open those files.
 tl::expected<Bytes, Fault> bytes_to_send(const InputFile& file, const std::string& path,
                                          ReadOptions reading) {
   const CompanionFiles companions(path, file.bytes());

@@ -81,7 +81,8 @@ Expected<FileCount> count_files(const fs::path& data, const fs::path& snapshot) 
   return files;
 }
 
-// Checks a copy of the catalogue, as opening the catalogue of an older daemon would migrate it.
+// Checks a copy of the catalogue, because opening the original would migrate its tables if an older
+// daemon made them.
 Finding check_catalogue(const fs::path& data) {
   if (!fs::exists(data / kCatalogueFile)) {
     return {Verdict::kFail, "catalogue", "the folder has no catalogue",

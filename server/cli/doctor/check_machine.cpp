@@ -12,7 +12,7 @@ namespace {
 // daemon itself.
 constexpr rlim_t kOpenFiles = 10'512;
 
-// Checks the clock, as tokens, jobs and certificates depend on it.
+// Checks the clock, since tokens, jobs and certificates depend on it.
 Finding check_clock() {
   timex state{};  // with modes = 0, adjtimex() only reads the state
   if (::adjtimex(&state) < 0)

@@ -9,7 +9,9 @@ namespace vitrine::server {
 
 struct RatePoint {
   double bytes = 0;  // bytes to send to reach this error
-  double error = 0;  // error in % of the diagonal; 0 cannot be drawn on a logarithmic scale
+  // Error in % of the bounding box's diagonal. A point with error 0 is left out, since it has no
+  // place on a logarithmic axis.
+  double error = 0;
 };
 
 struct RateSeries {

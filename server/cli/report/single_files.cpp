@@ -17,8 +17,8 @@ namespace {
 constexpr int kTargets = 14;
 constexpr int kFewestBits = 8;
 constexpr MeasureOptions kMeasure{.samples = 20'000};
-// Time for sampling a mesh, as the number of faces that are coded in that time. Used only to
-// estimate the progress.
+// Time for sampling a mesh, expressed as the number of faces that are coded in that time. Used only
+// to estimate the progress.
 constexpr double kSampling = 180'000;
 
 class MeshoptSimplifier {

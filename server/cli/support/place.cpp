@@ -14,7 +14,7 @@ namespace vitrine::server::cli {
 
 namespace {
 
-// Reads the configuration file `text`. Returns nullopt if there is no such file.
+// Reads `text` as the path of a configuration file. Returns nullopt if it is not a regular file.
 Expected<std::optional<Settings>> settings_in(const std::string& text) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(text, unknown)) return std::nullopt;

@@ -17,8 +17,8 @@ tl::expected<MeshFormat, Fault> scan_output(const std::string& out);
 
 CommandOutcome write_scanned(const TriangleMesh& mesh, MeshFormat format, const std::string& out);
 
-// Returns the figures of a scanned mesh. `stripe` has the totals over all pictures; `calibration`
-// is the number of the calibration.
+// Returns the figures of a scanned mesh. `stripe` has the totals over all pictures. `calibration`
+// is the calibration's number, which identifies it.
 nlohmann::json describe_scanned(const acquisition::ScannedSurface& surface,
                                 const acquisition::StripeCount& stripe,
                                 const acquisition::ScanRecord& record, int calibration,

@@ -24,7 +24,8 @@ TEST_F(VitrineCommand, AModelWithRegionsIsVerifiedInSeveralOrders) {
 TEST_F(VitrineCommand, TheProgressBarIsRedrawnWithoutNewReports) {
   const std::string in = write("in.ply", bumpy_ply(130'000));
   OnTerminal build({kVitrine, "build", in, "-o", path("out.pmesh")});
-  build.wait_for(" % read");  // the first stage of progress; the next begins much later
+  // Stops the sandboxed child in its first stage, which is long, so that it reports no progress.
+  build.wait_for(" % read");
   build.signal_child(SIGSTOP);
   build.wait_for(" left", 3);
   build.signal_child(SIGCONT);

@@ -73,7 +73,7 @@ TEST_F(Merge, AScanOfTheObjectInAnotherPoseIsMovedOntoTheFirst) {
   EXPECT_THAT(said.output, HasSubstr("b.ply: rms 0.000"));
   EXPECT_THAT(said.output, HasSubstr("where 100 % of it overlaps"));
   EXPECT_EQ(merged["scans"][1]["doubtful"], false);
-  // The command prints a note, because a.ply states no unit.
+  // Does not call vitrine_json(), since the command also prints a note: a.ply states no unit.
   const ProgramResult measured = vitrine({"measure", path("out.ply"), path("a.ply"), "--json"});
   EXPECT_LT(json::parse(measured.output)["rms"].get<double>(), 1e-3);
 }

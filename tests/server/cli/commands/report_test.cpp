@@ -51,7 +51,7 @@ TEST_F(ReportCommand, ItHasAPlotAndFivePicturesAndFetchesNothing) {
   const json page = report_of(write("in.ply", bumpy_ply(12'000)));
   const std::size_t levels = page["levels"].size();
   EXPECT_GT(page["marks"].get<std::size_t>(),
-            2 * levels);  // the plot also has marks of other files
+            2 * levels);  // the plot also marks single files, for comparison
   EXPECT_EQ(page["pictures"], json(std::vector<std::string>(5, "data:image/png;base64,")));
   EXPECT_EQ(page["links"], json::array());
   EXPECT_EQ(page["scripts"], json::array());

@@ -152,7 +152,8 @@ TEST_F(ScanAtRig, ARestartedRigContinuesAtItsTablesPosition) {
   EXPECT_TRUE(read("out.ply") == expected);
 }
 
-// The table can stop only at whole motor steps, but a step of the scan is 53.3 motor steps.
+// A step of the scan is 53.3 motor steps, but the table can stop only at whole ones. A scan that
+// continues must round to the same motor steps as an undisturbed scan.
 TEST_F(ScanAtRig, ABoardThatDoesNotCountContinuesAtTheSameMotorStep) {
   calibrate();
   const std::vector<std::string> fabscan = {"--dialect", "fabscan"};
