@@ -120,8 +120,8 @@ Expected<void> read_config(const std::string& path, const ReadFile& read_file, D
 constexpr std::array<std::string_view, 4> kOfTests{"VITRINE_MODELS", "VITRINE_FUZZ_SECONDS",
                                                    "VITRINE_CHROMIUM", "VITRINE_NO_SKIPS"};
 
-// Whether a variable with our prefix is not a setting. The tests use some such variables, and
-// Kubernetes sets others for a service named "vitrine".
+// Whether a variable whose name begins with VITRINE_ is not a setting. The tests use some such
+// variables, and Kubernetes sets others for a service named "vitrine".
 bool is_foreign(std::string_view name, std::string_view value) {
   return std::ranges::find(kOfTests, name) != kOfTests.end() ||
          name.starts_with("VITRINE_SERVICE_") ||

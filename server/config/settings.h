@@ -40,7 +40,8 @@ struct Settings {
   std::filesystem::path access_log;       // "-": standard error; empty: no log
   std::uint32_t threads = 0;              // 0: one per core
   std::uint32_t max_connections = 0;
-  // Longest time to receive a whole request header, and longest time without progress of a write.
+  // Longest time to receive a whole request header, and longest time that a write may make no
+  // progress.
   std::chrono::seconds idle_timeout{};
   std::chrono::seconds stop_timeout{};  // longest time from SIGTERM to the end of the process
   std::uint64_t export_cache_bytes = 0;
