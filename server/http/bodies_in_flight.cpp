@@ -34,8 +34,8 @@ std::shared_ptr<const void> BodiesInFlight::admit(const Body& body) {
   const bool is_static = shared != nullptr && shared->owner == nullptr;
   if (std::holds_alternative<StoredBytes>(body) || is_static || size < kSmall)
     return {std::shared_ptr<const void>(), this};
-  // This copy keeps the memory alive until leave(), so that no other memory can get the same
-  // address until then.
+  // This copy keeps the owner alive until leave(). Its address is a key of shared_, so no other
+  // owner may get the same address before.
   const auto owner = shared != nullptr ? shared->owner : nullptr;
   if (!enter(owner.get(), size)) return nullptr;
   return {static_cast<const void*>(this), [self = shared_from_this(), owner, size](const void*) {

@@ -109,8 +109,8 @@ void HttpServer::sweep() {
   end_revoked();
 }
 
-// Ends long-lived connections whose tokens have been revoked. A worker asks the catalogue, as that
-// may block. Only one check runs at a time.
+// Ends long-lived connections whose tokens have been revoked. A worker reads the catalogue, since
+// that may block. Only one check runs at a time.
 void HttpServer::end_revoked() {
   auto callers = connections_.lasting_callers();
   if (callers.empty() || !revocation_check_.expired()) return;
