@@ -19,9 +19,9 @@ std::string executor_name(const JobRecord& job) {
 constexpr std::uint32_t kMaxAttempts = 3;
 constexpr std::chrono::milliseconds kBeat{500};
 constexpr std::chrono::seconds kLease{15};
-// The time in which a daemon calls a webhook or gives it up.
+// How long a daemon's claim on a webhook call lasts. Afterwards, another daemon may make the call.
 constexpr std::chrono::minutes kWebhookTimeout{10};
-constexpr std::uint32_t kAtATime = 16;  // most jobs that one search claims
+constexpr std::uint32_t kAtATime = 16;  // largest number of jobs that one search claims
 
 std::vector<JobKind> kinds_of(const TakenJobs& taken) {
   std::vector<JobKind> kinds;
@@ -84,7 +84,7 @@ void JobQueue::stop() {
   }
   for (const auto& [name, executor] : executors)
     executor->finish();
-  lease_renewal_.reset();  // only now, so that jobs that stop slowly keep their leases
+  lease_renewal_.reset();  // last, so that jobs that stop slowly keep their leases
 }
 
 bool JobQueue::is_stopping() const {
@@ -380,7 +380,7 @@ JobState JobQueue::state_after(JobRun& run, const Expected<JobEnd>& result) {
   // the error is not lost; a failed scan can be resumed, too.
   const bool is_put_aside = result || result.error().code == ErrorCode::kState;
   if (request == StopRequest::kPause && is_put_aside) return JobState::kPaused;
-  if (request == StopRequest::kStop) return JobState::kQueued;  // continues at the next start
+  if (request == StopRequest::kStop) return JobState::kQueued;  // runs again after a restart
   const std::scoped_lock lock(run.mutex_);
   run.status_.record.error =
       result ? "the job stopped without a request; start it again" : result.error().message;

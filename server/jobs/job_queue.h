@@ -169,11 +169,11 @@ class JobQueue {
   Expected<std::vector<JobStatus>> list(const PageOf<JobId>& page);
   Expected<JobCounts> count() { return catalogue_.count_jobs(); }
 
-  // Returns an unfinished job of this daemon, whose status can be read until and after its end.
-  // Null if there is none.
+  // Returns the run of an unfinished job of this daemon, or null. Its status can be read even after
+  // the job has ended.
   std::shared_ptr<const JobRun> run(const JobId& id) const;
-  // Returns a job of any daemon, whose status can be read at any time. Changes by other daemons
-  // appear at the next beat().
+  // Returns the run of an unfinished job of any daemon, or null. Its status can be read even after
+  // the job has ended. Changes by other daemons appear at the next beat().
   Expected<std::shared_ptr<const JobRun>> watch(const JobId& id);
 
   // Returns the unfinished job of a scanner, or nullopt.

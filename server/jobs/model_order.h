@@ -16,7 +16,7 @@ struct ModelOrder {
   std::optional<ModelId> replace;
   std::string webhook;  // URL to call when the job ends; empty: none
 
-  // Options for building a mesh. They do not apply to a .pmesh file.
+  // Options for building the model from a mesh. They do not apply to a .pmesh file.
   int bits = 0;  // BuildOptions::bits
   Placement placement = Placement::kMidpoint;
   std::string unit;  // one of kLengthUnits; empty: the unit in the file

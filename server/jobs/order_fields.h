@@ -71,8 +71,8 @@ tl::expected<Order, FieldFaults> order_or_faults(Order order, FieldFaults faults
   return order;
 }
 
-// Read fields that several requests have in common: "bits" (0 or "auto": chosen for the mesh) and
-// "metadata".
+// Read fields that several requests have in common: "bits" and "metadata". If "bits" is 0 or
+// "auto", the number of bits is chosen for the mesh.
 void read_bits(Fields& fields, const nlohmann::json& body, int& bits);
 void read_metadata(Fields& fields, const nlohmann::json& body, ModelMetadata& metadata,
                    FieldFaults& faults);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks a scan's data folder with the revolution of the table whose steps it contains. If another
+// Records in a scan's data folder to which revolution of the table its steps belong. If another
 // daemon continues the scan, it uses a folder of its own and begins a new revolution, because the
 // table has moved.
 #pragma once

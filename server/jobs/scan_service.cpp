@@ -20,7 +20,7 @@
 namespace vitrine::server {
 namespace {
 
-constexpr double kMeshed = 0.85, kBuilt = 0.99;  // progress after meshing, after building
+constexpr double kMeshed = 0.85, kBuilt = 0.99;  // progress after meshing and after building
 constexpr std::size_t kViews = 4;                // most views of ended scans in memory
 
 JobRecord new_job(JobKind kind, const std::string& scanner) {
@@ -78,7 +78,8 @@ CalibrationOrder calibration_order(const JobRecord& job) {
 
 }  // namespace
 
-// Passes the progress of a backend on to the job, the catalogue's row and the view.
+// Passes the progress of a scan on to its job, its row in the catalogue and the list of running
+// scans.
 class ScanService::Listener final : public ScanListener {
  public:
   Listener(ScanService& service, JobRun& run, ScanEntry entry)

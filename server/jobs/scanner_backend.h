@@ -41,7 +41,8 @@ class ScanView {
 
   // Returns the latest picture with the laser on, or null if there is none yet.
   virtual std::shared_ptr<const acquisition::Frame> frame() const = 0;
-  // Returns the points of the latest profile as rho and z, in mm.
+  // Returns the points of the latest profile in mm: rho, the distance from the table's axis, and z,
+  // the height.
   virtual std::vector<std::array<double, 2>> profile() const = 0;
   virtual ScanProgress progress() const = 0;
   virtual std::size_t points() const = 0;
@@ -125,7 +126,7 @@ class ScannerBackend {
                                               const std::filesystem::path& folder) = 0;
   virtual Expected<std::shared_ptr<const ScanView>> view(const std::filesystem::path& folder) = 0;
 
-  // Returns the newest calibration first.
+  // Returns all calibrations, the newest first.
   virtual Expected<std::vector<CalibrationSummary>> calibrations() = 0;
   // Return the report as JSON and the plot as SVG, or nullopt if no calibration has this number.
   virtual Expected<std::optional<std::string>> calibration_report(int number) = 0;

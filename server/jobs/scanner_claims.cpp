@@ -11,7 +11,8 @@ namespace vitrine::server {
 namespace {
 
 constexpr std::chrono::seconds kScannerBeat{2};
-constexpr std::chrono::seconds kMargin{1};  // margin by which a lease ends early here
+// A lease ends this much earlier for this daemon than in the catalogue.
+constexpr std::chrono::seconds kMargin{1};
 
 }  // namespace
 

@@ -33,8 +33,8 @@ class ScannerClaims {
 
   // Succeeds if this daemon may command the scanner now. Otherwise returns kIo with the reason.
   Expected<void> check(const std::string& scanner) const;
-  // Whether this daemon runs the scanner's jobs. True if it drives the scanner. For a scanner that
-  // is not configured here, also true if no other daemon has driven it last.
+  // Whether this daemon runs the scanner's jobs. True if it drives the scanner. Also true for a
+  // scanner that is not configured here, unless another daemon drove it last.
   bool has_jobs_of(const std::string& scanner) const;
   // Returns the address of another daemon that drives the scanner, or an empty text if that
   // daemon's lease has expired. Returns nullopt if this daemon or none drives the scanner, or if

@@ -173,7 +173,8 @@ Expected<void> SessionBackend::jog(double degrees) {
 }
 
 Expected<void> SessionBackend::laser(bool on) {
-  // To switch the laser off, puts the whole board to rest, so that its watchdog does not fire.
+  // Switches the laser off with rest(), which also pauses the board's watchdog. Otherwise the
+  // watchdog would fire while no command follows.
   return closed_on_error(
       open().and_then([&] { return on ? board_->laser(true) : board_->rest(); }));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls webhooks when jobs end. Only hosts that the operator has named are called. Otherwise a
-// request could reach servers inside the museum's network.
+// client of the API could make the daemon call servers inside the museum's network.
 #pragma once
 
 #include <atomic>
