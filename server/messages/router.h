@@ -88,7 +88,7 @@ struct Route {
   Role role = Role::kNone;  // the lowest role that a caller needs; kNone: no token is needed
   // For POST and PATCH: true to parse the body as JSON, false if Response::sink receives it.
   bool reads_body = true;
-  // Whether this is an emergency stop, which neither request-rate nor queues delay.
+  // Whether this is an emergency stop, which neither rate limits nor queues delay.
   bool is_urgent = false;
 };
 

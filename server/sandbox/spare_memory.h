@@ -26,7 +26,8 @@ class SpareMemory {
   static constexpr std::size_t kUnit = 256, kUnits = 4096;  // 1 MiB in total
 
   std::mutex mutex_;
-  std::array<std::uint16_t, kUnits> lengths_{};  // block's length in units, at its first unit
+  // The length of each block in units, at the index of the block's first unit.
+  std::array<std::uint16_t, kUnits> lengths_{};
   alignas(std::max_align_t) std::array<std::byte, kUnit * kUnits> bytes_{};
 };
 

@@ -31,7 +31,7 @@ struct SpillOptions {
 Expected<void> open_spill(const SpillOptions& options);
 void start_trimming();
 
-// These functions return 0 without spilling.
+// These functions return 0 if the process does not spill.
 std::uint64_t spill_capacity();  // address space of the spill file
 std::uint64_t spilled_bytes();   // bytes of blocks in the file now
 std::uint64_t mapped_bytes();    // bytes of mapped files in memory now

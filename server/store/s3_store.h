@@ -21,7 +21,7 @@ struct S3Options {
   S3Address address;
   S3Keys keys;
   std::filesystem::path copies;  // the folder for local copies
-  TakeLock lock;                 // acquires the store's lock; S3 has none
+  TakeLock lock;                 // acquires the store's lock, since S3 has no locks
   std::uint64_t part_bytes = 64 << 20;
   Backoff backoff = {};
 };

@@ -20,8 +20,8 @@ std::size_t character_length(std::string_view text) noexcept {
     if ((byte & 0xC0) != 0x80) return 0;
     code = code << 6 | (byte & 0x3F);
   }
-  constexpr std::uint32_t kSmallest[] = {0, 0, 0xA0, 0x800,
-                                         0x10000};  // U+0080 to U+009F are control characters
+  // The smallest allowed code point for each length. U+0080 to U+009F are control characters.
+  constexpr std::uint32_t kSmallest[] = {0, 0, 0xA0, 0x800, 0x10000};
   const bool is_surrogate = code >= 0xD800 && code < 0xE000;
   return code < kSmallest[length] || code > 0x10FFFF || is_surrogate ? 0 : length;
 }

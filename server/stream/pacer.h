@@ -65,7 +65,7 @@ class Pacer {
   // Time that bytes may queue on fast links, beyond the link's own delay.
   static constexpr Duration kFastQueue{0.04};
   static constexpr double kFastExtra = 6 * 1024;  // additional bytes that may queue on fast links
-  // The window grows while the queueing delay is shorter than this.
+  // The limit on the bytes in flight (window_) grows while the queueing delay is shorter than this.
   static constexpr Duration kShortQueue{0.03};
   static constexpr Duration kBaseAge{10};  // interval at which the link's delay is measured again
   // Number of bytes that suffices for a measurement.
