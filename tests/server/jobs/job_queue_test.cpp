@@ -233,7 +233,7 @@ TEST_F(Jobs, TheSameKeyAndRequestAreTheSameJobAndAnotherRequestIsRefused) {
   const JobRecord job = job_for("a");
   ASSERT_TRUE(queue->add(job, {}, IdempotencyKey{"key", Sha256{1}}));
   const auto again = queue->add(job_for("a"), {}, IdempotencyKey{"key", Sha256{1}});
-  ASSERT_TRUE(again) << again.error().message;  // accepted even if the scanner is busy with the job
+  ASSERT_TRUE(again) << again.error().message;  // even if the job still keeps the scanner busy
   EXPECT_EQ(again->id, job.id);
   const auto other = queue->add(job_for("a"), {}, IdempotencyKey{"key", Sha256{2}});
   ASSERT_FALSE(other);
@@ -296,9 +296,9 @@ TEST_F(Jobs, AJobAtWhichThreeDaemonsHaveDiedFails) {
     gate_.await_beginning(static_cast<int>(died));
     JobRecord left = catalogue_->find_job(killed.id).value().value();
     EXPECT_EQ(left.attempts, died + 1);
-    queue->stop();  // an orderly end, unlike that of a killed daemon
+    queue->stop();  // an orderly end, which resets `attempts`
     EXPECT_EQ(catalogue_->find_job(killed.id).value()->attempts, 0u);
-    ASSERT_TRUE(catalogue_->update(left));
+    ASSERT_TRUE(catalogue_->update(left));  // as if the daemon had been killed instead
   }
 }
 
@@ -339,7 +339,7 @@ TEST_F(Jobs, AJobThatWasBeingPausedStaysPausedWhenTheDaemonStops) {
   EXPECT_EQ(stored(job), JobState::kPaused);
 }
 
-// A job that waits twice for the operator.
+// A task that waits twice for the operator.
 Expected<JobEnd> wait_twice(JobRun& run) {
   for (const char* stage : {"first", "second"}) {
     if (!run.await_resume(stage, 0.5, "so far")) return JobEnd::kPutAside;

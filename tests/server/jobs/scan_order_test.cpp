@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Returns the field of the only fault in the order.
+// Returns the field of the order's only fault. Returns "" if the order has none or several.
 std::string fault_in(const Json& body) {
   const auto order = parse_scan_order(body);
   if (order || order.error().size() != 1) return "";

@@ -82,7 +82,8 @@ TEST_F(Claimants, ALeaseThatCouldNotBeRenewedDoesNotCountAsExpired) {
   ASSERT_TRUE(catalogue_->drop_scanners("first"));  // as if its lease had expired
   second->beat();
   EXPECT_FALSE(second->check("left"));
-  // The third daemon has just started, so it does not know how long the catalogue was unreachable.
+  // The third daemon has just started. It does not know that the catalogue was unreachable, so it
+  // acquires the scanner at once.
   third->beat();
   EXPECT_TRUE(third->check("left"));
 }

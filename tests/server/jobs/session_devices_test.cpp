@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a backend uses the devices of a scanner: scans, calibrations, stops and a lost board.
+// Tests how a backend uses the devices of a scanner: scans, calibrations, stops and a lost board.
 #include <gtest/gtest.h>
 
 #include <future>

@@ -187,10 +187,9 @@ TEST_F(SharedJobs, ALeaseThatCouldNotBeRenewedDoesNotCountAsExpired) {
   database->lease()->run("ALTER TABLE away RENAME TO job");
   second_.queue().beat();
   ASSERT_EQ(second_.queue().run(job.id), nullptr);
-  first_
-      // The first daemon has just started, so it does not know how long the catalogue was
-      // unreachable.
-      .begin();
+  // The first daemon has just started. It does not know that the catalogue was unreachable, so it
+  // claims the job at once.
+  first_.begin();
 }
 
 TEST_F(SharedJobs, ACancellationReachesTheDaemonThatRunsTheJob) {

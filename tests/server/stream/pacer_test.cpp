@@ -272,7 +272,7 @@ void PrintTo(const CrowdCase& one, std::ostream* out) {
 
 class PacerCrowdTest : public ::testing::TestWithParam<CrowdCase> {};
 
-// The simulated time is twice the interval at which delays are measured again.
+// The first 20 s are twice the interval at which the pacer measures the link's delay again.
 TEST_P(PacerCrowdTest, ComesToEqualShares) {
   SharedQueue queue(GetParam().members, GetParam().rate);
   queue.run(20);
