@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests what only a catalogue on a database server needs: faults of the connection, a lock between
+// Tests the cases that only a catalogue on a database server has: connection faults, a lock between
 // processes, and tables of a newer version.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests what only an S3-compatible store needs: reports of wrong keys and missing buckets, uploads
-// in parts, pages of lists, and damage on the way.
+// Tests the cases that only an S3-compatible store has: wrong keys, missing buckets, uploads in
+// parts, lists of several pages, and damage during the transfer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

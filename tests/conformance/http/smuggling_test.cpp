@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends requests about whose end two parsers could disagree, to the daemon directly and through a
-// real nginx. The daemon must see exactly one request for each request that nginx forwards.
+// Sends requests whose end two parsers could see at different places, to the daemon directly and
+// through a real nginx. The daemon must see exactly one request for each request that nginx
+// forwards.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +65,7 @@ std::vector<Attack> attacks() {
       with("zero-in-value", std::string("X: a\0b\r\n", 8), kHidden),
       with("field-without-colon", "nonsense\r\n", kHidden),
       with("field-without-name", ": a\r\n", kHidden),
-      // the line is folded into the Host field
+      // The leading space makes this line a continuation of the Host field.
       with("space-before-name", " Content-Length: 0\r\n", kHidden, false),
       {"bare-newlines", "GET /bare-newlines HTTP/1.1\nHost: a\n\n" + kHidden, true},
       {"no-host", "GET /no-host HTTP/1.1\r\n\r\n" + kHidden, true},
