@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model of nginx's cache. It removes the least recently used files first. Each file occupies
-// whole disk blocks. A manager frees space at intervals, not at each request.
+// Simulates nginx's disk cache, which removes the least recently used files first. Each file
+// occupies whole disk blocks. A manager frees space at intervals, not at each request.
+
 // Bytes of a disk block, and bytes of the response header with which a cache file begins.
 const kBlock = 4096, kHeader = 1024;
 
