@@ -46,7 +46,9 @@ class Daemon:
 
 
 class Client:
-    """A client with one connection. Raises Gone if the connection breaks. Its request number `number` sets `enough`."""
+    """A client with one connection. Raises Gone if the connection breaks.
+
+    Sets `enough` when it sends request number `number`."""
 
     def __init__(self, daemon, token, number=0):
         self.left, self.enough = number, threading.Event()
