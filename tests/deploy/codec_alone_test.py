@@ -12,7 +12,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# A script for its own mount and network namespaces: it changes nothing in the root folder, and downloads nothing.
+# This script runs in its own mount and network namespaces, so it changes nothing in the root folder
+# and downloads nothing.
 BUILD = r"""set -euo pipefail
 mount -t tmpfs -o size=6g none "$STATE"
 mkdir "$STATE/upper" "$STATE/work" "$STATE/root"
@@ -26,7 +27,8 @@ echo "$PROJECT" >"$STATE/root/CMakeLists.txt"
 exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 chroot "$STATE/root" bash -euo pipefail -c "$INSIDE"
 """
 
-# Compiles for speed of the build, and leaves out the random meshes, which the release build tests.
+# Compiles with little optimisation, because that is faster. Leaves out the tests with random
+# meshes, which the release build runs.
 INSIDE = r"""
 cd /vitrine
 cmake --preset codec -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g0"

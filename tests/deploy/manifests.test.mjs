@@ -71,8 +71,8 @@ test("the daemon accepts the settings of all services", () => {
 });
 
 /**
- * Type-checks `objects` against the TypeScript types of the Kubernetes API. Returns the errors; an unknown name is
- * one.
+ * Type-checks `objects` against the TypeScript types of the Kubernetes API. Returns the errors.
+ * An unknown name is an error, too.
  */
 async function faults(objects) {
   const lines = objects.map((object, i) => {
