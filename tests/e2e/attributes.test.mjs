@@ -67,7 +67,7 @@ test("max-bytes and target-error are kept to, and progress tells how much of it 
   const told = (await viewer.events("progress")).map(({ detail }) => detail);
   assert.ok(told.length > 1 && told.every(({ bytes, total }) => bytes <= total));
   assert.deepEqual(told.at(-1), { bytes: some.bytes, total: some.bytes });
-  // In one step: two would settle twice.
+  // Changes both attributes in one call, because two calls would cause two `load` events.
   await viewer.settled(() => element(viewer).evaluate((viewed, error) => {
     viewed.setAttribute("target-error", error);
     viewed.removeAttribute("max-bytes");

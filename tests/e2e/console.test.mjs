@@ -68,7 +68,8 @@ test("a file that is dropped becomes a draft, is published, edited, replaced, wi
   assert.deepEqual(await onDisplay(), [], "a draft is nobody's business");
   await card.getByRole("link", { name: "Open the model" }).click();
   await page.getByRole("heading", { level: 1, name: "Bust of Demosthenes" }).waitFor();
-  await page.locator("progressive-mesh output .triangles").filter({ hasText: "triangles" }).waitFor(); // a draft, shown to clients with a token
+  // The viewer shows the draft, because it sends the operator's token.
+  await page.locator("progressive-mesh output .triangles").filter({ hasText: "triangles" }).waitFor();
   await page.locator("svg.curve circle").first().waitFor();
   await desk.isFit("draft");
 

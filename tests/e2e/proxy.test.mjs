@@ -86,7 +86,8 @@ test("five first visitors at once cost the origin one request a chunk, the next 
     assert.equal(createHash("sha256").update(body).digest("hex"), chunks[i]);
     assert.deepEqual(body, first[i].body);
   }
-  // Sent directly to the daemon; it must be the only request that the daemon counts.
+  // This request goes directly to the daemon. It must be the only one that the daemon has counted
+  // since `once`.
   await fetch(`${daemon.url}/api/v1/chunks/${chunks[0]}`);
   assert.equal(await counted(once + 1), once + 1);
 });
