@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the real WebAssembly decoder on the files of the fuzzers' corpus and on damaged copies of them. Checksums are
-// not
-// checked. Each file must give a surface or a ModelError, never a trap, and memory must stay within a limit.
+// Runs the real WebAssembly decoder on the files of the fuzzers' corpus and on damaged copies of
+// them. Checksums are not checked. Each file must give a surface or a ModelError, never a trap, and
+// memory must stay within a limit.
 // node replay.mjs DECODER.wasm CORPUS
 import { readdir, readFile } from "node:fs/promises";
 import { join } from "node:path";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fake decoder that only records calls, and a fake source whose responses the test sends one by one. So tests can
-// produce every order of events without timers.
+// A fake decoder that only records calls, and a fake source whose responses the test sends one by
+// one. With both, tests can produce every order of events without timers.
 import type { ModelDecoder, Sink } from "@core/session.ts";
 import type { ByteRange, Source } from "@core/source.ts";
 import type { Change, ModelInfo, Surface, Want } from "@core/types.ts";
