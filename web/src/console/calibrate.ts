@@ -15,7 +15,9 @@ const kPoses = 20;
 class Wizard {
   readonly #step = h("section", { class: "card wizard" });
   readonly #path: string;
-  #shown = ""; // job state and stage shown; while they do not change, the elements are kept, and one may have the focus
+  // Job state and stage shown. Elements are replaced only if these change, because one of them may
+  // have the focus.
+  #shown = "";
 
   constructor(private readonly visit: Visit, private readonly name: string) {
     this.#path = `/scanners/${encodeURIComponent(name)}`;

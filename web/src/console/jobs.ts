@@ -29,7 +29,7 @@ export class JobCard {
     this.#bar.value = job.progress;
     this.#bar.element.hidden = isOver(job);
     this.#line.textContent = jobLine(job);
-    // The buttons are replaced only if this changes, because one may have the focus.
+    // The buttons are replaced only if `state` changes, because one of them may have the focus.
     const state = `${job.state} ${job.model}`;
     if (state === this.#state) return;
     this.#state = state;

@@ -33,7 +33,8 @@ export class LiveJobs {
   async run(signal: AbortSignal): Promise<void> {
     signal.addEventListener("abort", () => this.#followed.forEach((one) => one.abort()));
     while (!signal.aborted) {
-      if (!document.hidden) await this.refresh().catch(() => undefined); // the next poll is soon
+      // An error is ignored, because the next poll follows soon.
+      if (!document.hidden) await this.refresh().catch(() => undefined);
       await new Promise((resolve) => setTimeout(resolve, kPause));
     }
   }

@@ -98,7 +98,8 @@ export const scannerPage: ConsolePage = async (visit) => {
   void (async () => {
     for (;;) {
       await pause(kLook, signal);
-      await look().catch(() => undefined); // the next poll is soon
+      // An error is ignored, because the next poll follows soon.
+      await look().catch(() => undefined);
     }
   })().catch(() => undefined);
   return name;

@@ -43,7 +43,8 @@ export const scannersPage: ConsolePage = async ({ desk, view, signal }) => {
   void (async () => {
     for (;;) {
       await pause(kPause, signal);
-      await fill().catch(() => undefined); // the next poll is soon
+      // An error is ignored, because the next poll follows soon.
+      await fill().catch(() => undefined);
     }
   })().catch(() => undefined);
   return words.title;

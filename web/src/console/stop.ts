@@ -30,7 +30,8 @@ export class EmergencyStop {
   /** Polls the list of scanners until `signal` is aborted, so that a stop need not wait for the list. */
   async keepLearning(signal: AbortSignal): Promise<void> {
     while (!signal.aborted) {
-      await this.#learn(signal).catch(() => undefined); // the next poll is soon
+      // An error is ignored, because the next poll follows soon.
+      await this.#learn(signal).catch(() => undefined);
       await pause(kPause, signal);
     }
   }

@@ -143,7 +143,8 @@ export class ProgressiveMesh extends Mesh<BufferGeometry, MeshStandardMaterial, 
   }
 
   #accept(change: Change, shown: () => void): void {
-    if (this.#taking) this.#jobs = this.#jobs.filter((job) => job !== this.#taking); // the decoder was restarted
+    // If the decoder was restarted, the previous change may be incomplete and is dropped.
+    if (this.#taking) this.#jobs = this.#jobs.filter((job) => job !== this.#taking);
     this.#inbox = { blocks: [], taken: [] };
     this.#work((this.#taking = this.#taken(change, this.#inbox, shown)));
   }

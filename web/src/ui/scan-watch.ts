@@ -64,8 +64,8 @@ class Growth {
   constructor(private readonly source: ScanSource, private readonly sight: ScanSight) {}
 
   /**
-   * Fetches new points. If the scan `reported` fewer points than before, it measures again; then fetches all its
-   * points again.
+   * Fetches new points. If `reported` is lower than before, the scan has restarted, so all its
+   * points are fetched again.
    */
   async follow(reported: number): Promise<void> {
     if (reported < Math.min(this.#held, this.#reported)) this.#restart();
