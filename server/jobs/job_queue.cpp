@@ -467,7 +467,8 @@ void JobQueue::look_at_others() {
     for (const auto& [id, other] : others_) {
       if (SharedRun run = other.lock()) others.push_back(std::move(run));
     }
-    for (const auto& [id, run] : runs_) {  // another daemon may cancel or claim a paused job
+    // Includes this daemon's paused jobs, because another daemon may cancel or claim them.
+    for (const auto& [id, run] : runs_) {
       if (is_aside(*run)) others.push_back(run);
     }
   }
@@ -486,7 +487,7 @@ void JobQueue::look_at(const SharedRun& other) {
     runs_.erase(id);
   } else if (const auto own = runs_.find(id); own != runs_.end()) {
     if (own->second != other) {
-      now = own->second->status();  // this daemon has claimed the job since
+      now = own->second->status();  // this daemon has claimed the job meanwhile
     } else {
       if (!is_aside(*other) || taken_.has(**job)) return;
       lose(other);  // another daemon drives the scanner now

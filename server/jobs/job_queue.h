@@ -112,7 +112,7 @@ using JobTask = std::function<Expected<JobEnd>(JobRun& run)>;
 // Selects the jobs that this daemon runs. All other jobs are left to other daemons.
 struct TakenJobs {
   bool builds = true, scans = true;
-  std::string holder = {};  // Lease::holder
+  std::string holder = {};  // see Lease::holder
   std::function<bool(const std::string& scanner)> drives = [](const std::string&) { return true; };
 
   bool has(const JobRecord& job) const {
@@ -201,7 +201,8 @@ class JobQueue {
   void take_up(const JobRecord& job, std::uint64_t stops);
   void give_up(const SharedRun& run);
   void post(const SharedRun& run);
-  bool set_state(const SharedRun& run, JobState state);  // false if another daemon claimed it
+  // Returns false if another daemon has claimed the job.
+  bool set_state(const SharedRun& run, JobState state);
   void lose(const SharedRun& run);
   bool take(const SharedRun& run);
   SerialExecutor& executor_of(const std::string& name);

@@ -17,7 +17,7 @@ struct ModelOrder {
   std::string webhook;  // URL to call when the job ends; empty: none
 
   // Options for building the model from a mesh. They do not apply to a .pmesh file.
-  int bits = 0;  // BuildOptions::bits
+  int bits = 0;  // see BuildOptions::bits
   Placement placement = Placement::kMidpoint;
   std::string unit;  // one of kLengthUnits; empty: the unit in the file
   bool z_is_up = false;

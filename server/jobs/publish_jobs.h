@@ -18,7 +18,7 @@ struct PublishDependencies {
   Uploads& uploads;
   Quota& quota;
   std::filesystem::path data;                        // data folder of the installation
-  std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
+  std::filesystem::path program = "/proc/self/exe";  // see BuildOrder::program
 };
 
 class PublishJobs {

@@ -20,7 +20,7 @@ struct ScanOrder {
   // Number of the calibration. 0: the newest one, or, for a rebuild, the one that the scan used.
   int calibration = 0;
 
-  int bits = 0;  // BuildOptions::bits
+  int bits = 0;  // see BuildOptions::bits
   Placement placement = Placement::kMidpoint;
 
   ModelMetadata metadata;
@@ -32,7 +32,7 @@ inline constexpr int kLeastPoses = 3, kMostPoses = 200;
 
 struct CalibrationOrder {
   int poses = 20;            // number of poses in which the operator places the target
-  std::string webhook = {};  // ScanOrder::webhook
+  std::string webhook = {};  // see ScanOrder::webhook
 };
 
 // Parses a request for a new scan. Returns either the order or all faults of the request. An

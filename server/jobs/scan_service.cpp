@@ -21,7 +21,7 @@ namespace vitrine::server {
 namespace {
 
 constexpr double kMeshed = 0.85, kBuilt = 0.99;  // progress after meshing and after building
-constexpr std::size_t kViews = 4;                // most views of ended scans in memory
+constexpr std::size_t kViews = 4;                // largest number of views of ended scans in memory
 
 JobRecord new_job(JobKind kind, const std::string& scanner) {
   JobRecord job;
@@ -461,8 +461,8 @@ Expected<JobEnd> ScanService::work_on_scan(JobRun& run, ScannerStation& station)
 Expected<JobEnd> ScanService::reprocess(JobRun& run, ScannerStation& station) {
   const auto order = stored_order(run.job().parameters);
   if (!order) return tl::unexpected(order.error());
-  // The request may have come to another daemon, or another daemon may have measured the scan
-  // again.
+  // Checks that this daemon has the scan's steps. The request may have come to another daemon, or
+  // another daemon may have measured the scan again.
   const auto scan = scan_of(run);
   if (!scan) return tl::unexpected(scan.error());
   if (auto here = check_revolution(*scan); !here) return tl::unexpected(here.error());

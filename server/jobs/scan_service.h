@@ -35,7 +35,7 @@ struct ScanServiceOptions {
   JobCatalogue& jobs;
   const Log& events;
   std::filesystem::path data;                        // data folder of the installation
-  std::filesystem::path program = "/proc/self/exe";  // BuildOrder::program
+  std::filesystem::path program = "/proc/self/exe";  // see BuildOrder::program
   std::chrono::milliseconds idle_timeout{10'000};    // devices unused for this long are closed
   JobTask publishing = {};                           // runs the jobs that publish models
   Quota* quota = nullptr;                            // limits the bytes of models; null: no limit

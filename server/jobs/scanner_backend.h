@@ -21,12 +21,12 @@ namespace vitrine::server {
 struct ScannerIdentity {
   acquisition::CameraIdentity camera;
   acquisition::BoardIdentity board;
-  std::optional<int> calibration;  // newest one that fits the camera; nullopt: none
+  std::optional<int> calibration;  // number of the newest that fits the camera; nullopt: none
 };
 
 struct ScanProgress {
   const char* stage = "scanning";  // "scanning" or "meshing"
-  int step = 0;                    // steps done
+  int step = 0;                    // number of steps done
   double progress = 0;             // progress of both stages together, 0..1
   std::optional<double> eta;       // remaining seconds
   int calibration = 0;             // number of the calibration; 0: not known yet
@@ -117,8 +117,8 @@ class ScannerBackend {
   // Turns laser and motor off at once. The board stays unused until allow() is called.
   virtual void emergency_stop() noexcept = 0;
   virtual std::uint64_t stops() const noexcept = 0;  // number of emergency stops so far
-  // Allows commands again if there were no more than `stops` emergency stops; a later stop stays in
-  // force.
+  // Allows commands again, unless there were more than `stops` emergency stops. A stop of which the
+  // client does not know thus stays in force.
   virtual void allow(std::uint64_t stops) noexcept = 0;
 
   // Rebuilds the mesh of a stored scan that no job uses.

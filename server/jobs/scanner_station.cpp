@@ -50,7 +50,7 @@ void ScannerStation::look() {
 }
 
 void ScannerStation::remember(const Expected<ScannerIdentity>& seen) {
-  if (!seen && seen.error().code == ErrorCode::kState) return;  // stopped, but not unreachable
+  if (!seen && seen.error().code == ErrorCode::kState) return;  // stopped, not unreachable
   const std::scoped_lock lock(mutex_);
   if (seen) identity_ = *seen;
   problem_ = seen ? "" : seen.error().message;
@@ -125,7 +125,7 @@ Expected<acquisition::Frame> ScannerStation::picture() {
 }
 
 void ScannerStation::stop() {
-  backend_.emergency_stop();  // comes before any other work
+  backend_.emergency_stop();  // first, because nothing may delay it
   const auto job = jobs_.job_of(name());
   if (!job) return;
   const bool can_be_resumed = job->record.kind == JobKind::kScan;

@@ -55,8 +55,8 @@ class Webhooks {
   std::atomic<bool> is_stopping_{false};
 
   std::mutex mutex_;                                                  // guards the members below
-  std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;  // by origin of the server
-  std::set<std::pair<std::string, std::string>> waiting_;             // URL and JSON
+  std::map<std::string, std::unique_ptr<SerialExecutor>> executors_;  // by the server's origin
+  std::set<std::pair<std::string, std::string>> waiting_;             // each message's URL and JSON
 };
 
 }  // namespace vitrine::server
