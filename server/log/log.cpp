@@ -54,7 +54,7 @@ void append_time(LogLine& line) {
       std::chrono::time_point_cast<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
   thread_local std::chrono::sys_seconds made{};
-  thread_local std::string text;  // formatted once a second
+  thread_local std::string text;  // the time, formatted once per second
   if (made != seconds) {
     made = seconds;
     text = fmt::format("time={:%Y-%m-%dT%H:%M:%S}",
