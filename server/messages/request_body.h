@@ -9,7 +9,7 @@
 namespace vitrine::server {
 
 inline constexpr std::size_t kMaxRequestBody = 64 * 1024;  // bytes
-inline constexpr int kMaxBodyDepth = 16;                   // nested arrays and objects
+inline constexpr int kMaxBodyDepth = 16;                   // levels of nested arrays and objects
 
 struct BodyFault {
   unsigned status;  // HTTP status: 400, 413 or 415
