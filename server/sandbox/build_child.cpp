@@ -96,7 +96,7 @@ Expected<pid_t> start(const BuildOrder& order, int mesh, int answer) {
   return pid;
 }
 
-// --- the child ---
+// The functions from here to the end of the namespace run in the child.
 
 int number(std::string_view text) {
   int value = 0;

@@ -18,10 +18,10 @@
 namespace vitrine::server {
 
 struct BuildOrder {
-  int bits = 0;  // BuildOptions::bits
+  int bits = 0;  // see BuildOptions::bits
   Placement placement = Placement::kMidpoint;
   bool z_is_up = false;          // whether z is up in the mesh; in the model, y is always up
-  std::string unit = {};         // ReadOptions::unit
+  std::string unit = {};         // see ReadOptions::unit
   std::filesystem::path folder;  // folder of the spill file (spill.h); empty: no spilling
   std::filesystem::path program = "/proc/self/exe";  // executable that calls become_build_child()
 };

@@ -34,7 +34,7 @@ constexpr std::uint64_t kMaxText = 4096;
 constexpr int kOutOfMemory = 77;  // exit codes of a child that cannot send an error
 constexpr int kCannotAnswer = 78;
 
-// --- the child ---
+// The functions up to in_gigabytes() run in the child.
 
 void send_all(int fd, const void* data, std::size_t size) {
   const auto* bytes = static_cast<const std::uint8_t*>(data);
@@ -73,7 +73,7 @@ Expected<Bytes> run_confined(int fd, const SandboxLimits& limits, const Sandboxe
   });
 }
 
-// --- the parent ---
+// The code from here to the end of the namespace runs in the parent.
 
 std::string in_gigabytes(std::uint64_t bytes) {
   return fmt::format("{:.3g} GB", static_cast<double>(bytes) / static_cast<double>(1u << 30));

@@ -149,7 +149,7 @@ Expected<void> set_limits(const SandboxLimits& limits) {
     if (error == 0) error = set_limit(which, value, value + grace);
   };
   if (kLimitMemory) limit(RLIMIT_AS, limits.memory_bytes + spill_capacity());
-  limit(RLIMIT_CPU, limits.cpu_seconds, 1);  // SIGXCPU, then SIGKILL after a second
+  limit(RLIMIT_CPU, limits.cpu_seconds, 1);  // sends SIGXCPU, and SIGKILL one second later
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_NOFILE, 0);  // allows no new descriptor; open files stay open
