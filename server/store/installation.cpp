@@ -33,8 +33,9 @@ bool may_come_first(std::string_view name) {
 }
 
 struct OpenCatalogue {
-  std::shared_ptr<sql::Database> database, jobs;  // with SQLite, two connections
-  TakeLock lock;                                  // the lock that all users of the store share
+  // With PostgreSQL, both are the same object. With SQLite, each has its own connection.
+  std::shared_ptr<sql::Database> database, jobs;
+  TakeLock lock;  // the lock that all users of the store share
 };
 
 Expected<OpenCatalogue> open_in_folder(const fs::path& folder) {

@@ -15,7 +15,7 @@ namespace vitrine::server {
 
 struct ModelMetadata {
   std::string title, creator, rights, licence;
-  std::map<std::string, std::string> more = {};  // ModelRecord::more
+  std::map<std::string, std::string> more = {};  // see ModelRecord::more
 };
 
 // Checks that each text is a short line of UTF-8. Fails with kBadInput.

@@ -102,7 +102,7 @@ std::size_t PublishedModels::HashOfHash::operator()(const Sha256& sha256) const 
 }
 
 std::size_t PublishedModels::HashOfScope::operator()(const Scope& scope) const noexcept {
-  std::array<std::uint8_t, 8> random;  // the ID's last bytes; the first ones are its time
+  std::array<std::uint8_t, 8> random;  // the ID's last bytes; its first bytes encode a time
   std::copy(scope.id.bytes().begin() + 8, scope.id.bytes().end(), random.begin());
   return first_word(random) + (scope.is_whole ? 1 : 0);
 }

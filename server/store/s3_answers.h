@@ -19,7 +19,7 @@ std::string s3_upload_id(std::string_view xml);
 struct S3Entry {
   std::string key;
   std::string upload;     // ID of an unfinished upload; empty for an object
-  std::int64_t when = 0;  // time of writing or beginning, in seconds since 1970
+  std::int64_t when = 0;  // when the object was written or the upload begun, in seconds since 1970
 };
 
 struct S3Page {
