@@ -54,7 +54,7 @@ class Pacer {
 
  private:
   static constexpr Duration kWindow{0.4};
-  // Least time of a measurement; a shorter burst would measure buffers, not the link.
+  // Minimum duration of a measurement. A shorter burst would measure buffers, not the link.
   static constexpr Duration kLeastTime{0.2};
   static constexpr Duration kSample{0.02};  // minimum interval between samples
   static constexpr Duration kSliceTime{0.04};
