@@ -34,7 +34,7 @@ class ByteStream {
   boost::asio::awaitable<Error> encrypt(std::shared_ptr<const TlsContext> context);
   struct ClientHandshake {
     Error error;
-    // Why the server's certificate is not trusted; empty if that is not the error.
+    // Why the server's certificate is not trusted; empty if `error` has another cause.
     std::string distrust;
   };
   // Performs the client's part of a TLS handshake with `host`. Trusts the certificate authorities
@@ -71,7 +71,8 @@ class ByteStream {
   void read_encrypted(Bytes bytes, Done done);
   void write_encrypted(std::vector<std::uint8_t> bytes, Done done);
 
-  // Wraps a handler, which can only be moved, for std::function, which needs a copyable target.
+  // Makes a copyable function from a handler that can only be moved, because std::function needs a
+  // copyable target.
   template <class Handler>
   static Done erase(Handler&& handler) {
     auto shared = std::make_shared<std::decay_t<Handler>>(std::forward<Handler>(handler));
