@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The revolution of the turntable, as stored in a scan's folder.
+// Tests how the revolution of the turntable is stored in a scan's folder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

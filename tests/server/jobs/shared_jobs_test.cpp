@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Daemons that share the jobs of one catalogue.
+// Tests how daemons share the jobs of one catalogue.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

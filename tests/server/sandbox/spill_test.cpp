@@ -147,7 +147,7 @@ TEST(Spill, AnUnusableFolderIsNamed) {
 
 TEST(Spill, ADiskThatFillsUpIsReported) {
   const auto answer = run_sandboxed({}, [](const auto&) -> Expected<Bytes> {
-    ::signal(SIGBUS, SIG_DFL);  // sanitizers install a SIGBUS handler of their own
+    ::signal(SIGBUS, SIG_DFL);  // replaces the SIGBUS handler that sanitizers install
     ::raise(SIGBUS);
     return Bytes{};
   });

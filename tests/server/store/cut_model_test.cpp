@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file without its finer levels is a complete model.
+// Tests that a file without its finer levels is a complete model.
 #include <gtest/gtest.h>
 
 #include "codec/build/build_model.h"

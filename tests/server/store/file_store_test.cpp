@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Properties that only objects in files have. The conformance suite tests what all stores have in
-// common.
+// Tests the properties that only objects in files have. The conformance suite tests the properties
+// that all stores have in common.
 #include "server/store/file_store.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cache of published models: its size, its lifetime, and which caller opens a model.
+// Tests the cache of published models: its size, its lifetime, and which caller opens a model.
 #include <gtest/gtest.h>
 
 #include <atomic>

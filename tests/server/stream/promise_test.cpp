@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests for `seconds` over a slow link. The bytes that the server promised must arrive in time.
+// Tests requests for `seconds` over a slow link. The bytes that the server promised must arrive in
+// time.
 #include <gtest/gtest.h>
 
 #include <deque>

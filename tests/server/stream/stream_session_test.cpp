@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A connection on which something throws, as if memory ran out. The connection must end and leave
-// nothing behind.
+// Tests a connection on which something throws, as if memory ran out. The connection must end and
+// leave nothing behind.
 #include "server/stream/stream_session.h"
 
 #include <gtest/gtest.h>
