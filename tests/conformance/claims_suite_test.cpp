@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr std::array kBuilds{JobKind::kPublish};
 const Lease kLong{"long", 1h};
-const Lease kOver{"over", -1s};  // a lease that expires at once
+const Lease kOver{"over", -1s};  // a lease that has already expired
 
 JobRecord build_job(std::uint8_t value, JobState state = JobState::kQueued) {
   return {.id = id_of(value), .kind = JobKind::kPublish, .state = state};

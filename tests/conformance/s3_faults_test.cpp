@@ -18,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr std::uint64_t kPart = 5 << 20;  // the smallest part that S3 accepts
+constexpr std::uint64_t kPart = 5 << 20;  // smallest size of a part that S3 accepts, in bytes
 
 std::vector<std::uint8_t> many_bytes(std::size_t count) {
   std::vector<std::uint8_t> bytes(count);
