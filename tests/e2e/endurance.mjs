@@ -61,7 +61,7 @@ async function endure(what, memory, work) {
   const samples = [];
   for (let tenth = 0; tenth < kSamples; ++tenth) {
     await work(tenth);
-    // Deletes the list of events, which would grow but belongs to the test.
+    // Deletes the test's own list of events, which would otherwise count as a leak.
     await memory.page.evaluate(() => (window.seen.length = 0));
     const held = { ...(await memory.measure()), daemon: await residentMegabytes() };
     samples.push(held);

@@ -202,7 +202,8 @@ test("draws again when a lost WebGL context comes back", async () => {
     context.restoreContext();
     await restored;
   });
-  await until(async () => isDeepStrictEqual(await canvas(viewer), before)); // the surface is uploaded again in slices
+  // Polls, because the surface is uploaded again in slices.
+  await until(async () => isDeepStrictEqual(await canvas(viewer), before));
   await viewer.page.context().close();
 });
 
