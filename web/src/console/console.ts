@@ -35,7 +35,7 @@ const main = byId("main"), nav = byId("nav"), said = byId("said"), top = byId("t
 function say(text: string): void {
   said.textContent = text;
   said.classList.remove("fresh");
-  void said.offsetWidth; // restarts the animation
+  void said.offsetWidth; // forces a layout, which restarts the animation
   said.classList.add("fresh");
 }
 

@@ -97,7 +97,7 @@ export class LiveJobs {
         this.#tell();
       }
     } catch {
-      // The next poll gets the job's state.
+      // An error is ignored, because the next poll gets the job's state.
     } finally {
       this.#followed.delete(id);
     }

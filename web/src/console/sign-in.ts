@@ -12,8 +12,8 @@ export const keptToken = (): string | null => sessionStorage.getItem(kKept);
 export const forgetToken = (): void => sessionStorage.removeItem(kKept);
 
 /**
- * Asks for a token until the daemon accepts one. Resolves to an API client with that token. `why` is the error because
- * of which the operator was signed out, if any; it is shown.
+ * Asks for a token until the daemon accepts one. Resolves to an API client with that token. `why`
+ * is the error, if any, that signed the operator out. It is shown.
  */
 export function signedIn(view: HTMLElement, why?: unknown): Promise<Api> {
   const alert = new Alert(), words = texts.signIn, token = field({ name: "token", label: words.token, hint: words.hint, required: true });

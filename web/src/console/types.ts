@@ -11,7 +11,7 @@ export interface Job {
   state: JobState;
   stage: string | null;
   progress: number; // 0 to 1
-  eta: number | null; // seconds
+  eta: number | null; // remaining time in seconds
   error: string | null;
   note: string | null;
   scanner: string | null;

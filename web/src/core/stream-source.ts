@@ -8,7 +8,8 @@ import type { Want } from "./types.ts";
 
 const kSliceHeader = 16;
 const kMaxChunk = 64 * 1024 * 1024;
-const kMostRanges = 2048; // maximum per `have` message, so that the message stays within the server's size limit
+/** Maximum number of ranges per `have` message. The server limits the size of a message. */
+const kMostRanges = 2048;
 const kHead = "0/0";
 
 /** A partly received chunk. Its slices arrive in order, but slices of other chunks may arrive in between. */

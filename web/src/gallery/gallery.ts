@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gallery, "/": the published models, of which a button loads more. The search words are in the URL's query.
+// The gallery, "/", which shows the published models. A button loads more of them. The search words
+// are in the URL's query.
 import { models, type ModelRecord } from "../ui/api.ts";
 import { byId, h, square } from "../ui/dom.ts";
 import { count, language, size, texts } from "../ui/texts/index.ts";

@@ -63,7 +63,7 @@ function downloads(model: ModelRecord): HTMLElement {
   const options = (names: Record<string, string>) => Object.entries(names).map(([value, name]) => h("option", { value }, name));
   const levels = Object.entries(texts.levels).filter(([name]) => !(Number(name) >= model.faces));
   const format = h("select", {}, ...options(texts.formats)), level = h("select", {}, ...options(Object.fromEntries(levels)));
-  level.value = "highest"; // not the first option: objects list numeric keys first
+  level.value = "highest"; // not the first option, because objects list numeric keys first
   const link = h("a", { class: "button", download: true }, texts.download);
   const follow = () => {
     level.disabled = format.value === "pmesh";

@@ -32,7 +32,7 @@ export interface ScanRecord {
   step: number;
   steps: number;
   progress: number; // 0 to 1
-  eta: number | null; // seconds
+  eta: number | null; // remaining time in seconds
   error: string | null; // the reason if the scan failed
   note: string | null; // what the scan is waiting for, if anything
   points: number; // number of points measured so far

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Announces two things to screen readers: from where the visitor sees the model, when the camera has come to rest, and
-// how far the model has been refined, at milestones only.
+// Announces to screen readers from where the visitor sees the model, once the camera is at rest.
+// Also announces how far the model has been refined, at milestones only.
 import type { Bench, Tool } from "./bench.ts";
 import { heightOf, sideOf } from "./view.ts";
 
@@ -8,8 +8,8 @@ import { heightOf, sideOf } from "./view.ts";
 const kRest = 600;
 
 /**
- * Whether a model of `total` bytes reaches half of them, but does not become complete, between a state of `before`
- * bytes and a state of `now` bytes.
+ * Whether the number of downloaded bytes passes half of `total`, without reaching `total`, when it
+ * changes from `before` to `now`.
  */
 export function passesHalf(before: number, now: number, total: number): boolean {
   return before < total / 2 && now >= total / 2 && now < total;
