@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two simulated scanners with the same name and object, for two daemons. Each scanner belongs to
-// one daemon, so the commands that it receives show when that daemon drives it. The scanners share a
-// folder of calibrations. run.sh starts the first one.
+// one daemon, so the commands that it receives show when that daemon drives it. The scanners share
+// a folder of calibrations. run.sh starts the first one.
 // Import this module before any program is started, so that no program inherits the first scanner's environment.
 import { spawn } from "node:child_process";
 import { once } from "node:events";
