@@ -15,8 +15,8 @@
 // return Expected<T>. The message of its Error is one line: the fault, its place, the next step.
 //
 // Refiner, Planner and parse_header are safe on any bytes. The functions that read, build and
-// verify call third-party decoders (Draco, PNG, JPEG), which are not safe on hostile bytes. Call
-// them in a process without rights if the bytes are untrusted.
+// verify call third-party decoders (Draco, PNG, JPEG, WebP), which are not safe on hostile bytes.
+// Call them in a process without rights if the bytes are untrusted.
 //
 // There is no global state. Different objects may be used from different threads at the same time,
 // but each object from only one thread at a time. build_model starts BuildOptions::threads threads;

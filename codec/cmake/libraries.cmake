@@ -23,6 +23,7 @@ set(library_libsystemd MODULE libsystemd)
 set(library_libusb MODULE libusb-1.0)
 set(library_umockdev MODULE umockdev-1.0)
 set(library_TurboJPEG FILE turbojpeg)
+set(library_WebP FILE webp)
 set(library_seccomp FILE seccomp)
 set(library_OpenCV OPENCV core imgproc calib3d aruco)
 

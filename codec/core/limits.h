@@ -13,6 +13,7 @@ struct Limits {
   std::uint32_t levels = 64;
   std::uint32_t regions = 65'535;
   std::uint64_t header_bytes = 16u << 20;
+  std::uint64_t pixels = 1u << 28;  // of all pictures of a mesh together
 };
 
 inline constexpr int kMinBits = 10;

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "codec/import/data_uri.h"
+#include "codec/picture/decode_picture.h"
+#include "codec/picture/sample.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {
@@ -29,10 +31,11 @@ void place_texture(const Json& reference, const Json& sampler, BaseColour& out) 
   out.rotation = real(transform, "rotation", 0);
 }
 
-// Returns the image of a texture. Prefers the plain image, which every reader supports. Without
-// one, returns the image of an extension, so that a message can name its format.
+// Returns the image of a texture. Prefers WebP, as EXT_texture_webp says, to the plain image.
+// Without either, returns the image of another extension, so that a message can name its format.
 std::uint64_t source_of(const Json& texture) {
-  std::uint64_t source = whole(texture, "source", kAbsent);
+  std::uint64_t source =
+      whole(extension(texture, "EXT_texture_webp"), "source", whole(texture, "source", kAbsent));
   for (const Json& other : member(texture, "extensions")) {
     if (source == kAbsent) source = whole(other, "source", kAbsent);
   }
@@ -62,7 +65,7 @@ BaseColour GltfMaterials::base_colour(const Json& primitive) {
   return out;
 }
 
-const Image* GltfMaterials::image(std::uint64_t index) {
+const Picture* GltfMaterials::image(std::uint64_t index) {
   const auto [it, is_new] = images_.try_emplace(index);
   if (is_new) {
     auto decoded = decode(index);
@@ -78,19 +81,19 @@ const Image* GltfMaterials::image(std::uint64_t index) {
   return it->second ? &*it->second : nullptr;
 }
 
-Expected<Image> GltfMaterials::decode(std::uint64_t index) {
+Expected<Picture> GltfMaterials::decode(std::uint64_t index) {
   const Json& self = element(document_, "images", index);
   const Json& uri = member(self, "uri");
   if (const auto* place = uri.get_ptr<const std::string*>(); place && is_data_uri(*place)) {
     const auto bytes = data_in_uri(*place);
     if (!bytes) return bad_input("is a data: URI that is not base64; export the file again");
-    return decode_image(*bytes, pixels_left_);
+    return decode_picture(*bytes, pixels_left_);
   }
   const std::uint64_t view = whole(self, "bufferView", kAbsent);
   if (view == kAbsent) return bad_input("is not in the file");
   const auto bytes = buffer_.view(view);
   if (!bytes) return bad_input("lies beyond the end of the file");
-  return decode_image(bytes->bytes, pixels_left_);
+  return decode_picture(bytes->bytes, pixels_left_);
 }
 
 std::vector<std::string> GltfMaterials::report() const {

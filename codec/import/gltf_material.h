@@ -7,15 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "codec/core/linear_colour.h"
 #include "codec/import/gltf_buffer.h"
-#include "codec/import/image.h"
+#include "codec/mesh/texturing.h"
+#include "codec/picture/picture.h"
 
 namespace vitrine::inline codec {
 
 struct BaseColour {
   LinearColour factor{1, 1, 1};
-  const Image* image = nullptr;  // null if there is only the factor
-  std::uint64_t texcoord = 0;    // n of the attribute TEXCOORD_n that the image uses
+  const Picture* image = nullptr;  // null if there is only the factor
+  std::uint64_t texcoord = 0;      // n of the attribute TEXCOORD_n that the image uses
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
   std::array<double, 2> offset{0, 0}, scale{1, 1};  // from KHR_texture_transform
   double rotation = 0;                              // from KHR_texture_transform, radians
@@ -26,8 +28,9 @@ struct BaseColour {
 
 class GltfMaterials {
  public:
-  // Both arguments must outlive this object.
-  GltfMaterials(const Json& document, GltfBuffer& buffer) : document_(document), buffer_(buffer) {}
+  // `document` and `buffer` must outlive this object. Decodes at most `most_pixels` pixels.
+  GltfMaterials(const Json& document, GltfBuffer& buffer, std::uint64_t most_pixels)
+      : document_(document), buffer_(buffer), pixels_left_(most_pixels) {}
 
   // Returns the base colour of the primitive's material. The colour's image lives as long as this
   // object.
@@ -37,15 +40,15 @@ class GltfMaterials {
   std::vector<std::string> report() const;
 
  private:
-  const Image* image(std::uint64_t index);
-  Expected<Image> decode(std::uint64_t index);
+  const Picture* image(std::uint64_t index);
+  Expected<Picture> decode(std::uint64_t index);
 
   const Json& document_;
   GltfBuffer& buffer_;
   // key: index of the image; value: nullopt if the image cannot be decoded
-  std::map<std::uint64_t, std::optional<Image>> images_;
+  std::map<std::uint64_t, std::optional<Picture>> images_;
   std::vector<std::string> faults_;
-  std::uint64_t pixels_left_ = kMostPixels;
+  std::uint64_t pixels_left_;
 };
 
 }  // namespace vitrine::inline codec

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/import/named_pictures.h"
 
+#include "codec/picture/decode_picture.h"
+#include "codec/picture/sample.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {
 
-const Image* NamedPictures::find(std::string_view name) {
+const Picture* NamedPictures::find(std::string_view name) {
   const auto [it, is_new] = pictures_.try_emplace(std::string(name));
   if (is_new) {
     const auto bytes = find_companion(companions_, name);
-    auto image = bytes ? decode_image(*bytes, pixels_left_)
-                       : Expected<Image>(bad_input("is not beside the mesh file"));
+    auto image = bytes ? decode_picture(*bytes, pixels_left_)
+                       : Expected<Picture>(bad_input("is not beside the mesh file"));
     if (image) {
       pixels_left_ -= std::uint64_t{image->width} * image->height;
       it->second = *std::move(image);
@@ -29,7 +31,7 @@ std::vector<std::string> NamedPictures::report() const {
   return lines;
 }
 
-LinearColour sample_upwards(const Image& picture, double u, double v) {
+LinearColour sample_upwards(const Picture& picture, double u, double v) {
   return sample(picture, u, 1 - v, Wrap::kRepeat, Wrap::kRepeat);
 }
 

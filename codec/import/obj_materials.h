@@ -13,8 +13,8 @@ namespace vitrine::inline codec {
 
 class ObjMaterials {
  public:
-  explicit ObjMaterials(const Companions& companions)
-      : companions_(companions), pictures_(companions) {}
+  ObjMaterials(const Companions& companions, std::uint64_t most_pixels)
+      : companions_(companions), pictures_(companions, most_pixels) {}
 
   // Reads a material library. Returns false if it is not among the companions.
   bool open_library(std::string_view name);
@@ -34,7 +34,7 @@ class ObjMaterials {
   struct Material {
     LinearColour diffuse{1, 1, 1};
     std::string map;
-    const Image* picture = nullptr;  // loaded when the material is first used
+    const Picture* picture = nullptr;  // loaded when the material is first used
     bool is_used = false;
   };
 

@@ -22,7 +22,7 @@ class GlbReader {
   GlbReader(const GlbFile& file, std::size_t file_bytes, const Limits& limits)
       : document_(file.document),
         buffer_(file.document, file.binary),
-        materials_(file.document, buffer_),
+        materials_(file.document, buffer_, limits.pixels),
         file_bytes_(file_bytes),
         limits_(limits) {}
 

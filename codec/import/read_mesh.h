@@ -33,8 +33,9 @@ std::string_view stated_unit(std::span<const std::uint8_t> bytes);
 // fault.
 //
 // Allocates at most about 64 times the size of the input, or 128 times for GLB, which may repeat
-// its meshes. Compressed parts and pictures are counted with their decoded size (at most 1024 bytes
-// or pixels per byte). A count in the file alone never causes an allocation.
+// its meshes. Compressed parts and pictures are counted with their decoded size: at most 1024 bytes
+// or pixels per byte, 4096 x 4096 pixels in a WebP of any size, and `limits.pixels` pixels in all.
+// Apart from these WebP pictures, a count in the file alone never causes an allocation.
 Expected<ImportedMesh> read_mesh(std::span<const std::uint8_t> bytes,
                                  const ReadOptions& options = {});
 

@@ -13,8 +13,8 @@ namespace {
 
 class ObjReader {
  public:
-  ObjReader(std::span<const std::uint8_t> bytes, const Companions& beside)
-      : text_(bytes), materials_(beside) {
+  ObjReader(std::span<const std::uint8_t> bytes, const ReadOptions& options)
+      : text_(bytes), materials_(options.beside, options.limits.pixels) {
     mesh_.format = "OBJ";
     mesh_.first_number = 1;
   }
@@ -163,7 +163,7 @@ bool is_obj(std::span<const std::uint8_t> bytes) {
 }
 
 Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
-  return ObjReader(bytes, options.beside).read();
+  return ObjReader(bytes, options).read();
 }
 
 }  // namespace vitrine::inline codec

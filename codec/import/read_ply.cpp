@@ -141,8 +141,8 @@ struct VertexPlan {
 template <class Values>
 class BodyReader {
  public:
-  BodyReader(const PlyHeader& header, const Values& values, const Companions& beside)
-      : header_(header), values_(values), pictures_(beside) {
+  BodyReader(const PlyHeader& header, const Values& values, const ReadOptions& options)
+      : header_(header), values_(values), pictures_(options.beside, options.limits.pixels) {
     mesh_.format = "PLY";
   }
 
@@ -306,7 +306,7 @@ class BodyReader {
   const PlyHeader& header_;
   Values values_;
   NamedPictures pictures_;
-  const Image* picture_ = nullptr;
+  const Picture* picture_ = nullptr;
   ColourMeans means_;  // empty if there are no texture coordinates
   RawMesh mesh_;
 };
@@ -324,14 +324,11 @@ Expected<RawMesh> read_ply(std::span<const std::uint8_t> bytes, const ReadOption
   const auto body = bytes.subspan(header->data_begin);
   switch (header->format) {
     case PlyFormat::kAscii:
-      return BodyReader<AsciiValues>(*header, {body, header->line_count + 1}, options.beside)
-          .read();
+      return BodyReader<AsciiValues>(*header, {body, header->line_count + 1}, options).read();
     case PlyFormat::kLittleEndian:
-      return BodyReader<BinaryValues<false>>(*header, BinaryValues<false>(body), options.beside)
-          .read();
+      return BodyReader<BinaryValues<false>>(*header, BinaryValues<false>(body), options).read();
     default:
-      return BodyReader<BinaryValues<true>>(*header, BinaryValues<true>(body), options.beside)
-          .read();
+      return BodyReader<BinaryValues<true>>(*header, BinaryValues<true>(body), options).read();
   }
 }
 

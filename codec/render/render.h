@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "codec/mesh/triangle_mesh.h"
-#include "codec/render/picture.h"
+#include "codec/picture/picture.h"
 
 namespace vitrine::inline codec {
 

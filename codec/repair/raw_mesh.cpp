@@ -34,11 +34,6 @@ bool is_usable(const Vec3& p) {
          std::abs(p.z) <= kLargestCoordinate;
 }
 
-std::uint8_t to_byte(double unit) {
-  if (!(unit > 0)) return 0;
-  return static_cast<std::uint8_t>(std::min(unit, 1.0) * 255 + 0.5);
-}
-
 Unexpected bad_input(std::string message) {
   return fail(ErrorCode::kBadInput, std::move(message));
 }

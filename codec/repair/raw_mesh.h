@@ -72,9 +72,6 @@ std::string in_quotes(std::string_view text);
 // Whether the coordinates are finite and small enough that their squares are finite, too.
 bool is_usable(const Vec3& position);
 
-// Converts a colour component from [0, 1] to 0..255. Clamps values outside; NaN becomes 0.
-std::uint8_t to_byte(double unit);
-
 Unexpected bad_input(std::string message);
 
 // Returns the error for a file that has only points or lines, with advice for the user.

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "codec/repair/linear_colour.h"
+#include "codec/core/linear_colour.h"
 
 namespace vitrine::inline codec {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "codec/render/png_file.h"
+#include "codec/picture/png_file.h"
 #include "codec/render/render.h"
 #include "server/api/decoded_model.h"
 #include "server/api/handlers.h"

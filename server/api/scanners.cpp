@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "codec/render/png_file.h"
+#include "codec/picture/png_file.h"
 #include "server/api/forward.h"
 #include "server/api/handlers.h"
 #include "server/api/job_json.h"

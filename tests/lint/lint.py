@@ -103,7 +103,7 @@ PUBLIC_HEADER = Path("codec/vitrine.h")  # includes the modules that users of th
 # The headers whose inclusion shows that a source uses a library of ARCHITECTURE.md.
 LIBRARIES = {"Aravis": "arv", "Boost": "boost/", "CURL": "curl/", "Draco": "draco/", "Embree": "embree3/", "LibArchive": "archive",
              "OpenCV": "opencv2/", "OpenMesh": "OpenMesh/", "OpenSSL": "openssl/", "PNG": "png.h", "PostgreSQL": "libpq-fe.h",
-             "SQLite": "sqlite3.h", "TurboJPEG": "turbojpeg.h", "fmt": "fmt/", "libsystemd": "systemd/", "libusb": "libusb.h",
+             "SQLite": "sqlite3.h", "TurboJPEG": "turbojpeg.h", "WebP": "webp/", "fmt": "fmt/", "libsystemd": "systemd/", "libusb": "libusb.h",
              "meshoptimizer": "meshoptimizer.h", "nlohmann-json": "nlohmann/", "pugixml": "pugixml.hpp", "seccomp": "seccomp.h",
              "threads": ("thread", "future"), "tl-expected": "tl/", "umockdev": "umockdev.h"}
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "codec/build/build_model.h"
-#include "codec/render/picture.h"
+#include "codec/picture/picture.h"
 #include "server/cli/report/single_files.h"
 
 namespace vitrine::server {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "codec/render/png_file.h"
+#include "codec/picture/png_file.h"
 #include "codec/render/render.h"
 #include "support/product_names.h"
 #include "value_of.h"

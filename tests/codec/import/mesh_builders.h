@@ -2,20 +2,11 @@
 // Small meshes for the tests of import and export.
 #pragma once
 
-#include <string_view>
-
 #include "codec/import/read_mesh.h"
 #include "codec/repair/repair.h"
+#include "support/as_bytes.h"
 
 namespace vitrine::testing {
-
-inline std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-inline std::string as_text(std::span<const std::uint8_t> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 inline TriangleMesh tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OBJ and PLY files with pictures beside them.
-#include "codec/import/pictures.h"
 #include "codec/import/reading.h"
+#include "codec/picture/pictures.h"
 
 namespace vitrine {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "codec/import/image.h"
-#include "codec/render/png_file.h"
+#include "codec/picture/decode_picture.h"
+#include "codec/picture/png_file.h"
 
 namespace vitrine {
 namespace {
@@ -93,7 +93,7 @@ TEST(Render, APngFileHoldsThePictureExactly) {
   const Picture picture = render(mesh, frame_around(mesh, 64));
   const auto file = write_png(picture);
   ASSERT_TRUE(file.has_value()) << file.error().message;
-  const auto image = decode_image(*file, 1 << 20);
+  const auto image = decode_picture(*file, 1 << 20);
   ASSERT_TRUE(image.has_value()) << image.error().message;
   EXPECT_EQ(image->width, picture.width);
   EXPECT_EQ(image->height, picture.height);

@@ -21,6 +21,9 @@ vitrine::test::HeapBound heap_for(std::string_view glb) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto heap = heap_for({reinterpret_cast<const char*>(data), size});
   return vitrine::fuzz::check({data, size}, heap, [](std::span<const std::uint8_t> bytes) {
-    return vitrine::read_mesh(bytes, {.up = vitrine::UpAxis::kZ});
+    // A WebP may have far more pixels than bytes, so the bound of the memory needs one of the
+    // pixels.
+    const vitrine::Limits limits{.pixels = 1024 * (bytes.size() + 1)};
+    return vitrine::read_mesh(bytes, {.limits = limits, .up = vitrine::UpAxis::kZ});
   });
 }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "codec/import/image.h"
+#include "codec/picture/decode_picture.h"
 #include "displayed_model.h"
 #include "server/auth/authenticator.h"
 #include "support/product_names.h"
@@ -61,8 +61,8 @@ TEST_F(InterchangeTest, APosterIsAPictureOfTheSizeAskedFor) {
 
 TEST_F(InterchangeTest, APosterShowsTheModelBeforeNothing) {
   const std::string file = get(api + "/poster.png?width=240").body;
-  const Image image =
-      decode_image({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, 240 * 240)
+  const Picture image =
+      decode_picture({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, 240 * 240)
           .value();
   std::set<std::uint8_t> shades;
   for (std::size_t i = 0; i < image.pixels.size(); i += 4)

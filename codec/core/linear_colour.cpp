@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/repair/linear_colour.h"
+#include "codec/core/linear_colour.h"
 
 #include "codec/core/srgb.h"
-#include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {
 namespace {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 #include <turbojpeg.h>
+#include <webp/encode.h>
 
 #include <string>
 #include <vector>
@@ -43,6 +44,29 @@ inline std::string jpeg_of(const std::vector<std::uint8_t>& pixels, int width) {
   tjFree(data);
   tjDestroy(jpeg);
   return out;
+}
+
+// Copies a buffer of libwebp to a text and releases it.
+inline std::string take_webp(std::uint8_t* data, std::size_t size) {
+  EXPECT_GT(size, 0u);
+  std::string out(reinterpret_cast<const char*>(data), size);
+  WebPFree(data);
+  return out;
+}
+
+// Returns a lossless WebP.
+inline std::string webp_of(const std::vector<std::uint8_t>& pixels, int width) {
+  std::uint8_t* data = nullptr;
+  const int height = static_cast<int>(pixels.size()) / 3 / width;
+  const std::size_t size = WebPEncodeLosslessRGB(pixels.data(), width, height, 3 * width, &data);
+  return take_webp(data, size);
+}
+
+inline std::string lossy_webp_of(const std::vector<std::uint8_t>& pixels, int width) {
+  std::uint8_t* data = nullptr;
+  const int height = static_cast<int>(pixels.size()) / 3 / width;
+  const std::size_t size = WebPEncodeRGB(pixels.data(), width, height, 3 * width, 90, &data);
+  return take_webp(data, size);
 }
 
 // Returns a PNG of a red pixel beside a blue one.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "codec/core/expected.h"
-#include "codec/render/picture.h"
+#include "codec/picture/picture.h"
 
 namespace vitrine::inline codec {
 

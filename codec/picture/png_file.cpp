@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/render/png_file.h"
+#include "codec/picture/png_file.h"
 
 #include <png.h>
 

@@ -2,7 +2,9 @@
 // Colours in linear light. Unlike sRGB values, these can be multiplied and averaged.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +13,12 @@
 namespace vitrine::inline codec {
 
 using LinearColour = std::array<double, 3>;  // red, green and blue, each 0 to 1
+
+// Converts a colour component from [0, 1] to 0..255. Clamps values outside; NaN becomes 0.
+inline std::uint8_t to_byte(double unit) {
+  if (!(unit > 0)) return 0;
+  return static_cast<std::uint8_t>(std::min(unit, 1.0) * 255 + 0.5);
+}
 
 LinearColour to_linear(const Colour& srgb);
 Colour to_srgb(const LinearColour& linear);  // clamps to [0, 1]; NaN becomes 0

@@ -2,8 +2,11 @@
 // A picture as an array of pixels in memory.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "codec/core/vec.h"
 
 namespace vitrine::inline codec {
 
@@ -11,6 +14,11 @@ struct Picture {
   std::uint32_t width = 0, height = 0;
   // Rows from top to bottom, with four bytes per pixel: sRGB and opacity.
   std::vector<std::uint8_t> pixels;
+
+  Colour at(std::uint32_t x, std::uint32_t y) const {
+    const std::uint8_t* pixel = &pixels[4 * (std::size_t{y} * width + x)];
+    return {pixel[0], pixel[1], pixel[2]};
+  }
 };
 
 }  // namespace vitrine::inline codec

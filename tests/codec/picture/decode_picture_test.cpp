@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/picture/decode_picture.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "codec/core/limits.h"
+#include "codec/picture/pictures.h"
+#include "support/as_bytes.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::HasSubstr;
+using vitrine::testing::as_bytes;
+using vitrine::testing::jpeg_of;
+using vitrine::testing::lossy_webp_of;
+using vitrine::testing::png_of;
+using vitrine::testing::red_and_blue;
+using vitrine::testing::webp_of;
+
+std::string fault(const std::string& bytes, std::uint64_t most_pixels = Limits{}.pixels) {
+  const auto image = decode_picture(as_bytes(bytes), most_pixels);
+  EXPECT_FALSE(image.has_value());
+  return image ? "" : image.error().message;
+}
+
+TEST(DecodePicture, PngComesBackExactly) {
+  const auto image =
+      decode_picture(as_bytes(png_of({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 2)), 4);
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->width, 2u);
+  EXPECT_EQ(image->height, 2u);
+  EXPECT_EQ(image->at(0, 0), (Colour{1, 2, 3}));
+  EXPECT_EQ(image->at(1, 1), (Colour{10, 11, 12}));
+}
+
+TEST(DecodePicture, JpegComesBackNearly) {
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < 64; ++i)
+    pixels.insert(pixels.end(), {200, 100, 50});
+  const auto image = decode_picture(as_bytes(jpeg_of(pixels, 8)), Limits{}.pixels);
+  ASSERT_TRUE(image);
+  EXPECT_NEAR(image->at(3, 3)[0], 200, 3);
+  EXPECT_NEAR(image->at(3, 3)[1], 100, 3);
+  EXPECT_NEAR(image->at(3, 3)[2], 50, 3);
+}
+
+TEST(DecodePicture, LosslessWebpComesBackExactly) {
+  const auto picture =
+      decode_picture(as_bytes(webp_of({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 2)), 4);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->width, 2u);
+  EXPECT_EQ(picture->height, 2u);
+  EXPECT_EQ(picture->at(0, 0), (Colour{1, 2, 3}));
+  EXPECT_EQ(picture->at(1, 1), (Colour{10, 11, 12}));
+}
+
+TEST(DecodePicture, LossyWebpComesBackNearly) {
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < 64; ++i)
+    pixels.insert(pixels.end(), {200, 100, 50});
+  const auto picture = decode_picture(as_bytes(lossy_webp_of(pixels, 8)), 64);
+  ASSERT_TRUE(picture);
+  EXPECT_NEAR(picture->at(3, 3)[0], 200, 3);
+  EXPECT_NEAR(picture->at(3, 3)[1], 100, 3);
+  EXPECT_NEAR(picture->at(3, 3)[2], 50, 3);
+}
+
+TEST(DecodePicture, AWebpOfOneColourMayHaveFewBytes) {
+  std::vector<std::uint8_t> pixels(3 * 1024 * 1024, 77);
+  const std::string bytes = webp_of(pixels, 1024);
+  ASSERT_LT(1024 * bytes.size(), 1024u * 1024u);
+  const auto picture = decode_picture(as_bytes(bytes), Limits{}.pixels);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->at(1000, 1000), (Colour{77, 77, 77}));
+}
+
+TEST(DecodePicture, RefusesOtherContentAndDamage) {
+  EXPECT_EQ(fault("P6 1 1 255 ..."), "is not PNG, JPEG or WebP; convert it to one of them");
+  EXPECT_EQ(fault("GIF89a"), "is image/gif; convert it to PNG, JPEG or WebP");
+  EXPECT_EQ(fault(std::string("II*\0", 4)), "is image/tiff; convert it to PNG, JPEG or WebP");
+  EXPECT_EQ(fault("RIFF....WAVE"), "is not PNG, JPEG or WebP; convert it to one of them");
+  EXPECT_EQ(fault(red_and_blue().substr(0, 40)), "is a damaged PNG");
+  EXPECT_THAT(fault(jpeg_of(std::vector<std::uint8_t>(192, 9), 8).substr(0, 300)),
+              HasSubstr("is a damaged JPEG"));
+  const std::string webp = webp_of(std::vector<std::uint8_t>(192, 9), 8);
+  EXPECT_EQ(fault(webp.substr(0, 20)), "is a damaged WebP");
+  EXPECT_EQ(fault(webp.substr(0, webp.size() - 6)), "is a damaged WebP");
+}
+
+TEST(DecodePicture, RefusesASizeBeforeItAllocates) {
+  EXPECT_EQ(fault(red_and_blue(), 1), "has too many pixels; make it smaller");
+  std::string header = "\x89PNG\r\n\x1a\n";
+  header +=
+      std::string("\0\0\0\rIHDR\0\x0f\x42\x40\0\x0f\x42\x40\x08\x02\0\0\0\x53\x55\x61\x1b", 25);
+  EXPECT_THAT(fault(header), HasSubstr("damaged"));
+}
+
+// The size of a lossless WebP is in bytes 21 to 24: width - 1 and height - 1 with 14 bits each.
+std::string webp_that_claims(std::uint32_t width, std::uint32_t height) {
+  std::string bytes = webp_of({1, 2, 3}, 1);
+  const std::uint32_t size = (height - 1) << 14 | (width - 1);
+  for (std::size_t i = 0; i < 4; ++i)
+    bytes[21 + i] = static_cast<char>(size >> 8 * i);
+  return bytes;
+}
+
+TEST(DecodePicture, RefusesTheSizeOfAWebpBeforeItAllocates) {
+  EXPECT_EQ(fault(webp_that_claims(16'383, 16'383)), "is damaged");
+  EXPECT_EQ(fault(webp_that_claims(2, 1), 1), "has too many pixels; make it smaller");
+}
+
+TEST(DecodePicture, RefusesAnAnimatedWebp) {
+  std::string bytes("RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\0\0\0\0\0\0", 30);
+  EXPECT_EQ(fault(bytes), "is an animated WebP; convert it to a still picture");
+}
+
+}  // namespace
+}  // namespace vitrine
