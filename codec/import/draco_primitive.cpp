@@ -66,7 +66,7 @@ Expected<void> read_values(const draco::Mesh& mesh, const Json& document, const 
     const auto* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
     const auto shape = Accessor::described(document, whole(accessors, name, kAbsent));
     if (!shape) return tl::unexpected(shape.error());
-    if (attribute == nullptr || shape->count() != mesh.num_points() ||
+    if (attribute == nullptr ||
         shape->width() != static_cast<std::uint32_t>(attribute->num_components()) ||
         !copy_values(*attribute, mesh.num_points(), *shape, out.values[name])) {
       return bad("does not match the accessor of " + in_quotes(name));

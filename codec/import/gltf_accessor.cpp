@@ -85,6 +85,7 @@ Expected<Accessor> Accessor::over(const Json& document, std::span<const std::uin
                                   std::uint64_t index) {
   auto out = described(document, index);
   if (!out) return out;
+  out->count_ = values.size() / (std::uint64_t{byte_size(out->type_)} * out->width_);
   if (auto ok = out->place({values, 0}, 0, index); !ok) return tl::unexpected(ok.error());
   return out;
 }

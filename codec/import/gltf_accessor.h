@@ -18,7 +18,7 @@ class Accessor {
   static Expected<Accessor> open(const Json& document, GltfBuffer& buffer, std::uint64_t index);
 
   // Opens accessor `index`, but takes its values from `values`, the decompressed data of a
-  // primitive. Fails unless the data is long enough for values without gaps.
+  // primitive, without gaps. Their number replaces the stated count, which exporters get wrong.
   static Expected<Accessor> over(const Json& document, std::span<const std::uint8_t> values,
                                  std::uint64_t index);
 
