@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The codec's public interface. It builds, opens, refines and exports progressive meshes.
 //
-//   read_mesh    reads bytes of a PLY, OBJ, STL, OFF or GLB file; returns an ImportedMesh
+//   read_mesh    reads bytes of a PLY, OBJ, STL, OFF, GLB or glTF file; returns an ImportedMesh
 //   build_model  takes bytes of a mesh file, or an ImportedMesh; returns a `.pmesh` and a report
 //   open_model   takes bytes of a `.pmesh`, or a prefix of them; returns a Refiner at the base mesh
 //   refine       refines a Refiner to a given Want: triangles, bytes, error, level, view

@@ -19,6 +19,10 @@ using Companions = std::map<std::string, std::span<const std::uint8_t>, std::les
 // slashes or backslashes.
 std::string companion_key(std::string_view path);
 
+// Decodes the percent-encoded bytes of a URI [RFC3986] section 2.1, such as "%20" for a blank.
+// Keeps a percent sign without two hexadecimal digits.
+std::string percent_decoded(std::string_view uri);
+
 std::optional<std::span<const std::uint8_t>> find_companion(const Companions& companions,
                                                             std::string_view path);
 

@@ -13,7 +13,7 @@ namespace vitrine::inline codec {
 namespace {
 
 Unexpected bad(const std::string& what) {
-  return bad_input("GLB: the Draco data " + what + "; the file is damaged, export it again");
+  return bad_input("glTF: the Draco data " + what + "; the file is damaged, export it again");
 }
 
 template <class T>
@@ -89,7 +89,7 @@ Expected<DracoPrimitive> decode_draco_primitive(std::span<const std::uint8_t> co
                                                 const Limits& limits) {
   const auto decoded = decode_draco_data(compressed, limits);
   if (!decoded)
-    return tl::unexpected(Error{decoded.error().code, "GLB: " + decoded.error().message});
+    return tl::unexpected(Error{decoded.error().code, "glTF: " + decoded.error().message});
   const draco::Mesh& mesh = **decoded;
   DracoPrimitive out;
   out.faces = faces_of(mesh);

@@ -37,7 +37,12 @@ inline constexpr ImportFormat kImportFormats[] = {
      .extension = "glb",
      .recognises = is_glb,
      .read = read_glb,
-     .unit = unit_of_glb},
+     .unit = unit_of_gltf},
+    {.name = "glTF",
+     .extension = "gltf",
+     .recognises = is_gltf,
+     .read = read_gltf,
+     .unit = unit_of_gltf},
     {.name = "STL",
      .extension = "stl",
      .recognises = is_stl,
@@ -55,7 +60,7 @@ inline constexpr ImportFormat kImportFormats[] = {
      .unit = unit_in_comments},
 };
 
-// The text "PLY, GLB, STL, OFF or OBJ".
+// The text "PLY, GLB, glTF, STL, OFF or OBJ".
 inline constexpr FixedText kImportFormatNames = join(
     kImportFormats, [](const ImportFormat& format) { return format.name; }, ", ", " or ");
 

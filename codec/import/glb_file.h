@@ -4,23 +4,20 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
-#include "codec/core/limits.h"
-#include "codec/import/gltf_json.h"
+#include "codec/core/expected.h"
 
 namespace vitrine::inline codec {
 
-struct GlbFile {
-  Json document;                         // a JSON object
-  std::span<const std::uint8_t> binary;  // part of the input; may be empty
+// Parts of the input. Each may be empty.
+struct GlbChunks {
+  std::string_view json;
+  std::span<const std::uint8_t> binary;
 };
 
-// Opens a GLB file. Fails (kBadInput, kUnsupported, kLimit) if the version is not supported, if a
-// chunk is truncated or damaged, if the JSON is too long or too deep, or if a required extension is
-// not supported.
-Expected<GlbFile> open_glb(std::span<const std::uint8_t> bytes, const Limits& limits);
-
-// Returns an error that states a fault of the file and advises the user.
-Unexpected bad_glb(std::string what);
+// Finds the chunks of a GLB file. Fails (kBadInput, kUnsupported) if the version of the container
+// is not supported or a chunk is cut short.
+Expected<GlbChunks> split_glb(std::span<const std::uint8_t> bytes);
 
 }  // namespace vitrine::inline codec

@@ -11,7 +11,7 @@ namespace vitrine::inline codec {
 namespace {
 
 Unexpected bad_accessor(std::uint64_t index, std::string what) {
-  return bad_input("GLB accessor " + std::to_string(index) + ' ' + std::move(what) +
+  return bad_input("glTF accessor " + std::to_string(index) + ' ' + std::move(what) +
                    "; the file is damaged, export it again");
 }
 
@@ -41,7 +41,7 @@ std::uint32_t Accessor::byte_size(Type type) {
 Expected<Accessor> Accessor::described(const Json& document, std::uint64_t index) {
   const Json& self = element(document, "accessors", index);
   if (!member(self, "sparse").is_null()) {
-    return fail(ErrorCode::kUnsupported, "GLB accessor " + std::to_string(index) +
+    return fail(ErrorCode::kUnsupported, "glTF accessor " + std::to_string(index) +
                                              " is sparse, which is not read; export it dense");
   }
   Accessor out;

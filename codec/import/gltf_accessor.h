@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Typed, bounds-checked access to the numbers of a binary glTF file.
+// Typed, bounds-checked access to the numbers of a glTF file.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint64_t kMostExpansionInAll = 1024;
 
 std::string named(std::uint64_t index, const std::string& what) {
-  return "GLB buffer view " + std::to_string(index) + ' ' + what +
+  return "glTF buffer view " + std::to_string(index) + ' ' + what +
          "; the file is damaged, export it again";
 }
 
@@ -32,14 +32,28 @@ Expected<BufferView> GltfBuffer::view(std::uint64_t index) {
   return BufferView{*bytes, whole(self, "byteStride", 0)};
 }
 
-Expected<std::span<const std::uint8_t>> GltfBuffer::part(const Json& place,
-                                                         std::uint64_t index) const {
-  if (whole(place, "buffer", kAbsent) != 0) return bad_view(index, "is not in the binary chunk");
+Expected<std::span<const std::uint8_t>> GltfBuffer::part(const Json& place, std::uint64_t index) {
+  const std::uint64_t number = whole(place, "buffer", kAbsent);
+  const bool has_uri = member(element(document_, "buffers", number), "uri").is_string();
+  if (number != 0 && !has_uri) return bad_view(index, "is in a buffer without data");
+  const auto bytes = has_uri ? buffer(number) : Expected<std::span<const std::uint8_t>>(binary_);
+  if (!bytes) return tl::unexpected(bytes.error());
   const std::uint64_t begin = whole(place, "byteOffset", 0), size = whole(place, "byteLength", 0);
-  if (begin > binary_.size() || size > binary_.size() - begin) {
-    return bad_view(index, "lies beyond the end of the binary chunk");
+  if (begin > bytes->size() || size > bytes->size() - begin) {
+    return bad_view(index, "lies beyond the end of its buffer");
   }
-  return binary_.subspan(begin, size);
+  return bytes->subspan(begin, size);
+}
+
+// Returns the bytes of a buffer that has a URI.
+Expected<std::span<const std::uint8_t>> GltfBuffer::buffer(std::uint64_t number) {
+  const auto [it, is_new] = buffers_.try_emplace(number);
+  if (!is_new) return it->second;
+  const auto bytes = resources_.find(text(element(document_, "buffers", number), "uri", ""));
+  if (!bytes) {
+    return bad_input("glTF buffer " + std::to_string(number) + ' ' + bytes.error().message);
+  }
+  return it->second = *bytes;
 }
 
 Expected<BufferView> GltfBuffer::decompressed(const Json& extension, std::uint64_t index) {
@@ -58,9 +72,9 @@ Expected<BufferView> GltfBuffer::decompressed(const Json& extension, std::uint64
 
 Expected<void> GltfBuffer::spend(std::uint64_t bytes) {
   spent_ += bytes;
-  if (spent_ <= kMostExpansionInAll * binary_.size()) return {};
+  if (spent_ <= kMostExpansionInAll * resources_.bytes()) return {};
   return fail(ErrorCode::kLimit,
-              "the GLB's compressed parts make too many bytes; export it without compression");
+              "the glTF's compressed parts make too many bytes; export it without compression");
 }
 
 }  // namespace vitrine::inline codec

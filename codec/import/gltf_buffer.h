@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Returns the buffer views of a binary glTF file and decompresses them if necessary.
+// Returns the buffer views of a glTF file and decompresses them if necessary.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codec/import/gltf_json.h"
+#include "codec/import/gltf_resources.h"
 
 namespace vitrine::inline codec {
 
@@ -18,25 +19,31 @@ struct BufferView {
 
 class GltfBuffer {
  public:
-  // `binary` is the file's binary chunk. It and the document must outlive this object.
-  GltfBuffer(const Json& document, std::span<const std::uint8_t> binary)
-      : document_(document), binary_(binary) {}
+  // `binary` is the binary chunk of a GLB file; it is buffer 0 if that has no URI. All arguments
+  // must outlive this object.
+  GltfBuffer(const Json& document, std::span<const std::uint8_t> binary, GltfResources& resources)
+      : document_(document), binary_(binary), resources_(resources) {}
 
-  // Returns buffer view `index`. Fails unless it lies within the binary chunk. The bytes live as
-  // long as this object.
+  // Returns buffer view `index`. Fails unless it lies within its buffer. The bytes live as long as
+  // this object.
   Expected<BufferView> view(std::uint64_t index);
 
   // Adds `bytes` to the total of decompressed bytes. Fails (kLimit) if the total exceeds 1024 times
-  // the size of the binary chunk.
+  // the size of the file and its companions.
   Expected<void> spend(std::uint64_t bytes);
-  std::uint64_t spent() const { return spent_; }
+
+  // Returns the size of the file, its companions and the decompressed data.
+  std::uint64_t bytes() const { return resources_.bytes() + spent_; }
 
  private:
-  Expected<std::span<const std::uint8_t>> part(const Json& place, std::uint64_t index) const;
+  Expected<std::span<const std::uint8_t>> part(const Json& place, std::uint64_t index);
+  Expected<std::span<const std::uint8_t>> buffer(std::uint64_t number);
   Expected<BufferView> decompressed(const Json& extension, std::uint64_t index);
 
   const Json& document_;
   std::span<const std::uint8_t> binary_;
+  GltfResources& resources_;
+  std::map<std::uint64_t, std::span<const std::uint8_t>> buffers_;  // opened by URI
   // key: index of the buffer view
   std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;
   std::uint64_t spent_ = 0;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/import/data_uri.h"
 #include "codec/picture/decode_picture.h"
 #include "codec/picture/sample.h"
 #include "codec/repair/raw_mesh.h"
@@ -83,10 +82,9 @@ const Picture* GltfMaterials::image(std::uint64_t index) {
 
 Expected<Picture> GltfMaterials::decode(std::uint64_t index) {
   const Json& self = element(document_, "images", index);
-  const Json& uri = member(self, "uri");
-  if (const auto* place = uri.get_ptr<const std::string*>(); place && is_data_uri(*place)) {
-    const auto bytes = data_in_uri(*place);
-    if (!bytes) return bad_input("is a data: URI that is not base64; export the file again");
+  if (const Json& uri = member(self, "uri"); uri.is_string()) {
+    const auto bytes = resources_.find(uri.get_ref<const std::string&>());
+    if (!bytes) return tl::unexpected(bytes.error());
     return decode_picture(*bytes, pixels_left_);
   }
   const std::uint64_t view = whole(self, "bufferView", kAbsent);

@@ -28,9 +28,10 @@ struct BaseColour {
 
 class GltfMaterials {
  public:
-  // `document` and `buffer` must outlive this object. Decodes at most `most_pixels` pixels.
-  GltfMaterials(const Json& document, GltfBuffer& buffer, std::uint64_t most_pixels)
-      : document_(document), buffer_(buffer), pixels_left_(most_pixels) {}
+  // The references must outlive this object. Decodes at most `most_pixels` pixels.
+  GltfMaterials(const Json& document, GltfBuffer& buffer, GltfResources& resources,
+                std::uint64_t most_pixels)
+      : document_(document), buffer_(buffer), resources_(resources), pixels_left_(most_pixels) {}
 
   // Returns the base colour of the primitive's material. The colour's image lives as long as this
   // object.
@@ -45,6 +46,7 @@ class GltfMaterials {
 
   const Json& document_;
   GltfBuffer& buffer_;
+  GltfResources& resources_;
   // key: index of the image; value: nullopt if the image cannot be decoded
   std::map<std::uint64_t, std::optional<Picture>> images_;
   std::vector<std::string> faults_;

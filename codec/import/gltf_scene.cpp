@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "codec/import/glb_file.h"
+#include "codec/import/gltf_document.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {
@@ -16,8 +16,8 @@ Expected<void> check_place(const Json& node, std::uint64_t index) {
       {{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}}};
   for (const auto& [key, count] : kParts) {
     if (!node.contains(key) || are_numbers(member(node, key), count)) continue;
-    return bad_glb("the " + std::string(key) + " of node " + std::to_string(index) + " is not " +
-                   std::to_string(count) + " numbers");
+    return bad_gltf("the " + std::string(key) + " of node " + std::to_string(index) + " is not " +
+                    std::to_string(count) + " numbers");
   }
   return {};
 }
@@ -80,7 +80,7 @@ std::uint64_t scene_with_meshes(const Json& document) {
 
 Unexpected shows_none(std::uint64_t scene, const Json& document) {
   const std::string fault =
-      "GLB: its default scene " + std::to_string(scene) + " shows none of the file's meshes";
+      "glTF: its default scene " + std::to_string(scene) + " shows none of the file's meshes";
   const std::uint64_t other = scene_with_meshes(document);
   if (other == kAbsent) return bad_input(fault + "; export the scene with them");
   return bad_input(fault + ", but scene " + std::to_string(other) +
@@ -101,8 +101,9 @@ Expected<std::vector<MeshInstance>> mesh_instances(const Json& document) {
   while (!open.empty()) {
     const Visit visit = open.back();
     open.pop_back();
-    if (visit.node >= seen.size()) return bad_glb("a node does not exist");
-    if (seen[visit.node]) return bad_glb("node " + std::to_string(visit.node) + " has two parents");
+    if (visit.node >= seen.size()) return bad_gltf("a node does not exist");
+    if (seen[visit.node])
+      return bad_gltf("node " + std::to_string(visit.node) + " has two parents");
     seen[visit.node] = true;
     const Json& node = nodes[visit.node];
     if (auto ok = check_place(node, visit.node); !ok) return tl::unexpected(ok.error());

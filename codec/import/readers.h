@@ -18,6 +18,7 @@ Expected<RawMesh> read_obj(std::span<const std::uint8_t> bytes, const ReadOption
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes, const ReadOptions& options);
 Expected<RawMesh> read_off(std::span<const std::uint8_t> bytes, const ReadOptions& options);
 Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const ReadOptions& options);
+Expected<RawMesh> read_gltf(std::span<const std::uint8_t> bytes, const ReadOptions& options);
 
 // Each function tells whether the bytes begin like a file of its format.
 bool is_ply(std::span<const std::uint8_t> bytes);
@@ -25,11 +26,12 @@ bool is_obj(std::span<const std::uint8_t> bytes);
 bool is_stl(std::span<const std::uint8_t> bytes);  // also true for a truncated binary file
 bool is_off(std::span<const std::uint8_t> bytes);
 bool is_glb(std::span<const std::uint8_t> bytes);
+bool is_gltf(std::span<const std::uint8_t> bytes);
 
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
 bool is_off_keyword(std::string_view word);
 
-// Returns metres, the unit required by the GLB standard.
-std::string_view unit_of_glb(std::span<const std::uint8_t> bytes);
+// Returns metres, the unit required by the glTF standard.
+std::string_view unit_of_gltf(std::span<const std::uint8_t> bytes);
 
 }  // namespace vitrine::inline codec

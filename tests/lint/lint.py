@@ -227,9 +227,9 @@ def types(root):
 
 
 FORMAT_TABLES = (Path("codec/import/formats.h"), Path("codec/export/write_mesh.h"))
-FORMAT_ROW = re.compile(r'\.name = "([A-Z]+)",\s+\.extension = "(\w+)"')
-NAME_LIST = re.compile(r"\b[A-Z]{3,4}(?:, [A-Z]{3,4})+,? (?:and|or|und|oder) [A-Z]{3,5}\b")
-EXTENSION_LIST = re.compile(r"(?<!\w)\.?(?:[a-z]{3}(?:,|, |\"?, \"|\|)\.?){2,}(?:(?:or|and) \.?)?[a-z]{3}\b")
+FORMAT_ROW = re.compile(r'\.name = "(\w+)",\s+\.extension = "(\w+)"')
+NAME_LIST = re.compile(r"\b(?:[A-Z]{3,4}|glTF)(?:, (?:[A-Z]{3,4}|glTF))+,? (?:and|or|und|oder) (?:[A-Z]{3,5}|glTF)\b")
+EXTENSION_LIST = re.compile(r"(?<!\w)\.?(?:[a-z]{3,4}(?:,|, |\"?, \"|\|)\.?){2,}(?:(?:or|and) \.?)?[a-z]{3,4}\b")
 
 
 def formats(root):

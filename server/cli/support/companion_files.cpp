@@ -2,8 +2,11 @@
 #include "server/cli/support/companion_files.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <vector>
+
+#include "codec/import/readers.h"
 
 namespace vitrine::server::cli {
 namespace {
@@ -11,23 +14,37 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSearchedBytes = 1 << 20;
+constexpr std::size_t kMostSearchedJson = 16 << 20;  // a glTF file may name its files at the end
 
-// Returns the start of a file in lower case, since names are compared without case.
+// Returns the start of a file in lower case, since names are compared without case, and without
+// the percent-encoding of glTF.
 std::string searchable(std::span<const std::uint8_t> bytes) {
-  const auto head = bytes.first(std::min(bytes.size(), kMostSearchedBytes));
+  const bool has_uris = is_glb(bytes) || is_gltf(bytes);
+  const std::size_t most = has_uris ? kMostSearchedJson : kMostSearchedBytes;
+  const auto head = bytes.first(std::min(bytes.size(), most));
   std::string text(head.begin(), head.end());
   for (char& c : text)
     c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
+  return has_uris ? percent_decoded(text) : text;
 }
 
+// Appends the entries of a folder in the order of their names.
+void list(const fs::path& folder, std::vector<fs::path>& entries) {
+  const auto first = static_cast<std::ptrdiff_t>(entries.size());
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    entries.push_back(at->path());
+  std::sort(entries.begin() + first, entries.end());
+}
+
+// Returns the files in the folder of `path`, followed by those in its subfolders.
 std::vector<fs::path> files_beside(const std::string& path) {
   std::vector<fs::path> files;
   const fs::path folder = fs::path(path).parent_path();
-  std::error_code error;
-  for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
-       at.increment(error)) {
-    files.push_back(at->path());
+  list(folder.empty() ? "." : folder, files);
+  for (std::size_t i = 0, beside = files.size(); i < beside; ++i) {
+    std::error_code error;
+    if (fs::is_directory(files[i], error)) list(fs::path(files[i]), files);
   }
   return files;
 }
@@ -36,8 +53,9 @@ bool is_library(const std::string& key) {
   return key.ends_with(".mtl");
 }
 
-bool is_picture(const std::string& key) {
-  return key.ends_with(".png") || key.ends_with(".jpg") || key.ends_with(".jpeg");
+bool is_buffer_or_picture(const std::string& key) {
+  constexpr std::array<std::string_view, 5> kEndings{".bin", ".png", ".jpg", ".jpeg", ".webp"};
+  return std::ranges::any_of(kEndings, [&](std::string_view end) { return key.ends_with(end); });
 }
 
 }  // namespace
@@ -45,11 +63,11 @@ bool is_picture(const std::string& key) {
 CompanionFiles::CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh) {
   const std::vector<fs::path> candidates = files_beside(path);
   std::string text = searchable(mesh);
-  for (const auto is_wanted : {is_library, is_picture}) {
+  for (const auto is_wanted : {is_library, is_buffer_or_picture}) {
     std::string libraries;
     for (const fs::path& candidate : candidates) {
       const std::string key = companion_key(candidate.filename().string());
-      if (!is_wanted(key) || text.find(key) == text.npos) continue;
+      if (!is_wanted(key) || files_.contains(key) || text.find(key) == text.npos) continue;
       auto file = InputFile::open(candidate.string());
       if (!file) continue;  // the report names it as missing
       if (is_library(key)) libraries += searchable(file->bytes()) + '\n';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the material libraries and pictures beside a mesh file that refers to them. The sandbox
-// cannot open files, so they are opened outside it. They are parsed only in the sandbox.
+// Opens the material libraries, buffers and pictures beside a mesh file that refers to them. The
+// sandbox cannot open files, so they are opened outside it. They are parsed only in the sandbox.
 #pragma once
 
 #include <map>
@@ -13,8 +13,10 @@ namespace vitrine::server::cli {
 
 class CompanionFiles {
  public:
-  // Opens the .mtl files in the folder of `path` whose names occur in the first megabyte of `mesh`,
-  // and the .png, .jpg and .jpeg files whose names occur there or in those .mtl files.
+  // Opens the .mtl files in the folder of `path` and its subfolders whose names occur in the first
+  // megabyte of `mesh`, or in all of a glTF file. Also opens the .bin files and pictures whose
+  // names occur there or in those .mtl files. If names repeat, the file in the folder itself is
+  // opened, or else that in the first subfolder.
   CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh);
 
   // The result is valid while this object exists.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds a binary glTF file part by part.
+// Builds a glTF file part by part.
 #pragma once
 
 #include <cstdint>
@@ -62,6 +62,14 @@ class GlbBuilder {
   void mesh(Json primitive) { append("meshes", {{"primitives", Json::array({primitive})}}); }
 
   std::string file() const { return glb(document.dump(), binary_); }
+
+  // Returns a glTF file whose buffer has the URI `uri`. The buffer's contents are binary().
+  std::string text_file(const std::string& uri) const {
+    Json text = document;
+    text["buffers"] = {{{"uri", uri}, {"byteLength", binary_.size()}}};
+    return text.dump();
+  }
+  const std::string& binary() const { return binary_; }
 
  private:
   std::string binary_;

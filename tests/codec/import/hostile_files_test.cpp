@@ -52,6 +52,11 @@ std::vector<IntactFile> intact_files() {
       {"OBJ", written(MeshFormat::kObj), 7},
       {"STL", written(MeshFormat::kStl), 1},
       {"GLB", written(MeshFormat::kGlb), 7},
+      {"glTF",
+       R"({"asset":{},"buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+       "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,
+       "type":"VEC3","count":3}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
+       30},
       {"densest PLY", densest_ply(), 52},
       {"text PLY",
        "ply\nformat ascii 1.0\nelement vertex 00000003\nproperty float x\nproperty float y\n"

@@ -18,7 +18,8 @@ TEST(ReadMesh, RefusesOtherContentWhateverTheNameOfTheFile) {
        {"Dear museum,\nhere is the scan.", "<html>", "\x89PNG\r\n\x1a\n", "\n\n"}) {
     EXPECT_THAT(
         refusal(text),
-        HasSubstr("not a mesh file that Vitrine reads; convert it to PLY, GLB, STL, OFF or OBJ"));
+        HasSubstr(
+            "not a mesh file that Vitrine reads; convert it to PLY, GLB, glTF, STL, OFF or OBJ"));
   }
 }
 

@@ -111,7 +111,10 @@ TEST(ReadTexturedGlb, APictureThatCannotBeReadIsNamedAndTheMeshStays) {
             "texture map 0 not carried: it is a damaged PNG");
   GlbBuilder outside = textured(red_and_blue());
   outside.document["images"][0] = {{"uri", "skin.png"}};
-  EXPECT_EQ(fault_of(outside), "texture map 0 not carried: it is not in the file");
+  EXPECT_EQ(
+      fault_of(outside),
+      "texture map 0 not carried: it is the file 'skin.png', which is not beside the mesh file; "
+      "copy it there, or export GLB with all in one file");
 }
 
 TEST(ReadTexturedGlb, APictureOfAnExtensionIsToldByItsFormat) {

@@ -317,6 +317,23 @@ TEST_F(VitrineCommand, MaterialsThatLieBesideAnObjColourTheModel) {
   EXPECT_NE(read("out.ply").find("property uchar red"), std::string::npos);
 }
 
+// A triangle whose corners, written as floats, are in the file "My buffer.bin".
+const std::string kGltf = R"({"asset": {"version": "2.0"},
+  "buffers": [{"uri": "data/My%20buffer.bin", "byteLength": 36}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})";
+
+TEST_F(VitrineCommand, AGltfIsBuiltWithTheFilesInItsFolderAndBelow) {
+  const std::string in = write("in.gltf", kGltf), out = path("out.pmesh");
+  EXPECT_THAT(vitrine({"build", in, "-o", out}).errors,
+              HasSubstr("glTF buffer 0 is the file 'data/My buffer.bin', which is not beside"));
+  const float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  empty_folder("data");
+  write("data/My buffer.bin", {reinterpret_cast<const char*>(corners), sizeof corners});
+  EXPECT_EQ(vitrine_json({"build", in, "-o", out})["input"]["faces"], 1);
+}
+
 TEST_F(VitrineCommand, HelpAndVersionGoToStdout) {
   for (const char* command : {"build", "info", "decode", "verify", "measure", "publish"}) {
     const ProgramResult help = vitrine({command, "--help"});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads binary glTF 2.0: the triangles of all meshes in the scene, in the scene's coordinates.
+// Reads glTF 2.0 as text or binary: the triangles of all meshes in the scene, in the scene's
+// coordinates.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -8,6 +9,7 @@
 #include "codec/import/glb_file.h"
 #include "codec/import/gltf_accessor.h"
 #include "codec/import/gltf_buffer.h"
+#include "codec/import/gltf_document.h"
 #include "codec/import/gltf_material.h"
 #include "codec/import/gltf_scene.h"
 #include "codec/import/readers.h"
@@ -17,14 +19,15 @@ namespace {
 
 constexpr Colour kWhite{255, 255, 255};
 
-class GlbReader {
+class GltfReader {
  public:
-  GlbReader(const GlbFile& file, std::size_t file_bytes, const Limits& limits)
-      : document_(file.document),
-        buffer_(file.document, file.binary),
-        materials_(file.document, buffer_, limits.pixels),
-        file_bytes_(file_bytes),
-        limits_(limits) {}
+  GltfReader(const Json& document, std::span<const std::uint8_t> binary, std::size_t file_bytes,
+             const ReadOptions& options)
+      : document_(document),
+        resources_(options.beside, file_bytes),
+        buffer_(document, binary, resources_),
+        materials_(document, buffer_, resources_, options.limits.pixels),
+        limits_(options.limits) {}
 
   Expected<RawMesh> read() {
     const auto instances = mesh_instances(document_);
@@ -49,7 +52,7 @@ class GlbReader {
     shared_.clear();
     const Json& primitives = member(element(document_, "meshes", instance.mesh), "primitives");
     if (!primitives.is_array()) {
-      return bad_glb("mesh " + std::to_string(instance.mesh) + " does not exist");
+      return bad_gltf("mesh " + std::to_string(instance.mesh) + " does not exist");
     }
     for (const Json& primitive : primitives) {
       if (auto ok = read_primitive(primitive, instance.place); !ok) return ok;
@@ -123,7 +126,7 @@ class GlbReader {
     if (!is_new) return it->second;
     const auto points = attribute(primitive, "POSITION", decoded);
     if (!points) return tl::unexpected(points.error());
-    if (points->width() != 3) return bad_glb("POSITION is not VEC3");
+    if (points->width() != 3) return bad_gltf("POSITION is not VEC3");
     if (auto ok = check_room(mesh_.positions.size() + points->count(), "vertices"); !ok) {
       return tl::unexpected(ok.error());
     }
@@ -139,12 +142,12 @@ class GlbReader {
     return it->second;
   }
 
-  // Bounds the effect of instances: the result must not have more elements than the file has bytes
-  // after decompression.
+  // Bounds the effect of instances: the result must not have more elements than the file and its
+  // companions have bytes after decompression.
   Expected<void> check_room(std::uint64_t count, const char* what) const {
-    const std::uint64_t room = file_bytes_ + buffer_.spent() + 3;
+    const std::uint64_t room = buffer_.bytes() + 3;
     if (count <= std::min(room, limits_.faces)) return {};
-    return fail(ErrorCode::kLimit, std::string("the GLB's instances make too many ") + what +
+    return fail(ErrorCode::kLimit, std::string("the glTF's instances make too many ") + what +
                                        "; export the mesh without instances");
   }
 
@@ -160,17 +163,17 @@ class GlbReader {
       const auto opened = attribute(primitive, "COLOR_0", decoded);
       if (!opened) return tl::unexpected(opened.error());
       if (opened->width() < 3 || opened->count() != range.count) {
-        return bad_glb("COLOR_0 does not match POSITION");
+        return bad_gltf("COLOR_0 does not match POSITION");
       }
       colours = *opened;
     }
     if (base.image != nullptr) {
       const std::string name = "TEXCOORD_" + std::to_string(base.texcoord);
-      if (!attributes.contains(name)) return bad_glb("a textured primitive lacks " + name);
+      if (!attributes.contains(name)) return bad_gltf("a textured primitive lacks " + name);
       const auto opened = attribute(primitive, name, decoded);
       if (!opened) return tl::unexpected(opened.error());
       if (opened->width() != 2 || opened->count() != range.count) {
-        return bad_glb(name + " does not match POSITION");
+        return bad_gltf(name + " does not match POSITION");
       }
       places = *opened;
     }
@@ -198,7 +201,7 @@ class GlbReader {
       const auto opened = Accessor::open(document_, buffer_, indices);
       if (!opened) return tl::unexpected(opened.error());
       if (opened->width() != 1 || !opened->is_whole()) {
-        return bad_glb("the indices are not integers");
+        return bad_gltf("the indices are not integers");
       }
       accessor = *opened;
       count = accessor.count();
@@ -224,8 +227,8 @@ class GlbReader {
     for (std::uint64_t f = 0; f < count; ++f) {
       Triangle t = face(f);
       if (std::ranges::max(t) >= range.count) {
-        return bad_glb("face " + std::to_string(faces_.size()) +
-                       " refers to a vertex that its primitive does not have");
+        return bad_gltf("face " + std::to_string(faces_.size()) +
+                        " refers to a vertex that its primitive does not have");
       }
       for (std::uint32_t& v : t)
         v += range.first;
@@ -253,9 +256,9 @@ class GlbReader {
   }
 
   const Json& document_;
+  GltfResources resources_;
   GltfBuffer buffer_;
   GltfMaterials materials_;
-  std::size_t file_bytes_;
   const Limits& limits_;
   RawMesh mesh_;
   std::vector<Triangle> faces_;
@@ -265,21 +268,42 @@ class GlbReader {
   bool has_factors_ = false;
 };
 
+Expected<RawMesh> read_document(std::string_view json, std::span<const std::uint8_t> binary,
+                                std::size_t file_bytes, const ReadOptions& options) {
+  const auto document = parse_gltf(json, options.limits);
+  if (!document) return tl::unexpected(document.error());
+  return GltfReader(*document, binary, file_bytes, options).read();
+}
+
+std::string_view text_of(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace
 
 bool is_glb(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kMagic = "glTF";
-  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+  return text_of(bytes).starts_with("glTF");
 }
 
-std::string_view unit_of_glb(std::span<const std::uint8_t>) {
+// Every glTF document is a JSON object with the member "asset".
+bool is_gltf(std::span<const std::uint8_t> bytes) {
+  const std::string_view text = text_of(bytes);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  return begin != text.npos && text[begin] == '{' && text.find("\"asset\"") != text.npos;
+}
+
+std::string_view unit_of_gltf(std::span<const std::uint8_t>) {
   return "m";
 }
 
 Expected<RawMesh> read_glb(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
-  const auto file = open_glb(bytes, options.limits);
-  if (!file) return tl::unexpected(file.error());
-  return GlbReader(*file, bytes.size(), options.limits).read();
+  const auto chunks = split_glb(bytes);
+  if (!chunks) return tl::unexpected(chunks.error());
+  return read_document(chunks->json, chunks->binary, bytes.size(), options);
+}
+
+Expected<RawMesh> read_gltf(std::span<const std::uint8_t> bytes, const ReadOptions& options) {
+  return read_document(text_of(bytes), {}, bytes.size(), options);
 }
 
 }  // namespace vitrine::inline codec

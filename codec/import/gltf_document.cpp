@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/gltf_document.h"
+
+#include "codec/import/data_uri.h"
+#include "codec/repair/raw_mesh.h"
+
+namespace vitrine::inline codec {
+namespace {
+
+constexpr int kDeepestJson = 64;
+
+struct JsonSize {
+  std::uint64_t bytes = 0;  // without the contents of data: URIs
+  int depth = 0;
+};
+
+// Returns the position of the quotation mark that ends the string whose contents start at `begin`.
+std::size_t end_of_string(std::string_view json, std::size_t begin) {
+  std::size_t at = begin;
+  while (at < json.size() && json[at] != '"')
+    at += json[at] == '\\' ? 2 : 1;
+  return std::min(at, json.size());
+}
+
+JsonSize size_of(std::string_view json) {
+  JsonSize size{.bytes = json.size()};
+  int depth = 0;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (c == '[' || c == '{') size.depth = std::max(size.depth, ++depth);
+    if (c == ']' || c == '}') --depth;
+    if (c != '"') continue;
+    const std::size_t begin = i + 1;
+    i = end_of_string(json, begin);
+    if (is_data_uri(json.substr(begin))) size.bytes -= i - begin;
+  }
+  return size;
+}
+
+// Whether a required extension can be handled. Materials and textures that are not supported are
+// ignored and reported. All other extensions must be supported.
+bool is_read(std::string_view extension) {
+  return extension == "KHR_mesh_quantization" || extension == "KHR_draco_mesh_compression" ||
+         extension == "EXT_meshopt_compression" || extension.starts_with("KHR_materials_") ||
+         extension.starts_with("KHR_texture_") || extension.starts_with("EXT_texture_");
+}
+
+Expected<void> check_extensions(const Json& document) {
+  for (const Json& name : member(document, "extensionsRequired")) {
+    const std::string extension = name.is_string() ? name.get<std::string>() : std::string();
+    if (is_read(extension)) continue;
+    return fail(ErrorCode::kUnsupported, "the glTF needs the extension " + in_quotes(extension) +
+                                             ", which is not read; export without it");
+  }
+  return {};
+}
+
+// Applies glTF's version rules. If the document states minVersion, that version must be fully
+// supported. Otherwise the major version must be supported. If the document states neither, only
+// the version of the container is checked.
+Expected<void> check_version(const Json& document) {
+  const Json& asset = member(document, "asset");
+  const bool has_least = !member(asset, "minVersion").is_null();
+  const std::string version = text(asset, has_least ? "minVersion" : "version", "");
+  if (!has_least && member(asset, "version").is_null()) return {};
+  if (has_least ? version == "2.0" : version.starts_with("2.")) return {};
+  return fail(ErrorCode::kUnsupported,
+              "glTF version " + in_quotes(version) + " is not read; export glTF 2.0");
+}
+
+}  // namespace
+
+Unexpected bad_gltf(std::string what) {
+  return bad_input("glTF: " + std::move(what) + "; the file is damaged, export it again");
+}
+
+Expected<Json> parse_gltf(std::string_view json, const Limits& limits) {
+  const JsonSize size = size_of(json);
+  if (size.bytes > limits.header_bytes) {
+    return fail(ErrorCode::kLimit, "the glTF's JSON is " + counted(size.bytes, "byte") +
+                                       " long, too much; export the mesh alone");
+  }
+  if (size.depth > kDeepestJson) return bad_gltf("the JSON is nested too deeply");
+  Json document = Json::parse(json.begin(), json.end(), nullptr, false);
+  if (!document.is_object()) return bad_gltf("the document is missing or not JSON");
+  if (auto ok = check_version(document); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_extensions(document); !ok) return tl::unexpected(ok.error());
+  return document;
+}
+
+}  // namespace vitrine::inline codec

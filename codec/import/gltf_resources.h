@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the data to which a glTF file refers by URI: data in the URI itself, or files beside it.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/core/expected.h"
+#include "codec/import/companions.h"
+
+namespace vitrine::inline codec {
+
+class GltfResources {
+ public:
+  // `companions` must outlive this object. `file_bytes` is the size of the glTF file.
+  GltfResources(const Companions& companions, std::uint64_t file_bytes)
+      : companions_(companions), bytes_(file_bytes) {}
+
+  // Returns the data of a URI, which lives as long as this object. A file is found by the last part
+  // of its percent-decoded path. Fails (kBadInput) with a fault and a next step; the caller adds
+  // the place.
+  Expected<std::span<const std::uint8_t>> find(std::string_view uri);
+
+  // Returns the size of the glTF file and of the companions that were found.
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  const Companions& companions_;
+  std::set<std::string> found_;                     // keys of companions_
+  std::vector<std::vector<std::uint8_t>> decoded_;  // from data: URIs
+  std::uint64_t bytes_;
+};
+
+}  // namespace vitrine::inline codec
