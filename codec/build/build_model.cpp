@@ -118,6 +118,7 @@ Expected<BuildResult> build_model(ImportedMesh imported, const BuildOptions& opt
   BuildResult out;
   BuildReport& report = out.report;
   const std::string unit = imported.unit;
+  imported.texturing = {};  // the model has its vertex colours only
   auto repaired = repair(std::move(imported));
   if (!repaired) return tl::unexpected(repaired.error());
   TriangleMesh& mesh = repaired->mesh;

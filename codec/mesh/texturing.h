@@ -69,6 +69,16 @@ struct Material {
   bool is_unlit = false;
 };
 
+// Calls visit(map) for each map of a material.
+template <class Visit>
+void for_each_map(const Material& material, Visit visit) {
+  for (const auto map :
+       {&Material::base_colour_map, &Material::normal_map, &Material::metallic_roughness_map,
+        &Material::occlusion_map, &Material::emission_map}) {
+    if (material.*map) visit(*(material.*map));
+  }
+}
+
 // Number of sets of texture coordinates that a mesh can have.
 inline constexpr std::size_t kCoordinateSets = 2;
 

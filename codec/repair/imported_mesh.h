@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "codec/mesh/texturing.h"
 #include "codec/mesh/triangle_mesh.h"
 
 namespace vitrine::inline codec {
@@ -15,6 +16,7 @@ struct ImportedMesh {
   TriangleMesh mesh;                 // in model units
   std::string unit;                  // name of one of kLengthUnits; empty if unknown
   std::vector<std::string> repairs;  // one line for each kind of part that was removed or changed
+  Texturing texturing;  // of the faces of `mesh`; its pictures are also baked into colours
 };
 
 }  // namespace vitrine::inline codec

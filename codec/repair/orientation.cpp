@@ -52,9 +52,9 @@ void spread(std::span<const Triangle> faces, std::span<const std::uint32_t> acro
 
 }  // namespace
 
-Reversal orient_patches(std::span<Triangle> faces, const EdgeGroups& groups) {
-  Reversal reversal;
-  if (all_agree(faces, groups)) return reversal;
+std::vector<std::uint32_t> orient_patches(std::span<Triangle> faces, const EdgeGroups& groups) {
+  std::vector<std::uint32_t> reversed_faces;
+  if (all_agree(faces, groups)) return reversed_faces;
   const std::vector<std::uint32_t> across = neighbours(faces, groups);
   std::vector<std::uint8_t> turn(faces.size(), kUnknown);
   std::vector<std::uint32_t> patch;
@@ -73,9 +73,9 @@ Reversal orient_patches(std::span<Triangle> faces, const EdgeGroups& groups) {
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
     if (turn[f] != kReverse) continue;
     std::swap(faces[f][1], faces[f][2]);
-    if (reversal.faces++ == 0) reversal.first_face = f;
+    reversed_faces.push_back(f);
   }
-  return reversal;
+  return reversed_faces;
 }
 
 }  // namespace vitrine::inline codec

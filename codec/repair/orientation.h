@@ -4,21 +4,17 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "codec/core/vec.h"
 #include "codec/repair/edge_groups.h"
 
 namespace vitrine::inline codec {
 
-struct Reversal {
-  std::uint64_t faces = 0;
-  std::uint64_t first_face = 0;
-};
-
 // Gives all faces of each patch the orientation of the majority of the patch. A patch consists of
 // faces that are connected by edges with exactly two faces. Patches whose faces already agree do
 // not change. `groups` holds the edges of `faces`; it is not updated for reversed faces. Returns
-// the number of reversed faces, and the first of them.
-Reversal orient_patches(std::span<Triangle> faces, const EdgeGroups& groups);
+// the reversed faces in ascending order. Their second and third corner have been exchanged.
+std::vector<std::uint32_t> orient_patches(std::span<Triangle> faces, const EdgeGroups& groups);
 
 }  // namespace vitrine::inline codec

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/repair/face_texturing.h"
 #include "codec/repair/keep_vertices.h"
 #include "codec/repair/seams.h"
 #include "codec/repair/triangulate.h"
@@ -64,26 +65,25 @@ std::string RawMesh::face_of_max_index() const {
 void RawMesh::add_triangle(const Triangle& face, std::uint64_t line) {
   for (const std::uint32_t v : face)
     note_index(v, line);
-  triangles_.push_back(face);
+  faces_.add(face);
   ++face_count_;
 }
 
-void RawMesh::add_face(std::span<const std::uint32_t> corners, std::uint64_t line) {
-  if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]}, line);
+void RawMesh::add_face(std::span<const std::uint32_t> corners, std::uint64_t line,
+                       std::span<const TextureCoordinates> at_corners) {
   if (corners.size() < 3) {
     if (small_faces_++ == 0) first_small_face_ = face_count_;
   } else {
     for (const std::uint32_t v : corners)
       note_index(v, line);
-    polygon_corners_.insert(polygon_corners_.end(), corners.begin(), corners.end());
-    polygon_ends_.push_back(polygon_corners_.size());
+    faces_.add(corners, at_corners);
   }
   ++face_count_;
 }
 
 Expected<void> RawMesh::check_counts(const Limits& limits) const {
   if (positions.empty()) return bad_input("the file has no vertices; export the surface again");
-  if (triangles_.empty() && polygon_ends_.empty()) return no_faces(positions.size());
+  if (faces_.empty()) return no_faces(positions.size());
   if (max_index_ >= positions.size()) {
     const std::string vertex =
         max_index_ == 0xFFFF'FFFFu
@@ -92,7 +92,7 @@ Expected<void> RawMesh::check_counts(const Limits& limits) const {
     return bad_input(face_of_max_index() + " refers to " + vertex +
                      "; the file is damaged, export it again");
   }
-  if (positions.size() > limits.vertices || triangles_.size() > limits.faces) {
+  if (positions.size() > limits.vertices || faces_.triangles.size() > limits.faces) {
     return fail(ErrorCode::kLimit, "the mesh has " + std::to_string(positions.size()) +
                                        " vertices and " + counted(face_count_, "face") +
                                        ", more than this installation accepts; simplify it first");
@@ -100,28 +100,41 @@ Expected<void> RawMesh::check_counts(const Limits& limits) const {
   return {};
 }
 
-void RawMesh::triangulate_polygons() {
-  std::size_t begin = 0, fans = 0;
-  const std::span<const std::uint32_t> corners = polygon_corners_;
-  for (const std::size_t end : polygon_ends_) {
-    triangulate(positions, corners.subspan(begin, end - begin), triangles_);
-    fans += end - begin > kMostClippedCorners ? 1 : 0;
-    begin = end;
+void RawMesh::cut_polygons() {
+  if (materials.empty()) faces_.drop_texturing();
+  const std::size_t fans = faces_.cut_polygons(positions);
+  if (fans == 0) return;
+  repairs.push_back(counted(fans, "polygon") + " of more than " +
+                    std::to_string(kMostClippedCorners) +
+                    " corners taken as convex and cut into fans");
+}
+
+// Returns the texturing of the triangles. The vertices must be those that the reader added.
+Texturing RawMesh::take_texturing() {
+  Texturing out;
+  if (materials.empty()) return out;
+  out.materials = std::move(materials);
+  out.pictures = std::move(pictures);
+  out.face_materials = faces_.take_materials();
+  out.coordinates[0] = std::move(faces_.coordinates);
+  for (std::size_t s = 0; s < kCoordinateSets; ++s) {
+    const auto of_vertices = std::move(vertex_coordinates[s]);
+    if (out.coordinates[s].empty() && !of_vertices.empty())
+      out.coordinates[s] = coordinates_of_corners(faces_.triangles, of_vertices);
   }
-  if (fans > 0) {
-    repairs.push_back(counted(fans, "polygon") + " of more than " +
-                      std::to_string(kMostClippedCorners) +
-                      " corners taken as convex and cut into fans");
+  fit_coordinate_sets(out);
+  if (const std::uint64_t count = make_finite(out); count > 0) {
+    repairs.push_back(counted(count, "texture coordinate") +
+                      " without finite values set to 0; check the texture there");
   }
-  polygon_corners_ = {};
-  polygon_ends_ = {};
+  return out;
 }
 
 // Removes unusable positions that no face uses. Range scanners mark missing samples by NaN. Fails
 // if a face uses an unusable position.
 Expected<void> RawMesh::drop_stray_positions() {
   if (std::all_of(positions.begin(), positions.end(), is_usable)) return {};
-  const std::vector<bool> used = used_vertices(positions.size(), triangles_);
+  const std::vector<bool> used = used_vertices(positions.size(), faces_.triangles);
   std::vector<bool> usable(positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {
     usable[v] = is_usable(positions[v]);
@@ -130,7 +143,7 @@ Expected<void> RawMesh::drop_stray_positions() {
                      " has a coordinate that is not a finite number (or beyond 1e30) and faces "
                      "use it; remove it and export again");
   }
-  const std::size_t dropped = keep_vertices(usable, positions, attributes, triangles_);
+  const std::size_t dropped = keep_vertices(usable, positions, attributes, faces_.triangles);
   repairs.push_back(counted(dropped, "point") +
                     " without finite coordinates dropped, no face uses them");
   return {};
@@ -141,13 +154,13 @@ void RawMesh::close_seams() {
   std::vector<Colour> baked;
   if (is_baked) baked.swap(attributes.colours);
   const std::vector<std::uint32_t> renamed =
-      has_seams ? weld(positions, attributes) : weld_seams(positions, attributes, triangles_);
+      has_seams ? weld(positions, attributes) : weld_seams(positions, attributes, faces_.triangles);
   const std::size_t welded = before - positions.size();
   if (is_baked) {
     attributes.colours = welded > 0 ? blended(renamed, positions.size(), baked) : std::move(baked);
   }
   if (welded == 0) return;
-  for (Triangle& face : triangles_) {
+  for (Triangle& face : faces_.triangles) {
     for (std::uint32_t& v : face)
       v = renamed[v];
   }
@@ -159,11 +172,12 @@ void RawMesh::close_seams() {
 
 Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
   if (auto ok = check_counts(limits); !ok) return tl::unexpected(ok.error());
-  triangulate_polygons();
-  if (triangles_.size() > limits.faces) {
-    return fail(ErrorCode::kLimit, "the mesh has " + counted(triangles_.size(), "triangle") +
+  cut_polygons();
+  if (faces_.triangles.size() > limits.faces) {
+    return fail(ErrorCode::kLimit, "the mesh has " + counted(faces_.triangles.size(), "triangle") +
                                        ", more than this installation accepts; simplify it first");
   }
+  Texturing texturing = take_texturing();
   if (auto ok = drop_stray_positions(); !ok) return tl::unexpected(ok.error());
   close_seams();
   if (small_faces_ > 0) {
@@ -172,10 +186,11 @@ Expected<ImportedMesh> RawMesh::finish(const Limits& limits) && {
                       std::to_string(first_small_face_));
   }
   return ImportedMesh{.mesh = {.positions = std::move(positions),
-                               .faces = std::move(triangles_),
+                               .faces = std::move(faces_.triangles),
                                .attributes = std::move(attributes)},
                       .unit = {},
-                      .repairs = std::move(repairs)};
+                      .repairs = std::move(repairs),
+                      .texturing = std::move(texturing)};
 }
 
 }  // namespace vitrine::inline codec

@@ -11,6 +11,8 @@
 #include "codec/core/expected.h"
 #include "codec/core/limits.h"
 #include "codec/core/vec.h"
+#include "codec/mesh/texturing.h"
+#include "codec/repair/face_list.h"
 #include "codec/repair/imported_mesh.h"
 
 namespace vitrine::inline codec {
@@ -33,15 +35,26 @@ class RawMesh {
   std::string_view format;
   std::uint32_t first_number = 0;
 
+  // The materials, and the pictures that their maps use. If there are no materials, the mesh has no
+  // texturing.
+  std::vector<Material> materials;
+  std::vector<EncodedPicture> pictures;
+  // Per set: the coordinates of each vertex, for files that do not have them per corner. Vertices
+  // without an entry have (0, 0).
+  std::array<std::vector<TextureCoordinates>, kCoordinateSets> vertex_coordinates;
+
   // Adds a face. Faces are numbered from 0 in the order of the calls. Indices may refer to vertices
   // that are added later. `line` is the number of the face's line in a text file, from 1, or 0 for
-  // a binary file.
+  // a binary file. `at_corners` is empty or has the texture coordinates of each corner, in set 0.
   void add_triangle(const Triangle& face, std::uint64_t line = 0);
-  void add_face(std::span<const std::uint32_t> corners, std::uint64_t line = 0);
-  void reserve_faces(std::size_t count) { triangles_.reserve(count); }
+  void add_face(std::span<const std::uint32_t> corners, std::uint64_t line = 0,
+                std::span<const TextureCoordinates> at_corners = {});
+  // Sets the material of the faces that are added from now on. Before the first call it is 0.
+  void use_material(std::uint16_t material) { faces_.use_material(material); }
+  void reserve_faces(std::size_t count) { faces_.triangles.reserve(count); }
   std::uint64_t face_count() const { return face_count_; }
 
-  // Checks the indices and coordinates, cuts the polygons into triangles and returns the mesh.
+  // Checks the indices and positions, cuts the polygons into triangles and returns the mesh.
   Expected<ImportedMesh> finish(const Limits& limits) &&;
 
  private:
@@ -50,12 +63,11 @@ class RawMesh {
   std::string face_of_max_index() const;
   Expected<void> check_counts(const Limits& limits) const;
   Expected<void> drop_stray_positions();
-  void triangulate_polygons();
+  void cut_polygons();
+  Texturing take_texturing();
   void close_seams();
 
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> polygon_corners_;  // corners of all faces with more than three corners
-  std::vector<std::size_t> polygon_ends_;  // per polygon: end of its corners in polygon_corners_
+  FaceList faces_;
   std::uint64_t face_count_ = 0;
   std::uint64_t small_faces_ = 0, first_small_face_ = 0;  // faces with fewer than three corners
   std::uint32_t max_index_ = 0;

@@ -7,6 +7,7 @@
 
 #include "codec/repair/edge_groups.h"
 #include "codec/repair/edge_pairs.h"
+#include "codec/repair/face_texturing.h"
 #include "codec/repair/fan_splitter.h"
 #include "codec/repair/keep_vertices.h"
 #include "codec/repair/orientation.h"
@@ -65,7 +66,9 @@ bool are_partners(std::span<const EdgeSide> sides, std::span<const Triangle> fac
 class Repairer {
  public:
   explicit Repairer(ImportedMesh imported)
-      : mesh_(std::move(imported.mesh)), repairs_(std::move(imported.repairs)) {}
+      : mesh_(std::move(imported.mesh)),
+        texturing_(std::move(imported.texturing)),
+        repairs_(std::move(imported.repairs)) {}
 
   Expected<RepairedMesh> run() {
     if (auto ok = check(); !ok) return tl::unexpected(ok.error());
@@ -139,10 +142,13 @@ class Repairer {
   }
 
   bool orient(const EdgeGroups& groups) {
-    const Reversal reversal = orient_patches(mesh_.faces, groups);
-    Tally{reversal.faces, source(reversal.first_face)}.report(
+    const std::vector<std::uint32_t> reversed = orient_patches(mesh_.faces, groups);
+    if (reversed.empty()) return false;
+    for (const std::uint32_t f : reversed)
+      reverse_face(texturing_, f);
+    Tally{reversed.size(), source(reversed.front())}.report(
         "face", "reversed to agree with neighbours", repairs_);
-    return reversal.faces > 0;
+    return true;
   }
 
   // Splits vertices until each has one fan. Returns whether any vertex was split.
@@ -284,6 +290,7 @@ class Repairer {
     result.components = count_components();
     result.mesh = std::move(mesh_);
     result.repairs = std::move(repairs_);
+    result.texturing = std::move(texturing_);
     return result;
   }
 
@@ -300,6 +307,7 @@ class Repairer {
     }
     source_.resize(kept);
     mesh_.faces.resize(kept);
+    erase_faces(texturing_, marked);
   }
 
   // Returns the number of face f in the input.
@@ -308,6 +316,7 @@ class Repairer {
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(mesh_.positions.size()); }
 
   TriangleMesh mesh_;
+  Texturing texturing_;
   std::vector<std::string> repairs_;
   // Per face: its number in the input. Empty if no face was removed.
   std::vector<std::uint32_t> source_;

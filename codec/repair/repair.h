@@ -18,6 +18,7 @@ struct RepairedMesh {
   std::vector<std::string> repairs;
   std::uint64_t boundary_edges = 0;
   std::uint64_t components = 0;  // number of components; shared vertices connect faces
+  Texturing texturing;           // of the faces of `mesh`
 };
 
 // Repairs a mesh in these steps:
@@ -29,8 +30,8 @@ struct RepairedMesh {
 // - One-sided surfaces are cut.
 // - Vertices with several fans are split, one vertex per fan.
 // - Unused vertices are removed.
-// All other faces are kept, in order. Fails (kBadInput) if an index is out of range or no face has
-// an area. Takes O(n log n) time.
+// All other faces are kept, in order. Materials and texture coordinates stay with the corners.
+// Fails (kBadInput) if an index is out of range or no face has an area. Takes O(n log n) time.
 Expected<RepairedMesh> repair(ImportedMesh imported);
 
 }  // namespace vitrine::inline codec

@@ -9,6 +9,7 @@ namespace {
 struct ProjectedPoint {
   double u, v;
   std::uint32_t vertex;
+  std::uint32_t corner;  // index into the polygon
 };
 
 // Returns twice the signed area of the triangle abc.
@@ -36,12 +37,12 @@ std::vector<ProjectedPoint> flatten(std::span<const Vec3> positions,
   points.reserve(polygon.size());
   for (const std::uint32_t v : polygon) {
     const Vec3& p = positions[v];
-    ProjectedPoint q{p.x, p.y, v};
+    ProjectedPoint q{p.x, p.y, v, static_cast<std::uint32_t>(points.size())};
     double sign = n.z;
     if (ax >= ay && ax >= az) {
-      q = {p.y, p.z, v}, sign = n.x;
+      q.u = p.y, q.v = p.z, sign = n.x;
     } else if (ay >= az) {
-      q = {p.z, p.x, v}, sign = n.y;
+      q.u = p.z, q.v = p.x, sign = n.y;
     }
     if (sign < 0) std::swap(q.u, q.v);
     points.push_back(q);
@@ -78,12 +79,12 @@ void clip_ears(std::vector<ProjectedPoint> points, std::vector<Triangle>& triang
       continue;
     }
     triangles.push_back(
-        {points[(i + n - 1) % n].vertex, points[i].vertex, points[(i + 1) % n].vertex});
+        {points[(i + n - 1) % n].corner, points[i].corner, points[(i + 1) % n].corner});
     points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
     i %= points.size();
     misses = 0;
   }
-  triangles.push_back({points[0].vertex, points[1].vertex, points[2].vertex});
+  triangles.push_back({points[0].corner, points[1].corner, points[2].corner});
 }
 
 }  // namespace
@@ -94,9 +95,9 @@ void triangulate(std::span<const Vec3> positions, std::span<const std::uint32_t>
     std::vector<ProjectedPoint> points = flatten(positions, polygon);
     if (!is_convex(points)) return clip_ears(std::move(points), triangles);
   }
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
-  }
+  const auto corners = static_cast<std::uint32_t>(polygon.size());
+  for (std::uint32_t i = 2; i < corners; ++i)
+    triangles.push_back({0, i - 1, i});
 }
 
 }  // namespace vitrine::inline codec

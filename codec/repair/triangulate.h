@@ -14,8 +14,9 @@ namespace vitrine::inline codec {
 inline constexpr std::size_t kMostClippedCorners = 256;
 
 // Appends the n - 2 triangles of a polygon, given as n >= 3 indices into `positions` in
-// counter-clockwise order. A convex polygon becomes a fan, any other one is cut by ear clipping. A
-// polygon with more than kMostClippedCorners corners always becomes a fan.
+// counter-clockwise order. The corners of the triangles are indices into `polygon`. A convex
+// polygon becomes a fan, any other one is cut by ear clipping. A polygon with more than
+// kMostClippedCorners corners always becomes a fan.
 void triangulate(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon,
                  std::vector<Triangle>& triangles);
 

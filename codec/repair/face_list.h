@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The faces of a mesh as a file has them: with any number of corners, and optionally with materials
+// and texture coordinates per corner.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/core/vec.h"
+#include "codec/mesh/texturing.h"
+
+namespace vitrine::inline codec {
+
+class FaceList {
+ public:
+  std::vector<Triangle> triangles;  // complete after cut_polygons()
+  // Per triangle: the coordinates of its corners. Empty if no face has coordinates. A face that was
+  // added without coordinates has (0, 0).
+  std::vector<std::array<TextureCoordinates, 3>> coordinates;
+
+  bool empty() const { return triangles.empty() && polygon_ends_.empty(); }
+
+  void add(const Triangle& face) {
+    triangles.push_back(face);
+    if (!coordinates.empty()) coordinates.emplace_back();
+  }
+
+  // Adds a face with at least three corners. `at_corners` has one entry per corner, or is empty.
+  void add(std::span<const std::uint32_t> corners, std::span<const TextureCoordinates> at_corners);
+
+  // Sets the material of the faces that are added from now on. Before the first call it is 0.
+  void use_material(std::uint16_t material);
+
+  // Removes materials and coordinates. Call it before cut_polygons().
+  void drop_texturing();
+
+  // Cuts the faces with more than three corners into triangles, which follow the other triangles.
+  // Returns the number of faces with more than kMostClippedCorners corners.
+  std::size_t cut_polygons(std::span<const Vec3> positions);
+
+  // Returns the material of each triangle. Call it after cut_polygons().
+  std::vector<std::uint16_t> take_materials();
+
+ private:
+  // The faces from this triangle and this polygon on have this material, up to the next run.
+  struct MaterialRun {
+    std::size_t triangle, polygon;
+    std::uint16_t material;
+  };
+
+  void add_polygon(std::span<const std::uint32_t> corners,
+                   std::span<const TextureCoordinates> at_corners);
+  void reserve_for_polygons();
+  std::vector<std::uint16_t> expanded_runs() const;
+
+  std::vector<std::uint32_t> polygon_corners_;           // corners of all polygons
+  std::vector<TextureCoordinates> polygon_coordinates_;  // per corner in polygon_corners_, or empty
+  std::vector<std::size_t> polygon_ends_;  // per polygon: end of its corners in polygon_corners_
+  std::vector<MaterialRun> runs_;          // ascending; empty if all faces have material 0
+  std::vector<std::uint16_t> materials_;   // per triangle; empty if all are 0
+};
+
+}  // namespace vitrine::inline codec
