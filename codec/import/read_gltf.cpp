@@ -8,9 +8,10 @@
 #include "codec/import/draco_primitive.h"
 #include "codec/import/glb_file.h"
 #include "codec/import/gltf_accessor.h"
+#include "codec/import/gltf_base_colour.h"
 #include "codec/import/gltf_buffer.h"
 #include "codec/import/gltf_document.h"
-#include "codec/import/gltf_material.h"
+#include "codec/import/gltf_materials.h"
 #include "codec/import/gltf_scene.h"
 #include "codec/import/readers.h"
 
@@ -26,7 +27,9 @@ class GltfReader {
       : document_(document),
         resources_(options.beside, file_bytes),
         buffer_(document, binary, resources_),
-        materials_(document, buffer_, resources_, options.limits.pixels),
+        pictures_(document, buffer_, resources_),
+        base_colours_(document, pictures_, options.limits.pixels),
+        materials_(document, pictures_, buffer_, options.limits),
         limits_(options.limits) {}
 
   Expected<RawMesh> read() {
@@ -44,9 +47,10 @@ class GltfReader {
   struct Range {
     std::uint32_t first, count;
   };
-  // The source of a primitive's vertices: indices of the compressed data, positions, colours,
-  // texture coordinates and material. Primitives with equal sources share their vertices.
-  using VertexSource = std::array<std::uint64_t, 5>;
+  // The source of a primitive's vertices: indices of the compressed data, positions, colours, the
+  // base colour's coordinates, the material, and the coordinates of each carried set. Primitives
+  // with equal sources share their vertices.
+  using VertexSource = std::array<std::uint64_t, 5 + kCoordinateSets>;
 
   Expected<void> read_mesh(const MeshInstance& instance) {
     shared_.clear();
@@ -113,15 +117,22 @@ class GltfReader {
   Expected<Range> vertices_of(const Json& primitive, const DracoPrimitive* decoded,
                               std::uint64_t view, const Affine& place) {
     const Json& attributes = member(primitive, "attributes");
-    const BaseColour base = materials_.base_colour(primitive);
-    const std::string texcoord = "TEXCOORD_" + std::to_string(base.texcoord);
+    const BaseColour base = base_colours_.of(primitive);
+    const std::uint16_t material = materials_.index_of(primitive);
+    mesh_.use_material(material);
+    const auto sets = coordinate_accessors(attributes, materials_[material]);
     // glTF repeats a vertex where its normal or texture coordinate is discontinuous.
     mesh_.has_seams =
         mesh_.has_seams || attributes.contains("NORMAL") || attributes.contains("TEXCOORD_0");
-    const VertexSource source{
-        view, whole(attributes, "POSITION", kAbsent), whole(attributes, "COLOR_0", kAbsent),
-        base.image == nullptr ? kAbsent : whole(attributes, texcoord, kAbsent),
-        base.is_white() ? kAbsent : whole(primitive, "material", kAbsent)};
+    const VertexSource source{view,
+                              whole(attributes, "POSITION", kAbsent),
+                              whole(attributes, "COLOR_0", kAbsent),
+                              base.picture == nullptr
+                                  ? kAbsent
+                                  : whole(attributes, texcoord(base.texture.texcoord), kAbsent),
+                              base.is_white() ? kAbsent : whole(primitive, "material", kAbsent),
+                              sets[0],
+                              sets[1]};
     const auto [it, is_new] = shared_.try_emplace(source);
     if (!is_new) return it->second;
     const auto points = attribute(primitive, "POSITION", decoded);
@@ -139,7 +150,46 @@ class GltfReader {
     if (auto ok = add_colours(primitive, decoded, base, it->second); !ok) {
       return tl::unexpected(ok.error());
     }
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      if (sets[s] == kAbsent) continue;
+      if (auto ok = add_coordinates(primitive, decoded, s, it->second); !ok)
+        return tl::unexpected(ok.error());
+    }
     return it->second;
+  }
+
+  static std::string texcoord(std::uint64_t n) { return "TEXCOORD_" + std::to_string(n); }
+
+  // Returns for each set that a map of the material uses the accessor of its coordinates, or
+  // kAbsent.
+  static std::array<std::uint64_t, kCoordinateSets> coordinate_accessors(const Json& attributes,
+                                                                         const Material& material) {
+    std::array<std::uint64_t, kCoordinateSets> out;
+    out.fill(kAbsent);
+    for_each_map(material, [&](const TextureMap& map) {
+      out[map.coordinates] = whole(attributes, texcoord(map.coordinates), kAbsent);
+    });
+    return out;
+  }
+
+  Expected<Accessor> coordinates(const Json& primitive, const DracoPrimitive* decoded,
+                                 const std::string& name, const Range& range) {
+    auto opened = attribute(primitive, name, decoded);
+    if (opened && (opened->width() != 2 || opened->count() != range.count))
+      return bad_gltf(name + " does not match POSITION");
+    return opened;
+  }
+
+  Expected<void> add_coordinates(const Json& primitive, const DracoPrimitive* decoded,
+                                 std::size_t set, const Range& range) {
+    const auto places = coordinates(primitive, decoded, texcoord(set), range);
+    if (!places) return tl::unexpected(places.error());
+    std::vector<TextureCoordinates>& out = mesh_.vertex_coordinates[set];
+    out.resize(range.first);
+    for (std::uint64_t i = 0; i < range.count; ++i)
+      out.push_back(
+          {static_cast<float>(places->real(i, 0)), static_cast<float>(places->real(i, 1))});
+    return {};
   }
 
   // Bounds the effect of instances: the result must not have more elements than the file and its
@@ -167,14 +217,11 @@ class GltfReader {
       }
       colours = *opened;
     }
-    if (base.image != nullptr) {
-      const std::string name = "TEXCOORD_" + std::to_string(base.texcoord);
+    if (base.picture != nullptr) {
+      const std::string name = texcoord(base.texture.texcoord);
       if (!attributes.contains(name)) return bad_gltf("a textured primitive lacks " + name);
-      const auto opened = attribute(primitive, name, decoded);
+      const auto opened = coordinates(primitive, decoded, name, range);
       if (!opened) return tl::unexpected(opened.error());
-      if (opened->width() != 2 || opened->count() != range.count) {
-        return bad_gltf(name + " does not match POSITION");
-      }
       places = *opened;
     }
     mesh_.is_baked = mesh_.is_baked || !base.is_white();
@@ -182,7 +229,7 @@ class GltfReader {
     mesh_.attributes.colours.resize(range.first, kWhite);
     for (std::uint64_t i = 0; i < range.count; ++i) {
       LinearColour colour =
-          base.image == nullptr ? base.factor : base.at(places.real(i, 0), places.real(i, 1));
+          base.picture == nullptr ? base.factor : base.at(places.real(i, 0), places.real(i, 1));
       if (has_colours) {
         colour = colour * LinearColour{colours.real(i, 0), colours.real(i, 1), colours.real(i, 2)};
       }
@@ -223,17 +270,17 @@ class GltfReader {
   template <class Face>
   Expected<void> add_faces(std::uint64_t count, const Face& face, const Range& range,
                            bool is_mirrored) {
-    if (auto ok = check_room(faces_.size() + count, "faces"); !ok) return ok;
+    if (auto ok = check_room(mesh_.face_count() + count, "faces"); !ok) return ok;
     for (std::uint64_t f = 0; f < count; ++f) {
       Triangle t = face(f);
       if (std::ranges::max(t) >= range.count) {
-        return bad_gltf("face " + std::to_string(faces_.size()) +
+        return bad_gltf("face " + std::to_string(mesh_.face_count()) +
                         " refers to a vertex that its primitive does not have");
       }
       for (std::uint32_t& v : t)
         v += range.first;
       if (is_mirrored) std::swap(t[1], t[2]);
-      faces_.push_back(t);
+      mesh_.add_triangle(t);
     }
     return {};
   }
@@ -242,26 +289,35 @@ class GltfReader {
     if (mesh_.positions.empty() && skipped_primitives_ > 0) return no_faces(skipped_points_);
     if (!mesh_.attributes.colours.empty())
       mesh_.attributes.colours.resize(mesh_.positions.size(), kWhite);
-    mesh_.reserve_faces(faces_.size());
-    for (const Triangle& face : faces_)
-      mesh_.add_triangle(face);
-    mesh_.repairs = materials_.report();
-    if (has_factors_) {
-      mesh_.repairs.emplace_back("material colours baked into vertex colours");
-    }
-    if (skipped_primitives_ > 0) {
-      mesh_.repairs.push_back(counted(skipped_primitives_, "set") + " of points or lines dropped");
-    }
+    report();
+    materials_.give_to(mesh_);
     return std::move(mesh_);
+  }
+
+  void report() {
+    std::vector<std::string>& lines = mesh_.repairs;
+    const auto append = [&](const std::vector<std::string>& more) {
+      lines.insert(lines.end(), more.begin(), more.end());
+    };
+    const std::uint64_t baked = base_colours_.decoded(), told = baked + pictures_.refused();
+    if (baked > 0) lines.push_back(counted(baked, "texture map") + " baked into vertex colours");
+    append(pictures_.report());
+    if (pictures_.count() > told)
+      lines.push_back(counted(pictures_.count() - told, "texture map") + " not carried");
+    append(materials_.report());
+    if (has_factors_) lines.emplace_back("material colours baked into vertex colours");
+    if (skipped_primitives_ > 0)
+      lines.push_back(counted(skipped_primitives_, "set") + " of points or lines dropped");
   }
 
   const Json& document_;
   GltfResources resources_;
   GltfBuffer buffer_;
+  GltfPictures pictures_;
+  GltfBaseColours base_colours_;
   GltfMaterials materials_;
   const Limits& limits_;
   RawMesh mesh_;
-  std::vector<Triangle> faces_;
   std::map<VertexSource, Range> shared_;             // vertices of the mesh being read
   std::map<std::uint64_t, DracoPrimitive> decoded_;  // key: index of the buffer view
   std::uint64_t skipped_primitives_ = 0, skipped_points_ = 0;

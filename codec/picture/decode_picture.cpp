@@ -40,6 +40,16 @@ bool has_at(Bytes bytes, std::size_t at, std::string_view magic) {
                     [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
+bool is_png(Bytes bytes) {
+  return has_at(bytes, 0, "\x89PNG");
+}
+bool is_jpeg(Bytes bytes) {
+  return has_at(bytes, 0, "\xFF\xD8\xFF");
+}
+bool is_webp(Bytes bytes) {
+  return has_at(bytes, 0, "RIFF") && has_at(bytes, 8, "WEBP");
+}
+
 Unexpected unread(Bytes bytes) {
   for (const auto& [type, at, magic] : kOthers) {
     if (!has_at(bytes, at, magic)) continue;
@@ -124,10 +134,15 @@ Expected<Picture> decode_webp(Bytes bytes, std::uint64_t most_pixels) {
 
 }  // namespace
 
+Expected<void> check_picture_format(Bytes bytes) {
+  if (is_png(bytes) || is_jpeg(bytes) || is_webp(bytes)) return {};
+  return unread(bytes);
+}
+
 Expected<Picture> decode_picture(Bytes bytes, std::uint64_t most_pixels) {
-  if (has_at(bytes, 0, "\x89PNG")) return decode_png(bytes, most_pixels);
-  if (has_at(bytes, 0, "\xFF\xD8\xFF")) return decode_jpeg(bytes, most_pixels);
-  if (has_at(bytes, 0, "RIFF") && has_at(bytes, 8, "WEBP")) return decode_webp(bytes, most_pixels);
+  if (is_png(bytes)) return decode_png(bytes, most_pixels);
+  if (is_jpeg(bytes)) return decode_jpeg(bytes, most_pixels);
+  if (is_webp(bytes)) return decode_webp(bytes, most_pixels);
   return unread(bytes);
 }
 

@@ -10,6 +10,9 @@
 
 namespace vitrine::inline codec {
 
+// Fails (kUnsupported) unless the bytes begin like PNG, JPEG or WebP.
+Expected<void> check_picture_format(std::span<const std::uint8_t> bytes);
+
 // Decodes a picture, recognised by its content. The size in its header is checked before memory is
 // allocated: at most `most_pixels` pixels, and at most 1024 pixels per byte. A WebP of one colour
 // has a few bytes at any size, so one with up to 4096 x 4096 pixels needs no more bytes. The

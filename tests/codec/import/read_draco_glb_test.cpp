@@ -18,11 +18,11 @@ using vitrine::testing::read_text;
 using vitrine::testing::refusal;
 using Json = nlohmann::json;
 
-template <class T>
+template <class T, std::size_t width>
 int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType data,
-                  const std::vector<std::array<T, 3>>& values) {
+                  const std::vector<std::array<T, width>>& values) {
   draco::GeometryAttribute attribute;
-  attribute.Init(type, nullptr, 3, data, data == draco::DT_UINT8, sizeof(T) * 3, 0);
+  attribute.Init(type, nullptr, width, data, data == draco::DT_UINT8, sizeof(T) * width, 0);
   const int id = mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(values.size()));
   for (std::uint32_t v = 0; v < values.size(); ++v)
     mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(v), values[v].data());
@@ -152,6 +152,31 @@ TEST(ReadDracoGlb, ThePointsOfTheDataGoBeforeTheCountsOfTheAccessors) {
     const auto result = read_text(builder.file());
     EXPECT_EQ(result.mesh.faces.size(), 18u);
     EXPECT_EQ(result.mesh.attributes.colours.size(), 16u);
+  }
+}
+
+TEST(ReadDracoGlb, TextureCoordinatesOfTheDataAreCarried) {
+  auto mesh = draco_grid(3);
+  std::vector<std::array<float, 2>> places;
+  for (const Vec3& p : grid(3).positions)
+    places.push_back({static_cast<float>(p.x) / 4, static_cast<float>(p.y) / 4});
+  add_attribute(*mesh, draco::GeometryAttribute::TEX_COORD, draco::DT_FLOAT32, places);
+  GlbBuilder builder = around(coded(mesh, draco::MESH_EDGEBREAKER_ENCODING), 3);
+  Json& primitive = builder.document["meshes"][0]["primitives"][0];
+  primitive["attributes"]["TEXCOORD_0"] = builder.accessor("VEC2", 5126, 16);
+  primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"]["TEXCOORD_0"] = 2;
+  primitive["material"] = 0;
+  builder.append("images", {{"bufferView", builder.view("\x89PNG")}});
+  builder.append("textures", {{"source", 0}});
+  builder.append("materials", {{"occlusionTexture", {{"index", 0}}}});
+  const auto result = read_text(builder.file());
+  ASSERT_EQ(result.texturing.coordinates[0].size(), 18u);
+  for (std::size_t f = 0; f < 18; ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& p = result.mesh.positions[result.mesh.faces[f][k]];
+      EXPECT_EQ(result.texturing.coordinates[0][f][k],
+                (TextureCoordinates{static_cast<float>(p.x) / 4, static_cast<float>(p.y) / 4}));
+    }
   }
 }
 

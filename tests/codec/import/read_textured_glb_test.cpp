@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/glb_builder.h"
-#include "codec/picture/pictures.h"
+#include "codec/import/textured_gltf.h"
 
 namespace vitrine {
 namespace {
@@ -17,21 +16,9 @@ using vitrine::testing::kRed;
 using vitrine::testing::read_text;
 using vitrine::testing::red_and_blue;
 using vitrine::testing::refusal;
+using vitrine::testing::textured;
 using vitrine::testing::webp_of;
 using Json = nlohmann::json;
-
-// Returns one triangle whose corners are at u = 0.25, 0.75 and 1.25 of `picture`.
-GlbBuilder textured(const std::string& picture) {
-  GlbBuilder builder;
-  const std::size_t points = builder.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
-  const std::size_t places = builder.floats("VEC2", {0.25, 0, 0.75, 0, 1.25, 0}, 3);
-  builder.append("images", {{"bufferView", builder.view(picture)}, {"mimeType", "image/png"}});
-  builder.append("samplers", Json::object());
-  builder.append("textures", {{"source", 0}, {"sampler", 0}});
-  builder.append("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
-  builder.mesh({{"attributes", {{"POSITION", points}, {"TEXCOORD_0", places}}}, {"material", 0}});
-  return builder;
-}
 
 Json& surface(GlbBuilder& builder) {
   return builder.document["materials"][0]["pbrMetallicRoughness"];

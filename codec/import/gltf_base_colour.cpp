@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/gltf_base_colour.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "codec/picture/decode_picture.h"
+#include "codec/picture/sample.h"
+
+namespace vitrine::inline codec {
+
+LinearColour BaseColour::at(double u, double v) const {
+  if (picture == nullptr) return factor;
+  const auto& [offset, scale, rotation] = texture.transform;
+  const double c = std::cos(rotation), s = std::sin(rotation);
+  const double x = scale[0] * u, y = scale[1] * v;
+  return factor * sample(*picture, offset[0] + c * x + s * y, offset[1] + c * y - s * x,
+                         texture.wrap_u, texture.wrap_v);
+}
+
+BaseColour GltfBaseColours::of(const Json& primitive) {
+  const Json& material = element(document_, "materials", whole(primitive, "material", kAbsent));
+  const Json& surface = member(material, "pbrMetallicRoughness");
+  const auto factor = numbers<4>(member(surface, "baseColorFactor"), {1, 1, 1, 1});
+  BaseColour out{.factor = {factor[0], factor[1], factor[2]}};
+  const auto texture = read_texture(document_, member(surface, "baseColorTexture"));
+  if (!texture) return out;
+  out.texture = *texture;
+  out.picture = picture(texture->image);
+  return out;
+}
+
+const Picture* GltfBaseColours::picture(std::uint64_t index) {
+  const auto [it, is_new] = decoded_.try_emplace(index);
+  if (is_new) {
+    auto decoded = decode(index);
+    if (decoded) {
+      pixels_left_ -= std::uint64_t{decoded->width} * decoded->height;
+      it->second = *std::move(decoded);
+    } else {
+      pictures_.refuse(index, decoded.error().message);
+    }
+  }
+  return it->second ? &*it->second : nullptr;
+}
+
+Expected<Picture> GltfBaseColours::decode(std::uint64_t index) {
+  const auto bytes = pictures_.bytes(index);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return decode_picture(*bytes, pixels_left_);
+}
+
+std::size_t GltfBaseColours::decoded() const {
+  return static_cast<std::size_t>(
+      std::count_if(decoded_.begin(), decoded_.end(),
+                    [](const auto& entry) { return entry.second.has_value(); }));
+}
+
+}  // namespace vitrine::inline codec

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The materials of a glTF document with their maps, as a mesh carries them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "codec/core/limits.h"
+#include "codec/import/carried_pictures.h"
+#include "codec/import/gltf_pictures.h"
+#include "codec/mesh/texturing.h"
+#include "codec/repair/raw_mesh.h"
+
+namespace vitrine::inline codec {
+
+class GltfMaterials {
+ public:
+  // The references must outlive this object.
+  GltfMaterials(const Json& document, GltfPictures& pictures, const GltfBuffer& buffer,
+                const Limits& limits)
+      : document_(document), pictures_(pictures), buffer_(buffer), limits_(limits) {}
+
+  // Returns the index of the primitive's material among those that were read. A map whose picture
+  // cannot be carried is left out, and its picture is refused.
+  std::uint16_t index_of(const Json& primitive);
+
+  const Material& operator[](std::uint16_t index) const { return materials_[index]; }
+
+  // Moves the materials and pictures to the mesh, unless all materials are plain.
+  void give_to(RawMesh& mesh);
+
+  // Reports properties of the materials that are not carried, one line for each kind.
+  std::vector<std::string> report() const;
+
+ private:
+  Material read(const Json& self);
+  std::optional<TextureMap> map(const Json& reference);
+  void note_extensions(const Json& self);
+
+  const Json& document_;
+  GltfPictures& pictures_;
+  const GltfBuffer& buffer_;
+  const Limits& limits_;
+  CarriedPictures carried_;
+  std::vector<Material> materials_;
+  std::map<std::uint64_t, std::uint16_t> indices_;  // key: index in the document, or kAbsent
+  std::set<std::string> unread_extensions_;
+  std::uint64_t maps_beyond_sets_ = 0, materials_beyond_limit_ = 0;
+};
+
+}  // namespace vitrine::inline codec

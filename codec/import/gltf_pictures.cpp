@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/import/gltf_pictures.h"
+
+#include <algorithm>
+
+#include "codec/import/data_uri.h"
+#include "codec/repair/raw_mesh.h"
+
+namespace vitrine::inline codec {
+
+Expected<std::span<const std::uint8_t>> GltfPictures::bytes(std::uint64_t index) {
+  if (const auto known = found_.find(index); known != found_.end()) return known->second;
+  const auto bytes = find(index);
+  if (bytes) found_.emplace(index, *bytes);
+  return bytes;
+}
+
+Expected<std::span<const std::uint8_t>> GltfPictures::find(std::uint64_t index) {
+  const Json& self = element(document_, "images", index);
+  if (const Json& uri = member(self, "uri"); uri.is_string())
+    return resources_.find(uri.get_ref<const std::string&>());
+  const std::uint64_t view = whole(self, "bufferView", kAbsent);
+  if (view == kAbsent) return bad_input("is not in the file; export the file again");
+  const auto bytes = buffer_.view(view);
+  if (!bytes) return bad_input("lies beyond the end of the file; export the file again");
+  return bytes->bytes;
+}
+
+std::string GltfPictures::name(std::uint64_t index) const {
+  const Json& self = element(document_, "images", index);
+  const std::string uri = text(self, "uri", "");
+  return text(self, "name", is_data_uri(uri) ? std::string() : percent_decoded(uri));
+}
+
+std::uint64_t GltfPictures::count() const {
+  const Json& all = member(document_, "images");
+  return all.is_array() ? all.size() : 0;
+}
+
+std::vector<std::string> GltfPictures::report() const {
+  std::map<std::string, std::vector<std::uint64_t>> images;  // key: fault
+  for (const auto& [index, fault] : faults_)
+    images[fault].push_back(index);
+  std::vector<std::string> lines;
+  for (const auto& [fault, indices] : images) {
+    const std::string first =
+        indices[0] == kAbsent ? std::string() : std::to_string(indices[0]) + ' ';
+    lines.push_back("texture map " + first + "not carried: it " + fault);
+    if (indices.size() > 1)
+      lines.back() += " (" + std::to_string(indices.size() - 1) + " more like it)";
+  }
+  return lines;
+}
+
+}  // namespace vitrine::inline codec
