@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the pictures to which OBJ and PLY files refer. Decodes each picture once.
+// Loads the pictures to which OBJ and PLY files refer, each only once.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "codec/core/limits.h"
 #include "codec/core/linear_colour.h"
+#include "codec/import/carried_pictures.h"
 #include "codec/import/companions.h"
 #include "codec/picture/picture.h"
 
@@ -17,25 +19,50 @@ namespace vitrine::inline codec {
 
 class NamedPictures {
  public:
-  // Decodes at most `most_pixels` pixels. `companions` must outlive this object.
-  NamedPictures(const Companions& companions, std::uint64_t most_pixels)
-      : companions_(companions), pixels_left_(most_pixels) {}
+  // Decodes at most `limits.pixels` pixels and carries at most `limits.picture_bytes` bytes. The
+  // arguments must outlive this object.
+  NamedPictures(const Companions& companions, const Limits& limits)
+      : companions_(companions), limits_(limits), pixels_left_(limits.pixels) {}
 
-  // Returns the picture `name`, or null if it is missing or cannot be decoded. The picture lives as
-  // long as this object.
+  // Decodes the picture `name`. Returns null if it is missing or cannot be decoded. The picture
+  // lives as long as this object.
   const Picture* find(std::string_view name);
 
-  // Reports which of the requested pictures were used for colours or ignored, one line per kind.
-  std::vector<std::string> report() const;
+  // Returns the index of the picture `name` among the carried pictures. Returns nullopt if it is
+  // missing, is not PNG, JPEG or WebP, or was found to be damaged.
+  std::optional<std::uint32_t> carry(std::string_view name);
+
+  // Whether the picture `name` looks like a map of normals in tangent space, which is mostly light
+  // blue. A map of heights is grey.
+  bool shows_normals(std::string_view name);
+
+  std::vector<EncodedPicture> take() { return carried_.take(); }
+
+  // Reports the pictures that cannot be decoded or carried, one line for each.
+  std::vector<std::string> report_faults() const;
+  // Reports the number of pictures that find() has decoded.
+  std::vector<std::string> report_decoded() const;
 
  private:
+  Expected<std::span<const std::uint8_t>> bytes(std::string_view name) const;
+  void note_fault(std::string_view name, const std::string& fault);
+
   const Companions& companions_;
-  std::map<std::string, std::optional<Picture>, std::less<>> pictures_;
-  std::vector<std::string> faults_;
+  const Limits& limits_;
+  CarriedPictures carried_;
+  std::map<std::string, std::optional<Picture>, std::less<>> decoded_;
+  std::map<std::string, bool, std::less<>> shows_normals_;
+  std::map<std::string, std::string, std::less<>> faults_;  // key: name
   std::uint64_t pixels_left_;
 };
 
 // Returns the colour of `picture` at (u, v), where (0, 0) is the lower left corner.
 LinearColour sample_upwards(const Picture& picture, double u, double v);
+
+// Returns the coordinates of a place that is given as (u, v), where (0, 0) is the lower left
+// corner.
+inline TextureCoordinates from_upwards(double u, double v) {
+  return {static_cast<float>(u), static_cast<float>(1 - v)};
+}
 
 }  // namespace vitrine::inline codec

@@ -3,57 +3,91 @@
 
 #include <algorithm>
 
-#include "codec/import/text_cursor.h"
-#include "codec/repair/raw_mesh.h"
+#include "codec/import/plain_material.h"
 
 namespace vitrine::inline codec {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
-    text.remove_suffix(1);
-  return text;
-}
+constexpr std::size_t kMostUsedMaterials = 0xFFFF;  // and one for faces without a material
 
-// Returns the file name of a map. If options such as "-s 1 1 1" precede it, the name is the last
-// word. Otherwise it is the whole text, which may contain blanks.
-std::string_view map_name(std::string_view rest) {
-  rest = trimmed(rest);
-  return rest.starts_with('-') ? rest.substr(rest.find_last_of(" \t") + 1) : rest;
+LinearColour linear_diffuse(const ObjMaterial& material) {
+  const auto [r, g, b] = material.diffuse.value_or(std::array<double, 3>{1, 1, 1});
+  return to_linear({to_byte(r), to_byte(g), to_byte(b)});
 }
 
 }  // namespace
 
 bool ObjMaterials::open_library(std::string_view name) {
-  const auto bytes = find_companion(companions_, trimmed(name));
+  const auto bytes = find_companion(companions_, without_end_blanks(name));
   if (!bytes) return false;
-  TextCursor text(*bytes);
-  Material* material = nullptr;
-  while (text.seek_word()) {
-    const std::string_view keyword = text.word();
-    if (keyword == "newmtl") {
-      material = &materials_[std::string(trimmed(text.rest_of_line()))];
-    } else if (keyword == "map_Kd" && material != nullptr) {
-      material->map = map_name(text.rest_of_line());
-    } else if (keyword == "Kd" && material != nullptr) {
-      std::array<double, 3> kd;
-      if (text.read_number(kd[0]) && text.read_number(kd[1]) && text.read_number(kd[2])) {
-        material->diffuse = to_linear({to_byte(kd[0]), to_byte(kd[1]), to_byte(kd[2])});
-      }
-    }
-    text.next_line();
-  }
+  read_obj_library(*bytes, library_);
   return true;
 }
 
-void ObjMaterials::use(std::string_view name) {
-  const auto it = materials_.find(trimmed(name));
-  current_ = nullptr;
-  if (it == materials_.end()) return;
-  Material& material = it->second;
-  if (!material.is_used && !material.map.empty()) material.picture = pictures_.find(material.map);
-  material.is_used = true;
-  current_ = &material;
+std::uint16_t ObjMaterials::use(std::string_view name) {
+  current_ = find(without_end_blanks(name));
+  return current_ == nullptr ? plain() : current_->index;
+}
+
+const ObjMaterials::UsedMaterial* ObjMaterials::find(std::string_view name) {
+  if (const auto known = used_.find(name); known != used_.end()) return &known->second;
+  const auto it = library_.find(name);
+  if (it == library_.end()) return nullptr;
+  const ObjMaterial& source = it->second;
+  UsedMaterial material{.diffuse = linear_diffuse(source)};
+  if (!source.diffuse_map.empty()) material.picture = pictures_.find(source.diffuse_map);
+  material.index = carry(it->first, source, material);
+  return &used_.emplace(it->first, material).first->second;
+}
+
+std::uint16_t ObjMaterials::carry(std::string name, const ObjMaterial& source,
+                                  const UsedMaterial& used) {
+  if (carried_.size() >= kMostUsedMaterials) return ++beyond_limit_, plain();
+  Material out{.name = std::move(name)};
+  const LinearColour colour = used.picture == nullptr ? used.diffuse : LinearColour{1, 1, 1};
+  out.base_colour = {colour[0], colour[1], colour[2], source.opacity};
+  out.metallic = source.metallic;
+  out.roughness = source.roughness;
+  out.emission = source.emission;
+  if (used.picture != nullptr) out.base_colour_map = map(source.diffuse_map);
+  carry_other_maps(source, out);
+  if (source.opacity < 1) out.alpha_mode = AlphaMode::kBlend;
+  for_each_map(out, [&](const TextureMap&) { has_maps_ = true; });
+  carried_.push_back(std::move(out));
+  return static_cast<std::uint16_t>(carried_.size() - 1);
+}
+
+void ObjMaterials::carry_other_maps(const ObjMaterial& source, Material& out) {
+  unread_.insert(source.unread.begin(), source.unread.end());
+  if (!source.opacity_map.empty()) {
+    if (source.opacity_map == source.diffuse_map)
+      out.alpha_mode = AlphaMode::kBlend;
+    else
+      unread_.insert("map_d");
+  }
+  out.normal_map = map(source.normal_map);
+  if (source.normal_map.empty() && !source.bump_map.empty()) {
+    if (pictures_.shows_normals(source.bump_map))
+      out.normal_map = map(source.bump_map);
+    else
+      unread_.insert("map_Bump");
+  }
+  out.emission_map = map(source.emission_map);
+  if (out.emission_map && out.emission == Vec3{}) out.emission = {1, 1, 1};
+}
+
+std::optional<TextureMap> ObjMaterials::map(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  const auto picture = pictures_.carry(name);
+  return picture ? std::optional(TextureMap{.picture = *picture}) : std::nullopt;
+}
+
+std::uint16_t ObjMaterials::plain() {
+  if (!plain_) {
+    plain_ = static_cast<std::uint16_t>(carried_.size());
+    carried_.emplace_back();
+  }
+  return *plain_;
 }
 
 LinearColour ObjMaterials::colour_at(double u, double v) const {
@@ -62,12 +96,36 @@ LinearColour ObjMaterials::colour_at(double u, double v) const {
                                       : sample_upwards(*current_->picture, u, v);
 }
 
-std::vector<std::string> ObjMaterials::report() const {
-  std::vector<std::string> lines = pictures_.report();
-  const bool has_plain = std::any_of(materials_.begin(), materials_.end(), [](const auto& entry) {
-    return entry.second.is_used && entry.second.picture == nullptr;
+void ObjMaterials::give_to(RawMesh& mesh) {
+  if (std::ranges::all_of(carried_, is_plain)) return;
+  mesh.materials = std::move(carried_);
+  mesh.pictures = pictures_.take();
+}
+
+std::vector<std::string> ObjMaterials::report_baked() const {
+  std::vector<std::string> lines = pictures_.report_faults();
+  const auto decoded = pictures_.report_decoded();
+  lines.insert(lines.end(), decoded.begin(), decoded.end());
+  const bool has_plain = std::any_of(used_.begin(), used_.end(), [](const auto& entry) {
+    return entry.second.picture == nullptr;
   });
   if (has_plain) lines.emplace_back("material colours baked into vertex colours");
+  return lines;
+}
+
+std::vector<std::string> ObjMaterials::report_unread() const {
+  std::vector<std::string> lines;
+  std::string names;
+  for (const std::string_view name : unread_)
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  if (!names.empty()) {
+    lines.push_back("material maps not carried: " + names +
+                    "; bake them into map_Kd, or into a normal map named by norm");
+  }
+  if (beyond_limit_ > 0) {
+    lines.push_back(counted(beyond_limit_, "material") + " not carried: at most " +
+                    std::to_string(kMostUsedMaterials) + " are; merge them");
+  }
   return lines;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "codec/import/named_pictures.h"
 #include "codec/import/obj_materials.h"
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
@@ -14,7 +15,7 @@ namespace {
 class ObjReader {
  public:
   ObjReader(std::span<const std::uint8_t> bytes, const ReadOptions& options)
-      : text_(bytes), materials_(options.beside, options.limits.pixels) {
+      : text_(bytes), materials_(options.beside, options.limits) {
     mesh_.format = "OBJ";
     mesh_.first_number = 1;
   }
@@ -28,12 +29,13 @@ class ObjReader {
       if (keyword == "vt") texture_coordinates();
       if (keyword == "vn") mesh_.has_seams = true;
       if (keyword == "mtllib") open_library(text_.rest_of_line());
-      if (keyword == "usemtl") materials_.use(text_.rest_of_line());
+      if (keyword == "usemtl") use_material(text_.rest_of_line());
       if (!ok) return bad_line(keyword);
       text_.next_line();
     }
     convert_colours();
     finish_materials();
+    materials_.give_to(mesh_);
     return std::move(mesh_);
   }
 
@@ -64,9 +66,16 @@ class ObjReader {
     if (!materials_.open_library(name)) missing_library_ = in_quotes(name);
   }
 
+  void use_material(std::string_view name) {
+    if (mesh_.face_count() > 0 && !has_material_) materials_.plain();  // of the faces so far
+    has_material_ = true;
+    mesh_.use_material(materials_.use(name));
+  }
+
   // A corner is v, v/vt, v//vn or v/vt/vn. Negative numbers count back from the newest vertex.
   bool read_face() {
     corners_.clear();
+    at_corners_.clear();
     while (!text_.line_is_done()) {
       std::int64_t v = 0;
       if (!text_.read_number(v, '/')) return false;
@@ -78,10 +87,12 @@ class ObjReader {
         text_.read_number(vt, '/');
         if (text_.skip('/')) text_.word();
       }
-      if (materials_.has_current()) add_sample(corners_.back(), vt);
+      const auto place = place_of(vt);
+      if (materials_.has_current()) add_sample(corners_.back(), place);
+      if (materials_.has_maps()) at_corners_.push_back(from_upwards(place[0], place[1]));
     }
     is_cut_ = corners_.size() < 3 && text_.is_at_end();
-    mesh_.add_face(corners_, text_.line());
+    mesh_.add_face(corners_, text_.line(), at_corners_);
     return !is_cut_;
   }
 
@@ -102,16 +113,20 @@ class ObjReader {
     }
   }
 
-  // Adds the material's colour at a corner. `vt` is numbered like v; it is 0 if the corner has no
-  // texture coordinate.
-  void add_sample(std::uint32_t vertex, std::int64_t vt) {
-    if (vertex >= mesh_.positions.size()) return;
+  // Returns the texture coordinate of a corner. `vt` is numbered like v; it is 0 if the corner has
+  // no texture coordinate.
+  std::array<float, 2> place_of(std::int64_t vt) const {
     const auto count = static_cast<std::int64_t>(places_.size());
     if (vt < 0) vt += count + 1;
     const bool known = vt > 0 && vt <= count;
-    const auto [u, v] = known ? places_[static_cast<std::size_t>(vt - 1)] : std::array<float, 2>{};
+    return known ? places_[static_cast<std::size_t>(vt - 1)] : std::array<float, 2>{};
+  }
+
+  // Adds the material's colour at a corner.
+  void add_sample(std::uint32_t vertex, const std::array<float, 2>& place) {
+    if (vertex >= mesh_.positions.size()) return;
     means_.resize(mesh_.positions.size());
-    means_.add(vertex, materials_.colour_at(u, v));
+    means_.add(vertex, materials_.colour_at(place[0], place[1]));
   }
 
   void finish_materials() {
@@ -119,7 +134,7 @@ class ObjReader {
       means_.resize(mesh_.positions.size());
       mesh_.attributes.colours = means_.take();
       mesh_.is_baked = true;
-      mesh_.repairs = materials_.report();
+      mesh_.repairs = materials_.report_baked();
     } else if (!means_.empty()) {
       mesh_.repairs.emplace_back("materials not carried: the vertices have colours of their own");
     } else if (!missing_library_.empty()) {
@@ -128,6 +143,8 @@ class ObjReader {
     } else if (!places_.empty()) {
       mesh_.repairs.emplace_back("texture coordinates not carried");
     }
+    const auto unread = materials_.report_unread();
+    mesh_.repairs.insert(mesh_.repairs.end(), unread.begin(), unread.end());
   }
 
   Unexpected bad_line(std::string_view keyword) const {
@@ -146,12 +163,14 @@ class ObjReader {
   TextCursor text_;
   RawMesh mesh_;
   std::vector<std::array<float, 3>> colours_;
-  std::vector<std::uint32_t> corners_;
+  std::vector<std::uint32_t> corners_;          // of the face that is read
+  std::vector<TextureCoordinates> at_corners_;  // empty if no material has a map
   ObjMaterials materials_;
   std::vector<std::array<float, 2>> places_;  // texture coordinates
   ColourMeans means_;                         // mean material colours; empty if there are none yet
   std::string missing_library_;
-  bool is_cut_ = false;  // whether the last line ends before its third corner
+  bool has_material_ = false;  // whether `usemtl` was read
+  bool is_cut_ = false;        // whether the last line ends before its third corner
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "codec/core/byte_cursor.h"
 #include "codec/import/named_pictures.h"
 #include "codec/import/ply_header.h"
+#include "codec/import/ply_textures.h"
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
 
@@ -92,15 +93,17 @@ enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kNowhere };
 
 using SlotValues = std::array<double, kNowhere + 1>;
 
-Slot slot_of(const std::string& name) {
+Slot slot_of(const PlyProperty& property) {
+  if (property.is_list) return kNowhere;
+  const std::string& name = property.name;
   if (name == "x") return kX;
   if (name == "y") return kY;
   if (name == "z") return kZ;
   if (name == "red" || name == "r" || name == "diffuse_red") return kRed;
   if (name == "green" || name == "g" || name == "diffuse_green") return kGreen;
   if (name == "blue" || name == "b" || name == "diffuse_blue") return kBlue;
-  if (name == "u" || name == "s" || name == "texture_u") return kU;
-  if (name == "v" || name == "t" || name == "texture_v") return kV;
+  if (is_vertex_u(property)) return kU;
+  if (is_vertex_v(property)) return kV;
   return kNowhere;
 }
 
@@ -126,7 +129,7 @@ struct VertexPlan {
 
   explicit VertexPlan(const PlyElement& element) {
     for (const PlyProperty& property : element.properties) {
-      const Slot slot = property.is_list ? kNowhere : slot_of(property.name);
+      const Slot slot = slot_of(property);
       slots.push_back(slot);
       found |= 1u << slot;
       has_normal = has_normal || property.name == "nx";
@@ -142,17 +145,21 @@ template <class Values>
 class BodyReader {
  public:
   BodyReader(const PlyHeader& header, const Values& values, const ReadOptions& options)
-      : header_(header), values_(values), pictures_(options.beside, options.limits.pixels) {
+      : header_(header),
+        values_(values),
+        pictures_(options.beside, options.limits),
+        picture_(header.textures.size() == 1 ? pictures_.find(header.textures[0]) : nullptr),
+        textures_(header, pictures_) {
     mesh_.format = "PLY";
   }
 
   Expected<RawMesh> read() {
-    if (header_.textures.size() == 1) picture_ = pictures_.find(header_.textures[0]);
     for (const PlyElement& element : header_.elements) {
       auto ok = read_element(element);
       if (!ok) return tl::unexpected(ok.error());
     }
     finish_texture();
+    textures_.give_to(mesh_);
     return std::move(mesh_);
   }
 
@@ -165,9 +172,13 @@ class BodyReader {
     } else if (picture_ != nullptr || header_.textures.size() > 1) {
       mesh_.repairs.push_back(counted(header_.textures.size(), "texture map") +
                               " not carried: only one can be, on vertices without colours");
-      return;
+      return append(pictures_.report_faults());
     }
-    const auto lines = pictures_.report();
+    append(pictures_.report_faults());
+    append(pictures_.report_decoded());
+  }
+
+  void append(const std::vector<std::string>& lines) {
     mesh_.repairs.insert(mesh_.repairs.end(), lines.begin(), lines.end());
   }
 
@@ -217,6 +228,8 @@ class BodyReader {
       if (plan.has_place() && picture_ != nullptr) {
         add_sample(static_cast<std::uint32_t>(i), row[kU], row[kV]);
       }
+      if (plan.has_place() && !textures_.empty())
+        mesh_.vertex_coordinates[0].push_back(from_upwards(row[kU], row[kV]));
     }
     return {};
   }
@@ -232,26 +245,39 @@ class BodyReader {
     bool has_list = false;
     for (const PlyProperty& p : element.properties) {
       has_list = has_list || (p.is_list && p.name.starts_with(list));
-      if (p.name == "texcoord" && picture_ == nullptr) {
+      if (p.name == "texcoord" && !uses_places()) {
         mesh_.repairs.emplace_back("texture coordinates not carried");
       }
     }
     if (!has_list)
       return bad_input("the PLY faces have no list vertex_indices; export them with one");
-    std::vector<std::uint32_t> corners;
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (const PlyProperty& property : element.properties) {
-        if (picture_ != nullptr && property.is_list && property.name == "texcoord") {
-          read_places(property, corners);
-        } else if (!property.is_list || !property.name.starts_with(list)) {
-          skip(property);
-        } else if (read_list(property, corners)) {
-          (this->*add)(corners);
-        }
-      }
+      read_row(element, list);
       if (values_.has_failed()) return cut_short(element, i);
+      if (!row_.has_corners) continue;
+      apply_places();
+      (this->*add)(row_.corners);
     }
     return {};
+  }
+
+  // Whether the texture coordinates of corners are read.
+  bool uses_places() const { return picture_ != nullptr || !textures_.empty(); }
+
+  void read_row(const PlyElement& element, std::string_view list) {
+    row_.clear();
+    for (const PlyProperty& property : element.properties) {
+      if (is_texcoord(property) && uses_places()) {
+        read_places(property);
+      } else if (is_texnumber(property) && uses_places()) {
+        row_.texnumber = values_.index(property.type);
+      } else if (property.is_list && property.name.starts_with(list)) {
+        row_.has_corners = read_list(property, row_.corners);
+      } else {
+        skip(property);
+      }
+    }
+    if (row_.places.size() != row_.corners.size()) row_.places.clear();
   }
 
   bool read_list(const PlyProperty& property, std::vector<std::uint32_t>& corners) {
@@ -263,18 +289,29 @@ class BodyReader {
     return !values_.has_failed();
   }
 
-  // Reads u and v for each corner of the face read last.
-  void read_places(const PlyProperty& property, const std::vector<std::uint32_t>& corners) {
+  // Reads u and v of each corner of a face.
+  void read_places(const PlyProperty& property) {
     const std::uint32_t count = values_.index(property.count_type);
-    if (count != 2 * corners.size()) return values_.skip(property.type, count);
-    for (const std::uint32_t vertex : corners) {
-      const double u = values_.real(property.type), v = values_.real(property.type);
-      add_sample(vertex, u, v);
+    if (count > values_.most_values()) return values_.skip(property.type, ~0u);
+    row_.places.resize(count / 2);
+    for (auto& [u, v] : row_.places)
+      u = values_.real(property.type), v = values_.real(property.type);
+    values_.skip(property.type, count % 2);
+  }
+
+  // Samples the picture at the corners of the row, and keeps their coordinates for the mesh.
+  void apply_places() {
+    at_corners_.clear();
+    for (std::size_t i = 0; i < row_.places.size(); ++i) {
+      const auto [u, v] = row_.places[i];
+      if (picture_ != nullptr) add_sample(row_.corners[i], u, v);
+      if (!textures_.empty()) at_corners_.push_back(from_upwards(u, v));
     }
+    if (!textures_.empty()) mesh_.use_material(textures_.material_of(row_.texnumber));
   }
 
   void face_of(const std::vector<std::uint32_t>& corners) {
-    mesh_.add_face(corners, values_.line());
+    mesh_.add_face(corners, values_.line(), at_corners_);
   }
 
   // Adds a strip of triangles of alternating direction. The index -1 starts a new strip.
@@ -305,9 +342,22 @@ class BodyReader {
 
   const PlyHeader& header_;
   Values values_;
+  // The row of a face or strip, apart from its other properties.
+  struct FaceRow {
+    std::vector<std::uint32_t> corners;
+    std::vector<std::array<double, 2>> places;  // texture coordinates; one per corner, or empty
+    std::uint32_t texnumber = 0;
+    bool has_corners = false;
+
+    void clear() { corners.clear(), places.clear(), texnumber = 0, has_corners = false; }
+  };
+
   NamedPictures pictures_;
-  const Picture* picture_ = nullptr;
-  ColourMeans means_;  // empty if there are no texture coordinates
+  const Picture* picture_;  // whose colours the vertices take; null if there is none
+  PlyTextures textures_;
+  ColourMeans means_;                           // empty if there are no texture coordinates
+  FaceRow row_;                                 // the row that is read
+  std::vector<TextureCoordinates> at_corners_;  // of the face in row_; empty if not carried
   RawMesh mesh_;
 };
 

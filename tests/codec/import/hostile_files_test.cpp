@@ -2,7 +2,7 @@
 // Reads files that are cut off at every byte, or have any one byte changed. The result must be an
 // error or a valid mesh, and the memory must stay within a multiple of the file's size.
 #include "codec/export/write_mesh.h"
-#include "codec/import/reading.h"
+#include "codec/import/textured_gltf.h"
 #include "codec/mesh/connectivity.h"
 #include "codec/repair/repair.h"
 #include "support/counting_new.h"
@@ -10,8 +10,11 @@
 namespace vitrine {
 namespace {
 
+using vitrine::testing::as_bytes;
 using vitrine::testing::as_text;
 using vitrine::testing::coloured_tetrahedron;
+using vitrine::testing::png_of;
+using vitrine::testing::textured;
 
 // Heap bytes allowed for the messages of errors and repairs, in addition to a multiple of the
 // file's size.
@@ -20,6 +23,7 @@ constexpr std::size_t kHeapAlways = 512;
 struct IntactFile {
   std::string name, bytes;
   std::size_t heap_per_byte;
+  Companions beside = {};  // counted with the size of the file
 };
 
 std::string written(MeshFormat format) {
@@ -41,6 +45,42 @@ std::string densest_ply() {
   return ply;
 }
 
+const std::string kPicture = png_of({1, 2, 3, 4, 5, 6}, 2);
+const std::string kLibrary = "newmtl a\nmap_Kd p\nnewmtl b\nPm 1\nnorm p\n";
+
+Companions picture_and_library() {
+  return {{"p", as_bytes(kPicture)}, {"m", as_bytes(kLibrary)}};
+}
+
+// Returns an OBJ with faces of as few bytes as possible, which get coordinates and materials.
+std::string densest_textured_obj() {
+  std::string obj = "mtllib m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 1\nusemtl a\nf 1/1 2/1 3/1\nf";
+  for (int i = 0; i < 100; ++i)
+    obj += ' ' + std::to_string(i % 3 + 1);
+  return obj + "\nusemtl b\nf 1 2 3\nusemtl a\nf 3 2 1\n";
+}
+
+// Returns a PLY with one byte for each number, whose faces alternate between two materials.
+std::string densest_textured_ply() {
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\ncomment TextureFile p\ncomment TextureFile q\n"
+      "element vertex 50\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
+      "element face 101\nproperty list uchar uchar vertex_indices\n"
+      "property list uchar uchar texcoord\nproperty uchar texnumber\nend_header\n";
+  for (int v = 0; v < 50; ++v)
+    ply += {static_cast<char>(v), static_cast<char>(v * v), static_cast<char>(v * 77)};
+  ply += std::string({3, 0, 1, 2, 6, 0, 0, 1, 0, 0, 1, 0});
+  for (int f = 0; f < 100; ++f)
+    ply += {4,
+            static_cast<char>(f % 50),
+            static_cast<char>(f * f % 47),
+            static_cast<char>(f * 31 % 43),
+            static_cast<char>(f * 7 % 41),
+            0,
+            static_cast<char>(f % 2)};
+  return ply;
+}
+
 // The multiples are measured and rounded up. GLB needs memory for the tree of its JSON, and text
 // PLY for its header. The other formats need memory for repair if a change gives an edge many
 // faces. They need the most memory per byte if every number in the file is a single byte, because
@@ -58,6 +98,9 @@ std::vector<IntactFile> intact_files() {
        "type":"VEC3","count":3}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
        30},
       {"densest PLY", densest_ply(), 52},
+      {"textured GLB", textured(kPicture).file(), 7},
+      {"densest textured PLY", densest_textured_ply(), 43, picture_and_library()},
+      {"densest textured OBJ", densest_textured_obj(), 27, picture_and_library()},
       {"text PLY",
        "ply\nformat ascii 1.0\nelement vertex 00000003\nproperty float x\nproperty float y\n"
        "property float z\nelement face 00000001\nproperty list uchar int "
@@ -71,10 +114,18 @@ std::vector<IntactFile> intact_files() {
        1}};
 }
 
-Expected<RepairedMesh> read_and_repair(std::span<const std::uint8_t> bytes) {
-  auto read = read_mesh(bytes);
+Expected<RepairedMesh> read_and_repair(std::span<const std::uint8_t> bytes,
+                                       const Companions& beside) {
+  auto read = read_mesh(bytes, {.beside = beside});
   if (!read) return tl::unexpected(read.error());
   return repair(*std::move(read));
+}
+
+std::size_t size_of(const Companions& beside) {
+  std::size_t size = 0;
+  for (const auto& [name, bytes] : beside)
+    size += bytes.size();
+  return size;
 }
 
 // Expects an error or a valid mesh. Reads a copy of exactly the right size, so that the address
@@ -85,8 +136,9 @@ void expect_error_or_sound_mesh(const IntactFile& file, const std::string& bytes
   const std::vector<std::uint8_t> copy(bytes.begin(), bytes.end());
   test::start_peak();
   const std::size_t before = test::heap_bytes();
-  const auto repaired = read_and_repair(copy);
-  EXPECT_LE(test::peak_heap_bytes() - before, kHeapAlways + file.heap_per_byte * copy.size());
+  const auto repaired = read_and_repair(copy, file.beside);
+  const std::size_t size = copy.size() + size_of(file.beside);
+  EXPECT_LE(test::peak_heap_bytes() - before, kHeapAlways + file.heap_per_byte * size);
   if (!repaired) {
     EXPECT_FALSE(repaired.error().message.empty());
     EXPECT_EQ(repaired.error().message.find('\n'), std::string::npos);

@@ -3,6 +3,7 @@
 // or an error of one line.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,13 +19,35 @@
 
 namespace vitrine::fuzz {
 
+inline void check_texturing(const Texturing& texturing, std::size_t faces) {
+  const auto has_one_per_face = [&](const auto& column) { return column.size() == faces; };
+  require(texturing.empty() || has_one_per_face(texturing.face_materials));
+  for (const std::uint16_t material : texturing.face_materials)
+    require(material < texturing.materials.size());
+  for (const auto& set : texturing.coordinates) {
+    require(set.empty() || has_one_per_face(set));
+    for (const auto& face : set) {
+      for (const auto& [u, v] : face)
+        require(std::isfinite(u) && std::isfinite(v));
+    }
+  }
+  for (const Material& material : texturing.materials) {
+    for_each_map(material, [&](const TextureMap& map) {
+      require(map.picture < texturing.pictures.size());
+      require(has_one_per_face(texturing.coordinates.at(map.coordinates)));
+    });
+  }
+}
+
 inline void check_repaired(ImportedMesh imported) {
   const TriangleMesh before = imported.mesh;
   require(before.attributes.fit(before.positions.size()));
+  check_texturing(imported.texturing, before.faces.size());
   const auto repaired = repair(std::move(imported));
   if (!repaired) return;
   const TriangleMesh& mesh = repaired->mesh;
   require(mesh.faces.size() <= before.faces.size());
+  check_texturing(repaired->texturing, mesh.faces.size());
   require(mesh.attributes.fit(mesh.positions.size()));
   const auto count = static_cast<std::uint32_t>(mesh.positions.size());
   require(Connectivity::close(count, mesh.faces).has_value());
