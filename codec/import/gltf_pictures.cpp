@@ -43,11 +43,11 @@ std::vector<std::string> GltfPictures::report() const {
     images[fault].push_back(index);
   std::vector<std::string> lines;
   for (const auto& [fault, indices] : images) {
-    const std::string first =
-        indices[0] == kAbsent ? std::string() : std::to_string(indices[0]) + ' ';
-    lines.push_back("texture map " + first + "not carried: it " + fault);
-    if (indices.size() > 1)
-      lines.back() += " (" + std::to_string(indices.size() - 1) + " more like it)";
+    std::string line = "texture map ";
+    if (indices[0] != kAbsent) line += std::to_string(indices[0]) + ' ';
+    line += "not carried: it " + fault;
+    if (indices.size() > 1) line += " (" + std::to_string(indices.size() - 1) + " more like it)";
+    lines.push_back(std::move(line));
   }
   return lines;
 }
