@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The colour of a face at any of its samples: base colour, normal and light.
+//
+// The base colour is the vertex colour times the material's factor and map; a mesh with neither
+// colours nor materials is of stone. The surface is matt: the metallic, roughness, occlusion and
+// emission of a material have no effect.
+#pragma once
+
+#include <optional>
+
+#include "codec/render/canvas.h"
+#include "codec/render/light.h"
+#include "codec/render/projected_mesh.h"
+
+namespace vitrine::inline codec {
+
+class FaceShader {
+ public:
+  // All references must outlive this object.
+  FaceShader(const ShadedMesh& model, const ProjectedMesh& projected, const Light& light,
+             std::uint32_t face);
+
+  // Returns the linear light that the eye sees at a sample inside the face.
+  Vec3 at(SamplePosition at) const;
+
+ private:
+  Vec3 base_colour(const Barycentric& weights) const;
+  Vec3 normal(const Barycentric& weights) const;
+  Vec3 bent(const Vec3& normal, const Texel& texel) const;
+
+  const Light& light_;
+  ScreenTriangle triangle_;
+  std::array<Vec3, 3> normals_, colours_;  // of the corners
+  const Material* material_ = nullptr;     // null if the mesh has none
+  std::optional<FaceTexture> colour_map_, normal_map_;
+};
+
+}  // namespace vitrine::inline codec

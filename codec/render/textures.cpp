@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/render/textures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrine::inline codec {
+namespace {
+
+using Corners = std::array<TextureCoordinates, 3>;
+
+Corners transformed(const Corners& corners, const TextureTransform& transform) {
+  const double c = std::cos(transform.rotation), s = std::sin(transform.rotation);
+  Corners result;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double u = transform.scale[0] * corners[i][0], v = transform.scale[1] * corners[i][1];
+    result[i] = {static_cast<float>(transform.offset[0] + c * u + s * v),
+                 static_cast<float>(transform.offset[1] + c * v - s * u)};
+  }
+  return result;
+}
+
+// Returns the length, in pixels of the texture, of the longer of two steps: one sample to the right
+// and one sample down.
+double longest_step(const MipMap& mip_map, const Corners& uv, const ScreenTriangle& triangle) {
+  const auto& [a, b, c] = triangle.corners();
+  const Vec3 ab = b - a, ac = c - a;
+  const auto steps = [&](std::size_t axis, double size) {
+    const double first = (uv[1][axis] - uv[0][axis]) * size / triangle.signed_area();
+    const double second = (uv[2][axis] - uv[0][axis]) * size / triangle.signed_area();
+    return std::array{first * ac.y - second * ab.y, second * ab.x - first * ac.x};
+  };
+  const auto u = steps(0, mip_map.width()), v = steps(1, mip_map.height());
+  return std::sqrt(std::max(u[0] * u[0] + v[0] * v[0], u[1] * u[1] + v[1] * v[1]));
+}
+
+}  // namespace
+
+FaceTexture::FaceTexture(const MipMap& mip_map, const TextureMap& map,
+                         const std::array<TextureCoordinates, 3>& corners,
+                         const ScreenTriangle& triangle)
+    : mip_map_(&mip_map),
+      map_(&map),
+      corners_(transformed(corners, map.transform)),
+      level_(std::log2(longest_step(mip_map, corners_, triangle))) {}
+
+Texel FaceTexture::at(const Barycentric& weights) const {
+  TextureCoordinates uv;
+  for (std::size_t i = 0; i < uv.size(); ++i)
+    uv[i] = static_cast<float>(corners_[0][i] * weights.u + corners_[1][i] * weights.v +
+                               corners_[2][i] * weights.w);
+  if (map_->is_nearest && level_ <= 0) return mip_map_->nearest(uv, map_->wrap_u, map_->wrap_v);
+  return mip_map_->at(uv, level_, map_->wrap_u, map_->wrap_v);
+}
+
+Textures::Textures(const Texturing& texturing, std::span<const Picture> pictures)
+    : texturing_(texturing), colours_(pictures.size()), normals_(pictures.size()) {
+  for (const Material& material : texturing.materials) {
+    add(colours_, material.base_colour_map, pictures, PictureCoding::kSrgb);
+    add(normals_, material.normal_map, pictures, PictureCoding::kValues);
+  }
+}
+
+void Textures::add(MipMaps& mip_maps, const std::optional<TextureMap>& map,
+                   std::span<const Picture> pictures, PictureCoding coding) {
+  if (!map || mip_maps[map->picture]) return;
+  const Picture& picture = pictures[map->picture];
+  if (!picture.pixels.empty()) mip_maps[map->picture].emplace(picture, coding);
+}
+
+std::optional<FaceTexture> Textures::texture(const MipMaps& mip_maps,
+                                             const std::optional<TextureMap>& map,
+                                             std::uint32_t face,
+                                             const ScreenTriangle& triangle) const {
+  if (!map || !mip_maps[map->picture]) return std::nullopt;
+  return FaceTexture(*mip_maps[map->picture], *map, texturing_.coordinates[map->coordinates][face],
+                     triangle);
+}
+
+std::optional<FaceTexture> Textures::base_colour(std::uint32_t face,
+                                                 const ScreenTriangle& triangle) const {
+  return texture(colours_, material(face).base_colour_map, face, triangle);
+}
+
+std::optional<FaceTexture> Textures::normals(std::uint32_t face,
+                                             const ScreenTriangle& triangle) const {
+  return texture(normals_, material(face).normal_map, face, triangle);
+}
+
+}  // namespace vitrine::inline codec
