@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <functional>
+
+#include "codec/appearance/appearance.h"
 #include "codec/distance/surface_distance.h"
 #include "server/cli/commands/command.h"
 #include "server/cli/support/console.h"
@@ -49,11 +52,51 @@ std::string distances(const json& r) {
          line("A to B", r["a_to_b"]) + line("B to A", r["b_to_a"]);
 }
 
-CommandOutcome run_measure(const Arguments& arguments) {
+std::string likeness(const json& r) {
+  const std::string psnr = r["psnr"].is_null() ? "the pictures are equal"
+                                               : fmt::format("{:.2f} dB", r["psnr"].get<double>());
+  return fmt::format("PSNR: {}\nSSIM: {:.4f}", psnr, r["ssim"].get<double>());
+}
+
+// A figure of two surfaces.
+struct Measure {
+  std::function<Expected<json>(const SurfaceInput& a, const SurfaceInput& b)> compare;
+  std::string (*as_text)(const json& report);
+};
+
+Measure distance_measure(const MeasureOptions& options) {
+  const auto compare = [options](const SurfaceInput& a, const SurfaceInput& b) {
+    return measure(a.mesh, b.mesh, options).map([](const SurfaceDistance& d) {
+      return describe(d);
+    });
+  };
+  return {compare, distances};
+}
+
+Measure appearance_measure() {
+  const auto compare = [](const SurfaceInput& a, const SurfaceInput& b) {
+    return compare_appearance({.mesh = a.mesh}, {.mesh = b.mesh}).map([](const Appearance& found) {
+      return json{{"psnr", found.psnr ? json(*found.psnr) : json()}, {"ssim", found.ssim}};
+    });
+  };
+  return {compare, likeness};
+}
+
+tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
+  if (arguments.has("--appearance")) {
+    if (!arguments.has("--align") && !arguments.has("--samples")) return appearance_measure();
+    return misused("--align and --samples are for distances; leave them or --appearance out");
+  }
   MeasureOptions options{.aligns = arguments.has("--align")};
   const auto samples = arguments.number("--samples", 1, 100'000'000);
   if (!samples) return tl::unexpected(samples.error());
   options.samples = samples->value_or(options.samples);
+  return distance_measure(options);
+}
+
+CommandOutcome run_measure(const Arguments& arguments) {
+  const auto chosen = measure_from(arguments);
+  if (!chosen) return tl::unexpected(chosen.error());
   const auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
   const auto a = InputFile::open(arguments.operand(0)), b = InputFile::open(arguments.operand(1));
@@ -67,14 +110,14 @@ CommandOutcome run_measure(const Arguments& arguments) {
     if (!second) return tl::unexpected(second.error());
     const std::string note = note_on_units(*first, *second);
     convert(*first, second->unit);
-    const auto distance = measure(first->mesh, second->mesh, options);
-    if (!distance) return tl::unexpected(distance.error());
-    json report = describe(*distance);
-    if (!note.empty()) report["note"] = note;
-    return Product{std::move(report), {}};
+    auto report = chosen->compare(*first, *second);
+    if (!report) return tl::unexpected(report.error());
+    if (!note.empty()) (*report)["note"] = note;
+    return Product{*std::move(report), {}};
   });
   if (!product) return tl::unexpected(product.error());
-  return arguments.has("--json") ? print_json(product->report) : print(distances(product->report));
+  return arguments.has("--json") ? print_json(product->report)
+                                 : print(chosen->as_text(product->report));
 }
 
 constexpr std::string_view kMeasureOperands[] = {"A", "B"};
@@ -82,13 +125,18 @@ constexpr Flag kMeasureFlags[] = {
     {"--samples", "N", "number of sample points on each surface (default 200000)"},
     {"--up", "y|z", "axis of mesh files that points up (default y), as for vitrine build"},
     {"--align", "", "first align A to B by a rotation and a translation, without scaling"},
+    {"--appearance", "",
+     "compare twelve pictures of each instead, around B: peak signal-to-noise ratio (psnr, dB; "
+     "null "
+     "if the pictures are equal) and structural similarity (ssim; 1 if equal)"},
     {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace
 
 const Command kMeasure = {
     .name = "measure",
-    .summary = "Measures the distance between two surfaces in both directions.",
+    .summary =
+        "Measures the distance between two surfaces in both directions, or how alike they look.",
     .details =
         "A and B are mesh files or .pmesh files, of which the finest level is measured. The result "
         "is in B's unit.",

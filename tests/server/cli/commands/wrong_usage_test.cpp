@@ -35,6 +35,8 @@ TEST_F(VitrineCommand, WrongUsageIsExitCode2) {
       {"build", "in.ply", "-o", "out.pmesh", "--up", "x"},
       {"measure", "only-one.ply"},
       {"measure", "a.ply", "b.ply", "--samples", "0"},
+      {"measure", "a.ply", "b.ply", "--appearance", "--align"},
+      {"measure", "a.ply", "b.ply", "--appearance", "--samples", "9"},
       {"publish", "in.ply"}};
   for (const auto& words : lines)
     expect_fault(vitrine(words), 2);
