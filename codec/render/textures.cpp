@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vitrine::inline codec {
 namespace {
@@ -53,18 +54,20 @@ Texel FaceTexture::at(const Barycentric& weights) const {
   return mip_map_->at(uv, level_, map_->wrap_u, map_->wrap_v);
 }
 
-Textures::Textures(const Texturing& texturing, std::span<const Picture> pictures)
-    : texturing_(texturing), colours_(pictures.size()), normals_(pictures.size()) {
-  for (const Material& material : texturing.materials) {
-    add(colours_, material.base_colour_map, pictures, PictureCoding::kSrgb);
-    add(normals_, material.normal_map, pictures, PictureCoding::kValues);
+Textures::Textures(Texturing texturing, std::vector<Picture> pictures)
+    : texturing_(std::move(texturing)),
+      pictures_(std::move(pictures)),
+      colours_(pictures_.size()),
+      normals_(pictures_.size()) {
+  for (const Material& material : texturing_.materials) {
+    add(colours_, material.base_colour_map, PictureCoding::kSrgb);
+    add(normals_, material.normal_map, PictureCoding::kValues);
   }
 }
 
-void Textures::add(MipMaps& mip_maps, const std::optional<TextureMap>& map,
-                   std::span<const Picture> pictures, PictureCoding coding) {
+void Textures::add(MipMaps& mip_maps, const std::optional<TextureMap>& map, PictureCoding coding) {
   if (!map || mip_maps[map->picture]) return;
-  const Picture& picture = pictures[map->picture];
+  const Picture& picture = pictures_[map->picture];
   if (!picture.pixels.empty()) mip_maps[map->picture].emplace(picture, coding);
 }
 

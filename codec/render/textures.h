@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "codec/render/mip_map.h"
@@ -36,8 +35,8 @@ class FaceTexture {
 class Textures {
  public:
   // `pictures` are the decoded `texturing.pictures`, in the same order. Maps whose picture has no
-  // pixels are ignored. Both arguments must outlive this object.
-  Textures(const Texturing& texturing, std::span<const Picture> pictures);
+  // pixels are ignored.
+  Textures(Texturing texturing, std::vector<Picture> pictures);
 
   const Material& material(std::uint32_t face) const {
     return texturing_.materials[texturing_.face_materials[face]];
@@ -49,12 +48,12 @@ class Textures {
  private:
   using MipMaps = std::vector<std::optional<MipMap>>;  // per picture
 
-  static void add(MipMaps& mip_maps, const std::optional<TextureMap>& map,
-                  std::span<const Picture> pictures, PictureCoding coding);
+  void add(MipMaps& mip_maps, const std::optional<TextureMap>& map, PictureCoding coding);
   std::optional<FaceTexture> texture(const MipMaps& mip_maps, const std::optional<TextureMap>& map,
                                      std::uint32_t face, const ScreenTriangle& triangle) const;
 
-  const Texturing& texturing_;
+  Texturing texturing_;
+  std::vector<Picture> pictures_;
   MipMaps colours_, normals_;
 };
 

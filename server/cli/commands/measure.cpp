@@ -6,10 +6,12 @@
 #include "codec/appearance/appearance.h"
 #include "codec/distance/surface_distance.h"
 #include "server/cli/commands/command.h"
+#include "server/cli/support/companion_files.h"
 #include "server/cli/support/console.h"
 #include "server/cli/support/isolation.h"
 #include "server/cli/support/reading.h"
 #include "server/cli/support/surface_file.h"
+#include "server/cli/support/surface_textures.h"
 
 namespace vitrine::server::cli {
 namespace {
@@ -60,7 +62,7 @@ std::string likeness(const json& r) {
 
 // A figure of two surfaces.
 struct Measure {
-  std::function<Expected<json>(const SurfaceInput& a, const SurfaceInput& b)> compare;
+  std::function<Expected<json>(SurfaceInput a, SurfaceInput b)> compare;
   std::string (*as_text)(const json& report);
 };
 
@@ -73,18 +75,22 @@ Measure distance_measure(const MeasureOptions& options) {
   return {compare, distances};
 }
 
-Measure appearance_measure() {
-  const auto compare = [](const SurfaceInput& a, const SurfaceInput& b) {
-    return compare_appearance({.mesh = a.mesh}, {.mesh = b.mesh}).map([](const Appearance& found) {
-      return json{{"psnr", found.psnr ? json(*found.psnr) : json()}, {"ssim", found.ssim}};
-    });
-  };
-  return {compare, likeness};
+Expected<json> compare_looks(SurfaceInput a, SurfaceInput b) {
+  const auto own = take_textures(a), others = take_textures(b);
+  if (!own) return tl::unexpected(own.error());
+  if (!others) return tl::unexpected(others.error());
+  const auto found = compare_appearance({.mesh = a.mesh, .textures = own->get()},
+                                        {.mesh = b.mesh, .textures = others->get()});
+  return found.map([](const Appearance& appearance) {
+    return json{{"psnr", appearance.psnr ? json(*appearance.psnr) : json()},
+                {"ssim", appearance.ssim}};
+  });
 }
 
 tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
   if (arguments.has("--appearance")) {
-    if (!arguments.has("--align") && !arguments.has("--samples")) return appearance_measure();
+    if (!arguments.has("--align") && !arguments.has("--samples"))
+      return Measure{compare_looks, likeness};
     return misused("--align and --samples are for distances; leave them or --appearance out");
   }
   MeasureOptions options{.aligns = arguments.has("--align")};
@@ -94,27 +100,52 @@ tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
   return distance_measure(options);
 }
 
+// A surface's file with the files beside it, from which its textures come.
+class MeasuredFile {
+ public:
+  MeasuredFile(std::string name, InputFile file)
+      : name_(std::move(name)), file_(std::move(file)), beside_(name_, file_.bytes()) {}
+
+  Expected<SurfaceInput> read(ReadOptions options) const {
+    options.beside = beside_.contents();
+    return read_surface(file_, name_, options);
+  }
+
+ private:
+  std::string name_;
+  InputFile file_;
+  CompanionFiles beside_;
+};
+
+Expected<MeasuredFile> open_measured(const std::string& name) {
+  return InputFile::open(name).map(
+      [&](InputFile&& file) { return MeasuredFile(name, std::move(file)); });
+}
+
+Expected<Product> compare(const MeasuredFile& a, const MeasuredFile& b, const ReadOptions& options,
+                          const Measure& measure) {
+  auto first = a.read(options);
+  if (!first) return tl::unexpected(first.error());
+  auto second = b.read(options);
+  if (!second) return tl::unexpected(second.error());
+  const std::string note = note_on_units(*first, *second);
+  convert(*first, second->unit);
+  auto report = measure.compare(*std::move(first), *std::move(second));
+  if (!report) return tl::unexpected(report.error());
+  if (!note.empty()) (*report)["note"] = note;
+  return Product{*std::move(report), {}};
+}
+
 CommandOutcome run_measure(const Arguments& arguments) {
   const auto chosen = measure_from(arguments);
   if (!chosen) return tl::unexpected(chosen.error());
   const auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
-  const auto a = InputFile::open(arguments.operand(0)), b = InputFile::open(arguments.operand(1));
+  const auto a = open_measured(arguments.operand(0)), b = open_measured(arguments.operand(1));
   if (!a) return failed(a.error());
   if (!b) return failed(b.error());
-
-  const auto product = isolate("cannot measure", [&](const ProgressReport&) -> Expected<Product> {
-    auto first = read_surface(*a, arguments.operand(0), *reading);
-    if (!first) return tl::unexpected(first.error());
-    const auto second = read_surface(*b, arguments.operand(1), *reading);
-    if (!second) return tl::unexpected(second.error());
-    const std::string note = note_on_units(*first, *second);
-    convert(*first, second->unit);
-    auto report = chosen->compare(*first, *second);
-    if (!report) return tl::unexpected(report.error());
-    if (!note.empty()) (*report)["note"] = note;
-    return Product{*std::move(report), {}};
-  });
+  const auto product = isolate(
+      "cannot measure", [&](const ProgressReport&) { return compare(*a, *b, *reading, *chosen); });
   if (!product) return tl::unexpected(product.error());
   return arguments.has("--json") ? print_json(product->report)
                                  : print(chosen->as_text(product->report));

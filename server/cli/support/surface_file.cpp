@@ -16,7 +16,9 @@ Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& read
   if (!file.is_pmesh()) {
     auto imported = read_mesh(file.bytes(), reading);
     if (!imported) return tl::unexpected(imported.error());
-    return SurfaceInput{.mesh = std::move(imported->mesh), .unit = std::move(imported->unit)};
+    return SurfaceInput{.mesh = std::move(imported->mesh),
+                        .unit = std::move(imported->unit),
+                        .texturing = std::move(imported->texturing)};
   }
   auto refiner = open_model(file.bytes());
   if (!refiner) return tl::unexpected(refiner.error());

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "codec/import/read_mesh.h"
+#include "codec/mesh/texturing.h"
 #include "codec/mesh/triangle_mesh.h"
 #include "server/cli/support/input.h"
 
@@ -14,6 +15,8 @@ namespace vitrine::server::cli {
 struct SurfaceInput {
   TriangleMesh mesh;
   std::string unit;  // empty if unknown
+  // Empty for a .pmesh. Readers also bake its factors and maps into the vertex colours.
+  Texturing texturing;
 };
 
 // Reads a mesh file, or the finest level of a .pmesh file. `reading` applies to mesh files only.

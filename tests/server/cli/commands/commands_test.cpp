@@ -192,20 +192,6 @@ TEST_F(VitrineCommand, MeasureReadsTheDrcThatDecodeWrites) {
   EXPECT_GT(measured["max"].get<double>(), 0);
 }
 
-TEST_F(VitrineCommand, MeasureComparesAppearance) {
-  const std::string file = model();
-  const json same = vitrine_json({"measure", file, file, "--appearance"});
-  EXPECT_TRUE(same["psnr"].is_null());
-  EXPECT_NEAR(same["ssim"].get<double>(), 1, 1e-9);
-  vitrine_json({"decode", file, "-o", path("coarse.ply"), "--level", "0"});
-  const json coarse =
-      vitrine_json({"measure", path("coarse.ply"), path("model.ply"), "--appearance"});
-  EXPECT_GT(coarse["psnr"].get<double>(), 10);
-  EXPECT_LT(coarse["ssim"].get<double>(), 0.99);
-  EXPECT_THAT(vitrine({"measure", file, file, "--appearance"}).output,
-              HasSubstr("PSNR: the pictures are equal\nSSIM: 1.0000"));
-}
-
 TEST_F(VitrineCommand, RepairsAreListed) {
   std::string text = bumpy_ply(500);
   const std::size_t face = text.find("\n3 ", text.find("end_header")) + 1;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "codec/picture/png_file.h"
+#include "vitrine_command.h"
+
+namespace vitrine::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+TEST_F(VitrineCommand, MeasureComparesAppearance) {
+  const std::string file = model();
+  vitrine_json({"decode", file, "-o", path("coarse.ply"), "--level", "0"});
+  const json coarse =
+      vitrine_json({"measure", path("coarse.ply"), path("model.ply"), "--appearance"});
+  EXPECT_GT(coarse["psnr"].get<double>(), 10);
+  EXPECT_LT(coarse["ssim"].get<double>(), 0.99);
+  EXPECT_THAT(vitrine({"measure", file, file, "--appearance"}).output,
+              HasSubstr("PSNR: the pictures are equal\nSSIM: 1.0000"));
+}
+
+// A white picture with a spot in the middle.
+std::string spotted_png(std::uint8_t spot) {
+  Picture picture{3, 3, std::vector<std::uint8_t>(36, 255)};
+  std::fill_n(picture.pixels.begin() + 16, 3, spot);
+  const auto bytes = write_png(picture);
+  return {bytes->begin(), bytes->end()};
+}
+
+TEST_F(VitrineCommand, MeasureComparesTexturesBetweenTheVertices) {
+  const auto square = [&](const std::string& name, std::uint8_t spot) {
+    write(name + ".png", spotted_png(spot));
+    write(name + ".mtl", "newmtl m\nmap_Kd " + name + ".png\n");
+    return write(name + ".obj", "mtllib " + name +
+                                    ".mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+  };
+  const std::string white = square("white", 255), dark = square("dark", 0);
+  EXPECT_TRUE(vitrine_json({"measure", white, white, "--appearance"})["psnr"].is_null());
+  const json spotted = vitrine_json({"measure", dark, white, "--appearance"});
+  EXPECT_LT(spotted["psnr"].get<double>(), 30);
+  EXPECT_LT(spotted["ssim"].get<double>(), 0.99);
+}
+
+}  // namespace
+}  // namespace vitrine::test
