@@ -47,13 +47,11 @@ Expected<std::span<const std::uint8_t>> GltfBuffer::part(const Json& place, std:
 
 // Returns the bytes of a buffer that has a URI.
 Expected<std::span<const std::uint8_t>> GltfBuffer::buffer(std::uint64_t number) {
-  const auto [it, is_new] = buffers_.try_emplace(number);
-  if (!is_new) return it->second;
-  const auto bytes = resources_.find(text(element(document_, "buffers", number), "uri", ""));
-  if (!bytes) {
-    return bad_input("glTF buffer " + std::to_string(number) + ' ' + bytes.error().message);
-  }
-  return it->second = *bytes;
+  if (const auto known = buffers_.find(number); known != buffers_.end()) return known->second;
+  auto bytes = resources_.find(text(element(document_, "buffers", number), "uri", ""));
+  if (!bytes)
+    bytes = bad_input("glTF buffer " + std::to_string(number) + ' ' + bytes.error().message);
+  return buffers_.emplace(number, std::move(bytes)).first->second;
 }
 
 Expected<BufferView> GltfBuffer::decompressed(const Json& extension, std::uint64_t index) {

@@ -43,7 +43,8 @@ class GltfBuffer {
   const Json& document_;
   std::span<const std::uint8_t> binary_;
   GltfResources& resources_;
-  std::map<std::uint64_t, std::span<const std::uint8_t>> buffers_;  // opened by URI
+  // opened by URI; an error is kept as well, so that each URI is looked up only once
+  std::map<std::uint64_t, Expected<std::span<const std::uint8_t>>> buffers_;
   // key: index of the buffer view
   std::map<std::uint64_t, std::vector<std::uint8_t>> decompressed_;
   std::uint64_t spent_ = 0;

@@ -80,6 +80,14 @@ TEST(ReadGltf, AMissingFileIsNamedWithTheNextStep) {
   EXPECT_THAT(result->repairs, ElementsAre(HasSubstr("it is the file 'maps/My skin.png', which")));
 }
 
+// The picture is looked up before the positions.
+TEST(ReadGltf, AMissingBufferWithAPictureIsNamedToo) {
+  GlbBuilder builder = skinned();
+  builder.document["images"][0] = {{"bufferView", builder.view(red_and_blue())}};
+  EXPECT_THAT(read_beside(builder.text_file("b.bin"), {}).error().message,
+              HasSubstr("glTF buffer 0 is the file 'b.bin', which is not beside the mesh file"));
+}
+
 TEST(ReadGltf, ABufferThatIsTooShortOrHasNoDataIsRefused) {
   GlbBuilder builder = skinned();
   EXPECT_THAT(read_beside(builder.text_file("b.bin"), {{"b.bin", "1234"}}).error().message,
