@@ -78,17 +78,26 @@ std::optional<TextureMap> GltfMaterials::map(const Json& reference) {
   const auto texture = read_texture(document_, reference);
   if (!texture || pictures_.is_refused(texture->image)) return std::nullopt;
   if (texture->texcoord >= kCoordinateSets) return ++maps_beyond_sets_, std::nullopt;
-  const auto bytes = pictures_.bytes(texture->image);
-  const std::uint64_t most_bytes = std::min(limits_.picture_bytes, buffer_.bytes());
-  const auto index = bytes ? carried_.add(pictures_.name(texture->image), *bytes, most_bytes)
-                           : Expected<std::uint32_t>(tl::unexpected(bytes.error()));
-  if (!index) return pictures_.refuse(texture->image, index.error().message), std::nullopt;
-  return TextureMap{.picture = *index,
+  const auto picture = carry(texture->image);
+  if (!picture) return std::nullopt;
+  return TextureMap{.picture = *picture,
                     .coordinates = static_cast<std::uint8_t>(texture->texcoord),
                     .is_nearest = texture->is_nearest,
                     .wrap_u = texture->wrap_u,
                     .wrap_v = texture->wrap_v,
                     .transform = texture->transform};
+}
+
+std::optional<std::uint32_t> GltfMaterials::carry(std::uint64_t image) {
+  if (const auto known = carried_images_.find(image); known != carried_images_.end())
+    return known->second;
+  const auto bytes = pictures_.bytes(image);
+  const std::uint64_t most_bytes = std::min(limits_.picture_bytes, buffer_.bytes());
+  const auto index = bytes ? carried_.add(pictures_.name(image), *bytes, most_bytes)
+                           : Expected<std::uint32_t>(tl::unexpected(bytes.error()));
+  if (!index) return pictures_.refuse(image, index.error().message), std::nullopt;
+  carried_images_.emplace(image, *index);
+  return *index;
 }
 
 void GltfMaterials::note_extensions(const Json& self) {

@@ -38,6 +38,8 @@ class GltfMaterials {
  private:
   Material read(const Json& self);
   std::optional<TextureMap> map(const Json& reference);
+  // Returns the index of an image among the carried pictures, or nullopt if it is refused.
+  std::optional<std::uint32_t> carry(std::uint64_t image);
   void note_extensions(const Json& self);
 
   const Json& document_;
@@ -45,6 +47,8 @@ class GltfMaterials {
   const GltfBuffer& buffer_;
   const Limits& limits_;
   CarriedPictures carried_;
+  // key: index of the image; its name, which may be a long data: URI, is read only once
+  std::map<std::uint64_t, std::uint32_t> carried_images_;
   std::vector<Material> materials_;
   std::map<std::uint64_t, std::uint16_t> indices_;  // key: index in the document, or kAbsent
   std::set<std::string> unread_extensions_;

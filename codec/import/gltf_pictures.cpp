@@ -28,8 +28,10 @@ Expected<std::span<const std::uint8_t>> GltfPictures::find(std::uint64_t index) 
 
 std::string GltfPictures::name(std::uint64_t index) const {
   const Json& self = element(document_, "images", index);
-  const std::string uri = text(self, "uri", "");
-  return text(self, "name", is_data_uri(uri) ? std::string() : percent_decoded(uri));
+  const Json& uri = member(self, "uri");
+  const bool is_file = uri.is_string() && !is_data_uri(uri.get_ref<const std::string&>());
+  return text(self, "name",
+              is_file ? percent_decoded(uri.get_ref<const std::string&>()) : std::string());
 }
 
 std::uint64_t GltfPictures::count() const {
