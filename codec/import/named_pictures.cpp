@@ -36,11 +36,11 @@ Expected<std::span<const std::uint8_t>> NamedPictures::bytes(std::string_view na
 }
 
 void NamedPictures::note_fault(std::string_view name, const std::string& fault) {
-  faults_.try_emplace(std::string(name), fault);
+  faults_.try_emplace(companion_key(name), Fault{std::string(name), fault});
 }
 
 const Picture* NamedPictures::find(std::string_view name) {
-  const auto [it, is_new] = decoded_.try_emplace(std::string(name));
+  const auto [it, is_new] = decoded_.try_emplace(companion_key(name));
   if (is_new) {
     const auto encoded = bytes(name);
     auto picture = encoded ? decode_picture(*encoded, pixels_left_)
@@ -56,7 +56,7 @@ const Picture* NamedPictures::find(std::string_view name) {
 }
 
 std::optional<std::uint32_t> NamedPictures::carry(std::string_view name) {
-  if (faults_.contains(name)) return std::nullopt;
+  if (faults_.contains(companion_key(name))) return std::nullopt;
   const auto encoded = bytes(name);
   const auto index = encoded ? carried_.add(std::string(name), *encoded, limits_.picture_bytes)
                              : Expected<std::uint32_t>(tl::unexpected(encoded.error()));
@@ -66,7 +66,7 @@ std::optional<std::uint32_t> NamedPictures::carry(std::string_view name) {
 }
 
 bool NamedPictures::shows_normals(std::string_view name) {
-  const auto [it, is_new] = shows_normals_.try_emplace(std::string(name), false);
+  const auto [it, is_new] = shows_normals_.try_emplace(companion_key(name), false);
   if (is_new) {
     const auto encoded = bytes(name);
     const auto picture = encoded ? decode_picture(*encoded, pixels_left_)
@@ -79,8 +79,8 @@ bool NamedPictures::shows_normals(std::string_view name) {
 
 std::vector<std::string> NamedPictures::report_faults() const {
   std::vector<std::string> lines;
-  for (const auto& [name, fault] : faults_)
-    lines.push_back("texture map " + in_quotes(name) + " not carried: it " + fault);
+  for (const auto& [key, fault] : faults_)
+    lines.push_back("texture map " + in_quotes(fault.name) + " not carried: it " + fault.text);
   return lines;
 }
 

@@ -47,12 +47,17 @@ class NamedPictures {
   Expected<std::span<const std::uint8_t>> bytes(std::string_view name) const;
   void note_fault(std::string_view name, const std::string& fault);
 
+  struct Fault {
+    std::string name, text;  // of the picture as in the file, and the fault with a next step
+  };
+
   const Companions& companions_;
   const Limits& limits_;
   CarriedPictures carried_;
-  std::map<std::string, std::optional<Picture>, std::less<>> decoded_;
-  std::map<std::string, bool, std::less<>> shows_normals_;
-  std::map<std::string, std::string, std::less<>> faults_;  // key: name
+  // The keys are companion_key() of the names: many names may mean the same file.
+  std::map<std::string, std::optional<Picture>> decoded_;
+  std::map<std::string, bool> shows_normals_;
+  std::map<std::string, Fault> faults_;
   std::uint64_t pixels_left_;
 };
 

@@ -18,9 +18,10 @@ LinearColour linear_diffuse(const ObjMaterial& material) {
 }  // namespace
 
 bool ObjMaterials::open_library(std::string_view name) {
-  const auto bytes = find_companion(companions_, without_end_blanks(name));
+  name = without_end_blanks(name);
+  const auto bytes = find_companion(companions_, name);
   if (!bytes) return false;
-  read_obj_library(*bytes, library_);
+  if (opened_.insert(companion_key(name)).second) read_obj_library(*bytes, library_);
   return true;
 }
 

@@ -24,7 +24,8 @@ class ObjMaterials {
   ObjMaterials(const Companions& companions, const Limits& limits)
       : companions_(companions), pictures_(companions, limits) {}
 
-  // Reads a material library. Returns false if it is not among the companions.
+  // Reads a material library, unless it was read before. Returns false if it is not among the
+  // companions.
   bool open_library(std::string_view name);
 
   // Selects the current material and returns its index among the carried ones. An unknown material
@@ -64,6 +65,7 @@ class ObjMaterials {
 
   const Companions& companions_;
   NamedPictures pictures_;
+  std::set<std::string> opened_;  // libraries; keys of companions_
   ObjLibrary library_;
   std::map<std::string, UsedMaterial, std::less<>> used_;
   const UsedMaterial* current_ = nullptr;

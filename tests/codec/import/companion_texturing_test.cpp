@@ -9,7 +9,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 using vitrine::testing::as_bytes;
 using vitrine::testing::as_text;
@@ -89,6 +89,20 @@ TEST(ObjTexturing, IsEmptyWithoutPicturesOrLibrary) {
   const auto missing = read_carried(obj, {{"a.mtl", "newmtl a\nmap_Kd p.png\n"}});
   EXPECT_TRUE(missing.texturing.empty());
   EXPECT_THAT(missing.repairs, Contains(HasSubstr("'p.png' not carried: it is not beside")));
+}
+
+TEST(ObjTexturing, SeveralPathsOfAFileAreOnePicture) {
+  const std::string obj =
+      kSquare + "mtllib a.mtl\nusemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n";
+  const std::string library = "newmtl a\nmap_Kd x/p.png\nnewmtl b\nmap_Kd y\\P.png\n";
+  const auto intact = read_carried(obj, {{"a.mtl", library}, {"p.png", red_and_blue()}});
+  EXPECT_THAT(intact.texturing.pictures, SizeIs(1));
+  EXPECT_THAT(intact.repairs, Contains("1 texture map baked into vertex colours"));
+  const auto damaged =
+      read_carried(obj, {{"a.mtl", library}, {"p.png", red_and_blue().substr(0, 40)}});
+  EXPECT_TRUE(damaged.texturing.empty());
+  EXPECT_THAT(damaged.repairs, Contains(HasSubstr("texture map 'x/p.png' not carried")));
+  EXPECT_THAT(damaged.repairs, Not(Contains(HasSubstr("P.png'"))));
 }
 
 TEST(ObjTexturing, ADamagedPictureIsNotCarried) {
