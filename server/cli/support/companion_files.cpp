@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "codec/import/glb_file.h"
 #include "codec/import/readers.h"
 
 namespace vitrine::server::cli {
@@ -16,13 +17,21 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostSearchedBytes = 1 << 20;
 constexpr std::size_t kMostSearchedJson = 16 << 20;  // a glTF file may name its files at the end
 
-// Returns the start of a file in lower case, since names are compared without case, and without
-// the percent-encoding of glTF.
+std::string_view text_of(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string_view json_of(std::span<const std::uint8_t> glb) {
+  const auto chunks = split_glb(glb);
+  return chunks ? chunks->json : std::string_view();
+}
+
+// Returns the part of a file that may contain names, in lower case, since names are compared
+// without case, and without the percent-encoding of glTF.
 std::string searchable(std::span<const std::uint8_t> bytes) {
   const bool has_uris = is_glb(bytes) || is_gltf(bytes);
   const std::size_t most = has_uris ? kMostSearchedJson : kMostSearchedBytes;
-  const auto head = bytes.first(std::min(bytes.size(), most));
-  std::string text(head.begin(), head.end());
+  std::string text((is_glb(bytes) ? json_of(bytes) : text_of(bytes)).substr(0, most));
   for (char& c : text)
     c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return has_uris ? percent_decoded(text) : text;

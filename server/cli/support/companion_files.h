@@ -14,7 +14,7 @@ namespace vitrine::server::cli {
 class CompanionFiles {
  public:
   // Opens the .mtl files in the folder of `path` and its subfolders whose names occur in the first
-  // megabyte of `mesh`, or in all of a glTF file. Also opens the .bin files and pictures whose
+  // megabyte of `mesh`, or in the JSON of a glTF file. Also opens the .bin files and pictures whose
   // names occur there or in those .mtl files. If names repeat, the file in the folder itself is
   // opened, or else that in the first subfolder.
   CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh);
