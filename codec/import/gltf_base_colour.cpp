@@ -2,7 +2,6 @@
 #include "codec/import/gltf_base_colour.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "codec/picture/decode_picture.h"
 #include "codec/picture/sample.h"
@@ -11,11 +10,8 @@ namespace vitrine::inline codec {
 
 LinearColour BaseColour::at(double u, double v) const {
   if (picture == nullptr) return factor;
-  const auto& [offset, scale, rotation] = texture.transform;
-  const double c = std::cos(rotation), s = std::sin(rotation);
-  const double x = scale[0] * u, y = scale[1] * v;
-  return factor * sample(*picture, offset[0] + c * x + s * y, offset[1] + c * y - s * x,
-                         texture.wrap_u, texture.wrap_v);
+  const auto [x, y] = texture.transform.at(u, v);
+  return factor * sample(*picture, x, y, texture.wrap_u, texture.wrap_v);
 }
 
 BaseColour GltfBaseColours::of(const Json& primitive) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -34,6 +35,14 @@ enum class Wrap : std::uint8_t { kRepeat, kMirror, kClamp };
 struct TextureTransform {
   std::array<double, 2> offset{0, 0}, scale{1, 1};
   double rotation = 0;  // radians, counter-clockwise
+
+  // Returns the position in the picture for the coordinates (u, v) of the file: scales, then
+  // rotates about (0, 0), then shifts.
+  std::array<double, 2> at(double u, double v) const {
+    const double c = std::cos(rotation), s = std::sin(rotation);
+    const double x = scale[0] * u, y = scale[1] * v;
+    return {offset[0] + c * x + s * y, offset[1] + c * y - s * x};
+  }
 };
 
 // A material's use of a picture.

@@ -11,12 +11,10 @@ namespace {
 using Corners = std::array<TextureCoordinates, 3>;
 
 Corners transformed(const Corners& corners, const TextureTransform& transform) {
-  const double c = std::cos(transform.rotation), s = std::sin(transform.rotation);
   Corners result;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const double u = transform.scale[0] * corners[i][0], v = transform.scale[1] * corners[i][1];
-    result[i] = {static_cast<float>(transform.offset[0] + c * u + s * v),
-                 static_cast<float>(transform.offset[1] + c * v - s * u)};
+    const auto [u, v] = transform.at(corners[i][0], corners[i][1]);
+    result[i] = {static_cast<float>(u), static_cast<float>(v)};
   }
   return result;
 }
