@@ -12,7 +12,7 @@ Vec3 vertex_colour(const ShadedMesh& model, std::uint32_t vertex) {
   static const Vec3 stone = linear_light({0xd8, 0xd3, 0xcb});
   const auto& colours = model.mesh.attributes.colours;
   if (!colours.empty()) return linear_light(colours[vertex]);
-  return model.textures == nullptr ? stone : Vec3{1, 1, 1};
+  return model.textures == nullptr || model.textures->are_white() ? stone : Vec3{1, 1, 1};
 }
 
 Vec3 product(const Vec3& a, const Vec3& b) {

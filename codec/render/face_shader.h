@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The colour of a face at any of its samples: base colour, normal and light.
 //
-// The base colour is the vertex colour times the material's factor and map; a mesh with neither
-// colours nor materials is of stone. The surface is matt: the metallic, roughness, occlusion and
-// emission of a material have no effect.
+// The base colour is the vertex colour times the material's factor and map. A mesh without vertex
+// colours is of stone if its materials are white or it has none. The surface is matt: the metallic,
+// roughness, occlusion and emission of a material have no effect.
 #pragma once
 
 #include <optional>

@@ -33,6 +33,11 @@ double longest_step(const MipMap& mip_map, const Corners& uv, const ScreenTriang
   return std::sqrt(std::max(u[0] * u[0] + v[0] * v[0], u[1] * u[1] + v[1] * v[1]));
 }
 
+bool is_white(const Material& material) {
+  const auto& [red, green, blue, opacity] = material.base_colour;
+  return red == 1 && green == 1 && blue == 1 && !material.base_colour_map;
+}
+
 }  // namespace
 
 FaceTexture::FaceTexture(const MipMap& mip_map, const TextureMap& map,
@@ -56,7 +61,8 @@ Textures::Textures(Texturing texturing, std::vector<Picture> pictures)
     : texturing_(std::move(texturing)),
       pictures_(std::move(pictures)),
       colours_(pictures_.size()),
-      normals_(pictures_.size()) {
+      normals_(pictures_.size()),
+      are_white_(std::ranges::all_of(texturing_.materials, is_white)) {
   for (const Material& material : texturing_.materials) {
     add(colours_, material.base_colour_map, PictureCoding::kSrgb);
     add(normals_, material.normal_map, PictureCoding::kValues);

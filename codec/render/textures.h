@@ -38,6 +38,8 @@ class Textures {
   // pixels are ignored.
   Textures(Texturing texturing, std::vector<Picture> pictures);
 
+  // Whether the materials give no face a base colour: all factors are white, and none has a map.
+  bool are_white() const { return are_white_; }
   const Material& material(std::uint32_t face) const {
     return texturing_.materials[texturing_.face_materials[face]];
   }
@@ -55,6 +57,7 @@ class Textures {
   Texturing texturing_;
   std::vector<Picture> pictures_;
   MipMaps colours_, normals_;
+  bool are_white_;
 };
 
 }  // namespace vitrine::inline codec

@@ -167,6 +167,16 @@ TEST(TexturedRender, AnOpaqueMaterialIgnoresTheOpacityOfItsPicture) {
   EXPECT_EQ(pixel_of(square.seen(8), 3, 3), kPureRed);
 }
 
+// White is the default of a material, and tells as little of the colour as no material.
+TEST(TexturedRender, AWhiteMaterialLooksLikeNoMaterial) {
+  TexturedSquare square;
+  square.material().is_unlit = false;
+  const Framing frame{.centre = {}, .pixel = 0.1, .width = 20, .height = 20, .toward = {0, 0, 1}};
+  EXPECT_EQ(square.seen(20).pixels, render(square.mesh, frame).pixels);
+  square.material().base_colour = {1, 1, 0.5, 1};
+  EXPECT_NE(square.seen(20).pixels, render(square.mesh, frame).pixels);
+}
+
 TEST(TexturedRender, AMapWithoutPixelsIsIgnored) {
   TexturedSquare square;
   square.show({});
