@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "codec/appearance/appearance.h"
 #include "codec/distance/surface_distance.h"
@@ -28,6 +30,23 @@ std::string note_on_units(const SurfaceInput& a, const SurfaceInput& b) {
       "differ, "
       "build a model of {} with --unit and measure that",
       first ? "A" : "B", first ? "B" : "A", first ? b.unit : a.unit, first ? "A" : "B");
+}
+
+// Returns the lines about pictures and materials of A and B that are not compared.
+std::vector<std::string> notes_on_looks(const SurfaceInput& a, const SurfaceInput& b) {
+  std::vector<std::string> notes;
+  for (const std::string& line : a.not_carried)
+    notes.push_back("A: " + line);
+  for (const std::string& line : b.not_carried)
+    notes.push_back("B: " + line);
+  return notes;
+}
+
+// Returns one note about all that makes the numbers doubtful. Empty if there is no doubt.
+std::string notes_on(const SurfaceInput& a, const SurfaceInput& b) {
+  std::vector<std::string> notes = notes_on_looks(a, b);
+  if (auto units = note_on_units(a, b); !units.empty()) notes.push_back(std::move(units));
+  return fmt::format("{}", fmt::join(notes, "; "));
 }
 
 json one_way(const OneWayDistance& d) {
@@ -128,7 +147,7 @@ Expected<Product> compare(const MeasuredFile& a, const MeasuredFile& b, const Re
   if (!first) return tl::unexpected(first.error());
   auto second = b.read(options);
   if (!second) return tl::unexpected(second.error());
-  const std::string note = note_on_units(*first, *second);
+  const std::string note = notes_on(*first, *second);
   convert(*first, second->unit);
   auto report = measure.compare(*std::move(first), *std::move(second));
   if (!report) return tl::unexpected(report.error());

@@ -8,6 +8,18 @@
 namespace vitrine::server::cli {
 namespace {
 
+// Returns the lines of a reader's report about materials and pictures that the texturing lacks.
+// These lines state a reason. Lines that mention vertices are about vertex colours, which do not
+// matter to a mesh with texturing.
+std::vector<std::string> not_carried(const ImportedMesh& imported) {
+  std::vector<std::string> lines;
+  for (const std::string& line : imported.repairs) {
+    if (line.find(" not carried: ") == line.npos) continue;
+    if (imported.texturing.empty() || line.find("vertices") == line.npos) lines.push_back(line);
+  }
+  return lines;
+}
+
 Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& reading) {
   if (is_drc(file.bytes()))
     return read_drc(file.bytes()).map([](TriangleMesh&& mesh) {
@@ -16,9 +28,11 @@ Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& read
   if (!file.is_pmesh()) {
     auto imported = read_mesh(file.bytes(), reading);
     if (!imported) return tl::unexpected(imported.error());
+    auto lines = not_carried(*imported);
     return SurfaceInput{.mesh = std::move(imported->mesh),
                         .unit = std::move(imported->unit),
-                        .texturing = std::move(imported->texturing)};
+                        .texturing = std::move(imported->texturing),
+                        .not_carried = std::move(lines)};
   }
   auto refiner = open_model(file.bytes());
   if (!refiner) return tl::unexpected(refiner.error());

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "codec/import/read_mesh.h"
 #include "codec/mesh/texturing.h"
@@ -17,6 +18,8 @@ struct SurfaceInput {
   std::string unit;  // empty if unknown
   // Empty for a .pmesh. Readers also bake its factors and maps into the vertex colours.
   Texturing texturing;
+  // One line for each kind of material or picture in the file that `texturing` lacks.
+  std::vector<std::string> not_carried;
 };
 
 // Reads a mesh file, or the finest level of a .pmesh file. `reading` applies to mesh files only.

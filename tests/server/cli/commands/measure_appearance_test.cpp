@@ -44,5 +44,32 @@ TEST_F(VitrineCommand, MeasureComparesTexturesBetweenTheVertices) {
   EXPECT_LT(spotted["ssim"].get<double>(), 0.99);
 }
 
+constexpr const char* kTexturedTriangle =
+    "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+    "f 1/1 2/2 3/3\n";
+
+TEST_F(VitrineCommand, MeasureNotesPicturesThatItDoesNotCompare) {
+  const std::string textured = write("textured.obj", kTexturedTriangle);
+  const std::string plain = write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_THAT(vitrine({"measure", plain, textured, "--appearance"}).errors,
+              HasSubstr("note: B: material library 'm.mtl' not carried: it is not beside"));
+  write("m.mtl", "newmtl m\nmap_Kd lost.png\n");
+  EXPECT_EQ(vitrine({"measure", textured, textured, "--appearance"}).errors,
+            "vitrine: note: "
+            "A: texture map 'lost.png' not carried: it is not beside the mesh file; "
+            "B: texture map 'lost.png' not carried: it is not beside the mesh file\n");
+  EXPECT_EQ(vitrine({"measure", textured, textured}).errors, "");
+}
+
+TEST_F(VitrineCommand, MeasureDoesNotNoteVertexColoursThatThePicturesReplace) {
+  write("m.mtl", "newmtl m\nmap_Kd white.png\n");
+  write("white.png", spotted_png(255));
+  std::string text = kTexturedTriangle;
+  for (const std::string_view vertex : {"v 0 0 0", "v 1 0 0", "v 0 1 0"})
+    text.insert(text.find(vertex) + vertex.size(), " 1 0 0");
+  const std::string textured = write("textured.obj", text);
+  EXPECT_EQ(vitrine({"measure", textured, textured, "--appearance"}).errors, "");
+}
+
 }  // namespace
 }  // namespace vitrine::test
