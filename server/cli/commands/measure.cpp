@@ -83,6 +83,7 @@ std::string likeness(const json& r) {
 struct Measure {
   std::function<Expected<json>(SurfaceInput a, SurfaceInput b)> compare;
   std::string (*as_text)(const json& report);
+  SurfaceParts parts = SurfaceParts::kShape;  // of the surfaces that `compare` needs
 };
 
 Measure distance_measure(const MeasureOptions& options) {
@@ -109,7 +110,7 @@ Expected<json> compare_looks(SurfaceInput a, SurfaceInput b) {
 tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
   if (arguments.has("--appearance")) {
     if (!arguments.has("--align") && !arguments.has("--samples"))
-      return Measure{compare_looks, likeness};
+      return Measure{compare_looks, likeness, SurfaceParts::kLooks};
     return misused("--align and --samples are for distances; leave them or --appearance out");
   }
   MeasureOptions options{.aligns = arguments.has("--align")};
@@ -119,26 +120,31 @@ tl::expected<Measure, Fault> measure_from(const Arguments& arguments) {
   return distance_measure(options);
 }
 
-// A surface's file with the files beside it, from which its textures come.
+// A surface's file with the files beside it that its parts need.
 class MeasuredFile {
  public:
-  MeasuredFile(std::string name, InputFile file)
-      : name_(std::move(name)), file_(std::move(file)), beside_(name_, file_.bytes()) {}
+  MeasuredFile(std::string name, InputFile file, SurfaceParts parts)
+      : name_(std::move(name)),
+        file_(std::move(file)),
+        parts_(parts),
+        beside_(name_, file_.bytes(),
+                parts == SurfaceParts::kLooks ? CompanionKinds::kAll : CompanionKinds::kBuffers) {}
 
   Expected<SurfaceInput> read(ReadOptions options) const {
     options.beside = beside_.contents();
-    return read_surface(file_, name_, options);
+    return read_surface(file_, name_, options, parts_);
   }
 
  private:
   std::string name_;
   InputFile file_;
+  SurfaceParts parts_;
   CompanionFiles beside_;
 };
 
-Expected<MeasuredFile> open_measured(const std::string& name) {
+Expected<MeasuredFile> open_measured(const std::string& name, SurfaceParts parts) {
   return InputFile::open(name).map(
-      [&](InputFile&& file) { return MeasuredFile(name, std::move(file)); });
+      [&](InputFile&& file) { return MeasuredFile(name, std::move(file), parts); });
 }
 
 Expected<Product> compare(const MeasuredFile& a, const MeasuredFile& b, const ReadOptions& options,
@@ -160,7 +166,8 @@ CommandOutcome run_measure(const Arguments& arguments) {
   if (!chosen) return tl::unexpected(chosen.error());
   const auto reading = reading_options(arguments);
   if (!reading) return tl::unexpected(reading.error());
-  const auto a = open_measured(arguments.operand(0)), b = open_measured(arguments.operand(1));
+  const auto a = open_measured(arguments.operand(0), chosen->parts),
+             b = open_measured(arguments.operand(1), chosen->parts);
   if (!a) return failed(a.error());
   if (!b) return failed(b.error());
   const auto product = isolate(

@@ -62,17 +62,32 @@ bool is_library(const std::string& key) {
   return key.ends_with(".mtl");
 }
 
+bool is_buffer(const std::string& key) {
+  return key.ends_with(".bin");
+}
+
 bool is_buffer_or_picture(const std::string& key) {
-  constexpr std::array<std::string_view, 5> kEndings{".bin", ".png", ".jpg", ".jpeg", ".webp"};
-  return std::ranges::any_of(kEndings, [&](std::string_view end) { return key.ends_with(end); });
+  constexpr std::array<std::string_view, 4> kPictures{".png", ".jpg", ".jpeg", ".webp"};
+  return is_buffer(key) ||
+         std::ranges::any_of(kPictures, [&](std::string_view end) { return key.ends_with(end); });
+}
+
+// Tells from the key of a file whether it is opened.
+using Filter = bool (*)(const std::string& key);
+
+// Returns the filters to use one after the other. Files that pass the first may name others.
+std::vector<Filter> filters_of(CompanionKinds kinds) {
+  if (kinds == CompanionKinds::kBuffers) return {is_buffer};
+  return {is_library, is_buffer_or_picture};
 }
 
 }  // namespace
 
-CompanionFiles::CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh) {
+CompanionFiles::CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh,
+                               CompanionKinds kinds) {
   const std::vector<fs::path> candidates = files_beside(path);
   std::string text = searchable(mesh);
-  for (const auto is_wanted : {is_library, is_buffer_or_picture}) {
+  for (const Filter is_wanted : filters_of(kinds)) {
     std::string libraries;
     for (const fs::path& candidate : candidates) {
       const std::string key = companion_key(candidate.filename().string());

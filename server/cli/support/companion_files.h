@@ -3,6 +3,7 @@
 // sandbox cannot open files, so they are opened outside it. They are parsed only in the sandbox.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -11,13 +12,17 @@
 
 namespace vitrine::server::cli {
 
+// kBuffers: only the .bin files, which have the shape of a glTF file.
+enum class CompanionKinds : std::uint8_t { kAll, kBuffers };
+
 class CompanionFiles {
  public:
   // Opens the .mtl files in the folder of `path` and its subfolders whose names occur in the first
   // megabyte of `mesh`, or in the JSON of a glTF file. Also opens the .bin files and pictures whose
   // names occur there or in those .mtl files. If names repeat, the file in the folder itself is
   // opened, or else that in the first subfolder.
-  CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh);
+  CompanionFiles(const std::string& path, std::span<const std::uint8_t> mesh,
+                 CompanionKinds kinds = CompanionKinds::kAll);
 
   // The result is valid while this object exists.
   Companions contents() const;

@@ -20,7 +20,8 @@ std::vector<std::string> not_carried(const ImportedMesh& imported) {
   return lines;
 }
 
-Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& reading) {
+Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& reading,
+                                  SurfaceParts parts) {
   if (is_drc(file.bytes()))
     return read_drc(file.bytes()).map([](TriangleMesh&& mesh) {
       return SurfaceInput{.mesh = std::move(mesh)};
@@ -28,11 +29,11 @@ Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& read
   if (!file.is_pmesh()) {
     auto imported = read_mesh(file.bytes(), reading);
     if (!imported) return tl::unexpected(imported.error());
-    auto lines = not_carried(*imported);
-    return SurfaceInput{.mesh = std::move(imported->mesh),
-                        .unit = std::move(imported->unit),
-                        .texturing = std::move(imported->texturing),
-                        .not_carried = std::move(lines)};
+    SurfaceInput surface{.mesh = std::move(imported->mesh), .unit = std::move(imported->unit)};
+    if (parts == SurfaceParts::kShape) return surface;
+    surface.not_carried = not_carried(*imported);
+    surface.texturing = std::move(imported->texturing);
+    return surface;
   }
   auto refiner = open_model(file.bytes());
   if (!refiner) return tl::unexpected(refiner.error());
@@ -46,8 +47,8 @@ Expected<SurfaceInput> surface_in(const InputFile& file, const ReadOptions& read
 }  // namespace
 
 Expected<SurfaceInput> read_surface(const InputFile& file, const std::string& name,
-                                    const ReadOptions& reading) {
-  return surface_in(file, reading).map_error([&](const Error& error) {
+                                    const ReadOptions& reading, SurfaceParts parts) {
+  return surface_in(file, reading, parts).map_error([&](const Error& error) {
     return Error{error.code, name + ": " + error.message};
   });
 }

@@ -2,6 +2,7 @@
 // Reads the surface in a mesh file or a .pmesh file.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,10 +14,14 @@
 
 namespace vitrine::server::cli {
 
+// kShape: the mesh and its unit. kLooks: also the texturing, which takes memory for its pictures.
+enum class SurfaceParts : std::uint8_t { kShape, kLooks };
+
 struct SurfaceInput {
   TriangleMesh mesh;
   std::string unit;  // empty if unknown
-  // Empty for a .pmesh. Readers also bake its factors and maps into the vertex colours.
+  // Empty for a .pmesh and with kShape. Readers also bake its factors and maps into the vertex
+  // colours.
   Texturing texturing;
   // One line for each kind of material or picture in the file that `texturing` lacks.
   std::vector<std::string> not_carried;
@@ -25,7 +30,8 @@ struct SurfaceInput {
 // Reads a mesh file, or the finest level of a .pmesh file. `reading` applies to mesh files only.
 // Must run in the sandbox if the bytes are untrusted.
 Expected<SurfaceInput> read_surface(const InputFile& file, const std::string& name,
-                                    const ReadOptions& reading = {});
+                                    const ReadOptions& reading = {},
+                                    SurfaceParts parts = SurfaceParts::kShape);
 
 // Converts the surface to `unit`. Has no effect unless both units are known.
 void convert(SurfaceInput& surface, std::string_view unit);
