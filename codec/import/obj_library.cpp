@@ -2,36 +2,117 @@
 #include "codec/import/obj_library.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
 
 #include "codec/import/text_cursor.h"
 
 namespace vitrine::inline codec {
 namespace {
 
-// A statement that names a map, and where its name is stored.
+// A statement that names a map, in lower case, and where it is stored.
 struct MapStatement {
   std::string_view keyword;
-  std::string ObjMaterial::*name;
+  ObjMap ObjMaterial::*map;
 };
-constexpr std::array<MapStatement, 8> kMaps{{{"map_Kd", &ObjMaterial::diffuse_map},
+constexpr std::array<MapStatement, 7> kMaps{{{"map_kd", &ObjMaterial::diffuse_map},
                                              {"map_d", &ObjMaterial::opacity_map},
                                              {"norm", &ObjMaterial::normal_map},
-                                             {"map_Kn", &ObjMaterial::normal_map},
-                                             {"map_Bump", &ObjMaterial::bump_map},
+                                             {"map_kn", &ObjMaterial::normal_map},
                                              {"map_bump", &ObjMaterial::bump_map},
                                              {"bump", &ObjMaterial::bump_map},
-                                             {"map_Ke", &ObjMaterial::emission_map}}};
+                                             {"map_ke", &ObjMaterial::emission_map}}};
 
 constexpr std::array<std::string_view, 9> kUnreadMaps{
     "map_Ks", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Tr", "disp", "decal", "refl"};
 
 constexpr double kMostEmission = 1e6;
 
-// Returns the file name of a map. If options such as "-s 1 1 1" precede it, the name is the last
-// word. Otherwise it is the whole text, which may contain blanks.
-std::string_view map_name(std::string_view rest) {
+// An option of a map statement, and how many values follow it. There may be fewer numbers.
+struct MapOption {
+  std::string_view name;
+  std::size_t values;
+  bool are_numbers = false;
+};
+constexpr std::array<MapOption, 12> kMapOptions{{{"-s", 3, true},
+                                                 {"-o", 3, true},
+                                                 {"-t", 3, true},
+                                                 {"-mm", 2, true},
+                                                 {"-bm", 1, true},
+                                                 {"-boost", 1, true},
+                                                 {"-texres", 1, true},
+                                                 {"-blendu", 1},
+                                                 {"-blendv", 1},
+                                                 {"-cc", 1},
+                                                 {"-clamp", 1},
+                                                 {"-imfchan", 1}}};
+
+constexpr float kMostTextureScale = 1e6;
+
+std::string_view first_of(std::string_view text) {
+  return text.substr(0, text.find_first_of(" \t"));
+}
+
+void drop_first(std::string_view& text) {
+  text.remove_prefix(first_of(text).size());
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+}
+
+bool is_number(std::string_view word) {
+  double value = 0;
+  const char* end = word.data() + word.size();
+  return !word.empty() && std::from_chars(word.data(), end, value).ptr == end;
+}
+
+// Returns the numbers of an option. Those that are missing, or too large for any use, are
+// `otherwise`.
+std::array<float, 2> numbers_of(const std::vector<std::string_view>& values, float otherwise) {
+  std::array<float, 2> out{otherwise, otherwise};
+  for (std::size_t i = 0; i < std::min(values.size(), out.size()); ++i) {
+    float value = otherwise;
+    std::from_chars(values[i].data(), values[i].data() + values[i].size(), value);
+    if (std::abs(value) <= kMostTextureScale) out[i] = value;
+  }
+  return out;
+}
+
+std::vector<std::string_view> take_values(const MapOption& option, std::string_view& rest) {
+  std::vector<std::string_view> values;
+  while (values.size() < option.values && !rest.empty()) {
+    if (option.are_numbers && !is_number(first_of(rest))) break;
+    values.push_back(first_of(rest));
+    drop_first(rest);
+  }
+  return values;
+}
+
+std::string_view without_quotes(std::string_view name) {
+  const bool quoted = name.size() > 2 && name.front() == '"' && name.back() == '"';
+  return quoted ? name.substr(1, name.size() - 2) : name;
+}
+
+// Reads the options and the file name of a map. The name may contain blanks, except behind an
+// unknown option.
+ObjMap read_map_name(std::string_view rest) {
+  ObjMap out;
   rest = without_end_blanks(rest);
-  return rest.starts_with('-') ? rest.substr(rest.find_last_of(" \t") + 1) : rest;
+  while (rest.starts_with('-')) {
+    const auto* option =
+        std::ranges::find(kMapOptions, lower_case(first_of(rest)), &MapOption::name);
+    if (option == kMapOptions.end()) {
+      rest = rest.substr(rest.find_last_of(" \t") + 1);
+      break;
+    }
+    drop_first(rest);
+    const auto values = take_values(*option, rest);
+    if (option->name == "-s") out.scale = numbers_of(values, 1);
+    if (option->name == "-o") out.offset = numbers_of(values, 0);
+    if (option->name == "-clamp" && values == std::vector<std::string_view>{"on"})
+      out.is_clamped = true;
+  }
+  out.name = without_quotes(rest);
+  return out;
 }
 
 std::optional<std::array<double, 3>> read_colour(TextCursor& text) {
@@ -53,18 +134,18 @@ double emitted(double value) {
 }
 
 void read_statement(std::string_view keyword, TextCursor& text, ObjMaterial& out) {
-  if (keyword == "Kd") {
+  if (keyword == "kd") {
     if (const auto colour = read_colour(text)) out.diffuse = colour;
-  } else if (keyword == "Ke") {
+  } else if (keyword == "ke") {
     if (const auto colour = read_colour(text))
       out.emission = {emitted((*colour)[0]), emitted((*colour)[1]), emitted((*colour)[2])};
   } else if (keyword == "d") {
     out.opacity = read_unit(text, out.opacity);
-  } else if (keyword == "Tr") {
+  } else if (keyword == "tr") {
     out.opacity = 1 - read_unit(text, 1 - out.opacity);
-  } else if (keyword == "Pm") {
+  } else if (keyword == "pm") {
     out.metallic = read_unit(text, out.metallic);
-  } else if (keyword == "Pr") {
+  } else if (keyword == "pr") {
     out.roughness = read_unit(text, out.roughness);
   }
 }
@@ -72,8 +153,8 @@ void read_statement(std::string_view keyword, TextCursor& text, ObjMaterial& out
 void read_map(std::string_view keyword, TextCursor& text, ObjMaterial& out) {
   const auto* map = std::ranges::find(kMaps, keyword, &MapStatement::keyword);
   if (map != kMaps.end()) {
-    out.*(map->name) = map_name(text.rest_of_line());
-  } else if (const auto* unread = std::ranges::find(kUnreadMaps, keyword);
+    out.*(map->map) = read_map_name(text.rest_of_line());
+  } else if (const auto* unread = std::ranges::find(kUnreadMaps, keyword, lower_case);
              unread != kUnreadMaps.end()) {
     out.unread.insert(*unread);
   }
@@ -91,7 +172,7 @@ void read_obj_library(std::span<const std::uint8_t> bytes, ObjLibrary& out) {
   TextCursor text(bytes);
   ObjMaterial* material = nullptr;
   while (text.seek_word()) {
-    const std::string_view keyword = text.word();
+    const std::string keyword = lower_case(text.word());
     if (keyword == "newmtl") {
       material = &out[std::string(without_end_blanks(text.rest_of_line()))];
     } else if (material != nullptr) {

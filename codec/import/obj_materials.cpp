@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "codec/import/plain_material.h"
+#include "codec/picture/sample.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -21,13 +22,17 @@ bool ObjMaterials::open_library(std::string_view name) {
   name = without_end_blanks(name);
   const auto bytes = find_companion(companions_, name);
   if (!bytes) return false;
+  has_library_ = true;
   if (opened_.insert(companion_key(name)).second) read_obj_library(*bytes, library_);
   return true;
 }
 
 std::uint16_t ObjMaterials::use(std::string_view name) {
-  current_ = find(without_end_blanks(name));
-  return current_ == nullptr ? plain() : current_->index;
+  name = without_end_blanks(name);
+  current_ = find(name);
+  if (current_ != nullptr) return current_->index;
+  if (has_library_ && !name.empty() && !unknown_.contains(name)) unknown_.emplace(name);
+  return plain();
 }
 
 const ObjMaterials::UsedMaterial* ObjMaterials::find(std::string_view name) {
@@ -36,21 +41,34 @@ const ObjMaterials::UsedMaterial* ObjMaterials::find(std::string_view name) {
   if (it == library_.end()) return nullptr;
   const ObjMaterial& source = it->second;
   UsedMaterial material{.diffuse = linear_diffuse(source)};
-  if (!source.diffuse_map.empty()) material.picture = pictures_.find(source.diffuse_map);
+  bake(source, material);
   material.index = carry(it->first, source, material);
   return &used_.emplace(it->first, material).first->second;
+}
+
+// Finds the colour that the vertices take.
+void ObjMaterials::bake(const ObjMaterial& source, UsedMaterial& out) {
+  const bool is_black = source.diffuse == std::array<double, 3>{0, 0, 0};
+  out.map = source.diffuse_map.empty() && is_black ? source.emission_map : source.diffuse_map;
+  if (!out.map.empty()) {
+    out.picture = pictures_.find(out.map.name);
+  } else if (is_black) {
+    const auto [r, g, b] = source.emission;
+    out.diffuse = to_linear({to_byte(r), to_byte(g), to_byte(b)});
+  }
 }
 
 std::uint16_t ObjMaterials::carry(std::string name, const ObjMaterial& source,
                                   const UsedMaterial& used) {
   if (carried_.size() >= kMostUsedMaterials) return ++beyond_limit_, plain();
   Material out{.name = std::move(name)};
-  const LinearColour colour = used.picture == nullptr ? used.diffuse : LinearColour{1, 1, 1};
+  const bool has_picture = used.picture != nullptr && !source.diffuse_map.empty();
+  const LinearColour colour = has_picture ? LinearColour{1, 1, 1} : linear_diffuse(source);
   out.base_colour = {colour[0], colour[1], colour[2], source.opacity};
   out.metallic = source.metallic;
   out.roughness = source.roughness;
   out.emission = source.emission;
-  if (used.picture != nullptr) out.base_colour_map = map(source.diffuse_map);
+  if (has_picture) out.base_colour_map = map(source.diffuse_map);
   carry_other_maps(source, out);
   if (source.opacity < 1) out.alpha_mode = AlphaMode::kBlend;
   for_each_map(out, [&](const TextureMap&) { has_maps_ = true; });
@@ -61,14 +79,14 @@ std::uint16_t ObjMaterials::carry(std::string name, const ObjMaterial& source,
 void ObjMaterials::carry_other_maps(const ObjMaterial& source, Material& out) {
   unread_.insert(source.unread.begin(), source.unread.end());
   if (!source.opacity_map.empty()) {
-    if (source.opacity_map == source.diffuse_map)
+    if (source.opacity_map.name == source.diffuse_map.name)
       out.alpha_mode = AlphaMode::kBlend;
     else
       unread_.insert("map_d");
   }
   out.normal_map = map(source.normal_map);
   if (source.normal_map.empty() && !source.bump_map.empty()) {
-    if (pictures_.shows_normals(source.bump_map))
+    if (pictures_.shows_normals(source.bump_map.name))
       out.normal_map = map(source.bump_map);
     else
       unread_.insert("map_Bump");
@@ -77,10 +95,14 @@ void ObjMaterials::carry_other_maps(const ObjMaterial& source, Material& out) {
   if (out.emission_map && out.emission == Vec3{}) out.emission = {1, 1, 1};
 }
 
-std::optional<TextureMap> ObjMaterials::map(const std::string& name) {
-  if (name.empty()) return std::nullopt;
-  const auto picture = pictures_.carry(name);
-  return picture ? std::optional(TextureMap{.picture = *picture}) : std::nullopt;
+std::optional<TextureMap> ObjMaterials::map(const ObjMap& source) {
+  if (source.empty()) return std::nullopt;
+  const auto picture = pictures_.carry(source.name);
+  if (!picture) return std::nullopt;
+  return TextureMap{.picture = *picture,
+                    .wrap_u = source.wrap(),
+                    .wrap_v = source.wrap(),
+                    .transform = source.transform()};
 }
 
 std::uint16_t ObjMaterials::plain() {
@@ -93,8 +115,11 @@ std::uint16_t ObjMaterials::plain() {
 
 LinearColour ObjMaterials::colour_at(double u, double v) const {
   if (current_ == nullptr) return {1, 1, 1};
-  return current_->picture == nullptr ? current_->diffuse
-                                      : sample_upwards(*current_->picture, u, v);
+  if (current_->picture == nullptr) return current_->diffuse;
+  const auto& [offset, scale, rotation] = current_->map.transform();
+  const Wrap wrap = current_->map.wrap();
+  return sample(*current_->picture, offset[0] + scale[0] * u, offset[1] + scale[1] * (1 - v), wrap,
+                wrap);
 }
 
 void ObjMaterials::give_to(RawMesh& mesh) {
@@ -122,6 +147,11 @@ std::vector<std::string> ObjMaterials::report_unread() const {
   if (!names.empty()) {
     lines.push_back("material maps not carried: " + names +
                     "; bake them into map_Kd, or into a normal map named by norm");
+  }
+  if (!unknown_.empty()) {
+    lines.push_back(counted(unknown_.size(), "material") +
+                    " not in the material library, such as " + in_quotes(*unknown_.begin()) +
+                    "; faces that use it are uncoloured, so add it to the library");
   }
   if (beyond_limit_ > 0) {
     lines.push_back(counted(beyond_limit_, "material") + " not carried: at most " +

@@ -29,7 +29,7 @@ class ObjMaterials {
   bool open_library(std::string_view name);
 
   // Selects the current material and returns its index among the carried ones. An unknown material
-  // is white.
+  // is white, and reported if a library was read.
   std::uint16_t use(std::string_view name);
   bool has_current() const { return current_ != nullptr; }
   // Returns the index of the material of faces that have none.
@@ -40,7 +40,7 @@ class ObjMaterials {
 
   // Returns the colour of the current material at (u, v), where (0, 0) is the lower left corner. If
   // the material has a picture, returns only the picture's colour, as most programs do. Otherwise
-  // returns Kd, taken as sRGB.
+  // returns Kd, taken as sRGB. A black material shows its emission instead.
   LinearColour colour_at(double u, double v) const;
 
   // Moves the materials and pictures to the mesh, unless all materials are plain.
@@ -55,18 +55,22 @@ class ObjMaterials {
   struct UsedMaterial {
     LinearColour diffuse{1, 1, 1};
     const Picture* picture = nullptr;
+    ObjMap map;  // the use of the picture
     std::uint16_t index = 0;
   };
 
   const UsedMaterial* find(std::string_view name);
+  void bake(const ObjMaterial& source, UsedMaterial& out);
   std::uint16_t carry(std::string name, const ObjMaterial& source, const UsedMaterial& used);
   void carry_other_maps(const ObjMaterial& source, Material& out);
-  std::optional<TextureMap> map(const std::string& name);
+  std::optional<TextureMap> map(const ObjMap& source);
 
   const Companions& companions_;
   NamedPictures pictures_;
   std::set<std::string> opened_;  // libraries; keys of companions_
   ObjLibrary library_;
+  bool has_library_ = false;
+  std::set<std::string, std::less<>> unknown_;  // names of materials that no library has
   std::map<std::string, UsedMaterial, std::less<>> used_;
   const UsedMaterial* current_ = nullptr;
   std::vector<Material> carried_;

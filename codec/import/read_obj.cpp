@@ -3,8 +3,10 @@
 // colours of materials.
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "codec/import/named_pictures.h"
+#include "codec/import/obj_colours.h"
 #include "codec/import/obj_materials.h"
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
@@ -21,25 +23,34 @@ class ObjReader {
   }
 
   Expected<RawMesh> read() {
-    while (text_.seek_word()) {
+    while (seek_statement()) {
       const std::string_view keyword = text_.word();
       bool ok = true;
       if (keyword == "v") ok = read_vertex();
       if (keyword == "f") ok = read_face();
       if (keyword == "vt") texture_coordinates();
       if (keyword == "vn") mesh_.has_seams = true;
-      if (keyword == "mtllib") open_library(text_.rest_of_line());
+      if (keyword == "mtllib") open_libraries(text_.rest_of_line());
       if (keyword == "usemtl") use_material(text_.rest_of_line());
       if (!ok) return bad_line(keyword);
       text_.next_line();
     }
-    convert_colours();
     finish_materials();
     materials_.give_to(mesh_);
     return std::move(mesh_);
   }
 
  private:
+  // Moves to the next statement. Reads the comments before it, which may hold colours.
+  bool seek_statement() {
+    while (text_.line_is_done()) {
+      if (text_.is_at_end()) return false;
+      colours_.read_comment(text_.rest_of_line());
+      text_.next_line();
+    }
+    return true;
+  }
+
   bool read_vertex() {
     std::array<float, 4> extra;
     Vec3 p;
@@ -47,11 +58,8 @@ class ObjReader {
     std::size_t count = 0;
     while (count < extra.size() && text_.read_number(extra[count]))
       ++count;
+    colours_.add(mesh_.positions.size(), std::span(extra).first(count));
     mesh_.positions.push_back(p);
-    if (count < 3) return true;  // a single fourth number is a weight
-    const std::size_t first = count - 3;
-    colours_.resize(mesh_.positions.size() - 1, {1, 1, 1});
-    colours_.push_back({extra[first], extra[first + 1], extra[first + 2]});
     return true;
   }
 
@@ -62,8 +70,34 @@ class ObjReader {
     mesh_.has_seams = true;
   }
 
-  void open_library(std::string_view name) {
-    if (!materials_.open_library(name)) missing_library_ = in_quotes(name);
+  // Opens the libraries of a statement. Their names are parted by blanks, which a name may also
+  // contain. So the most words that name a library come first.
+  void open_libraries(std::string_view names) {
+    constexpr std::size_t kMostWords = 8;
+    for (names = without_end_blanks(names); !names.empty();) {
+      std::vector<std::size_t> ends;
+      for (std::size_t end = 0; ends.size() < kMostWords && end < names.size();) {
+        end =
+            std::min(names.find_first_of(" \t", names.find_first_not_of(" \t", end)), names.size());
+        ends.push_back(end);
+      }
+      const auto found = std::find_if(ends.rbegin(), ends.rend(), [&](std::size_t end) {
+        return materials_.open_library(names.substr(0, end));
+      });
+      const std::size_t end = found == ends.rend() ? take_missing(names, ends) : *found;
+      names.remove_prefix(std::min(names.find_first_not_of(" \t", end), names.size()));
+    }
+  }
+
+  // Notes that no words at the start of `names` name a library. Returns the end of the name.
+  std::size_t take_missing(std::string_view names, const std::vector<std::size_t>& ends) {
+    const auto end = std::ranges::find_if(
+        ends, [&](std::size_t at) { return lower_case(names.substr(0, at)).ends_with(".mtl"); });
+    const std::size_t size = end == ends.end() ? ends.front() : *end;
+    constexpr std::size_t kMostNamed = 8;
+    if (missing_libraries_.size() < kMostNamed)
+      missing_libraries_.insert(in_quotes(names.substr(0, size)));
+    return size;
   }
 
   void use_material(std::string_view name) {
@@ -72,7 +106,8 @@ class ObjReader {
     mesh_.use_material(materials_.use(name));
   }
 
-  // A corner is v, v/vt, v//vn or v/vt/vn. Negative numbers count back from the newest vertex.
+  // A corner is v, v/vt, v//vn or v/vt/vn. Fields at the end may be empty, as in v//. Negative
+  // numbers count back from the newest vertex.
   bool read_face() {
     corners_.clear();
     at_corners_.clear();
@@ -83,10 +118,8 @@ class ObjReader {
       if (v <= 0) return false;
       corners_.push_back(static_cast<std::uint32_t>(std::min<std::int64_t>(v - 1, 0xFFFF'FFFF)));
       std::int64_t vt = 0;
-      if (text_.skip('/')) {
-        text_.read_number(vt, '/');
-        if (text_.skip('/')) text_.word();
-      }
+      if (text_.skip('/') && !text_.is_after_word()) text_.read_number(vt, '/');
+      if (text_.skip('/') && !text_.is_after_word()) text_.word();
       const auto place = place_of(vt);
       if (materials_.has_current()) add_sample(corners_.back(), place);
       if (materials_.has_maps()) at_corners_.push_back(from_upwards(place[0], place[1]));
@@ -94,23 +127,6 @@ class ObjReader {
     is_cut_ = corners_.size() < 3 && text_.is_at_end();
     mesh_.add_face(corners_, text_.line(), at_corners_);
     return !is_cut_;
-  }
-
-  // Colours should be 0 to 1, but some programs write 0 to 255.
-  void convert_colours() {
-    if (colours_.empty()) return;
-    colours_.resize(mesh_.positions.size(), {1, 1, 1});
-    float largest = 0;
-    for (const auto& colour : colours_) {
-      for (const float part : colour)
-        largest = std::max(largest, part);
-    }
-    const double scale = largest > 1 ? 1.0 / 255 : 1.0;
-    mesh_.attributes.colours.reserve(colours_.size());
-    for (const auto& [r, g, b] : colours_) {
-      mesh_.attributes.colours.push_back(
-          {to_byte(r * scale), to_byte(g * scale), to_byte(b * scale)});
-    }
   }
 
   // Returns the texture coordinate of a corner. `vt` is numbered like v; it is 0 if the corner has
@@ -130,25 +146,31 @@ class ObjReader {
   }
 
   void finish_materials() {
-    if (!means_.empty() && colours_.empty()) {
+    std::vector<std::string>& lines = mesh_.repairs;
+    if (!colours_.empty()) {
+      if (!means_.empty())
+        lines.emplace_back("materials not carried: the vertices have colours of their own");
+      mesh_.attributes.colours = colours_.take(mesh_.positions.size(), lines);
+    } else if (!means_.empty()) {
       means_.resize(mesh_.positions.size());
       mesh_.attributes.colours = means_.take();
       mesh_.is_baked = true;
-      mesh_.repairs = materials_.report_baked();
-    } else if (!means_.empty()) {
-      mesh_.repairs.emplace_back("materials not carried: the vertices have colours of their own");
-    } else if (!missing_library_.empty()) {
-      mesh_.repairs.push_back("material library " + missing_library_ +
-                              " not carried: it is not beside the mesh file");
-    } else if (!places_.empty()) {
-      mesh_.repairs.emplace_back("texture coordinates not carried");
+      lines = materials_.report_baked();
+    } else if (missing_libraries_.empty() && !places_.empty()) {
+      lines.emplace_back("texture coordinates not carried");
     }
+    for (const std::string& name : missing_libraries_)
+      lines.push_back("material library " + name + " not carried: it is not beside the mesh file");
     const auto unread = materials_.report_unread();
-    mesh_.repairs.insert(mesh_.repairs.end(), unread.begin(), unread.end());
+    lines.insert(lines.end(), unread.begin(), unread.end());
   }
 
   Unexpected bad_line(std::string_view keyword) const {
     const bool vertex = keyword == "v";
+    if (vertex && text_.has_decimal_comma()) {
+      return bad_input("OBJ line " + std::to_string(text_.line()) + ": " +
+                       std::string(kDecimalCommas));
+    }
     if (is_cut_) {
       return bad_input("OBJ line " + std::to_string(text_.line()) +
                        ": the file ends within this face; it is cut short, copy it again");
@@ -162,15 +184,15 @@ class ObjReader {
 
   TextCursor text_;
   RawMesh mesh_;
-  std::vector<std::array<float, 3>> colours_;
+  ObjColours colours_;
   std::vector<std::uint32_t> corners_;          // of the face that is read
   std::vector<TextureCoordinates> at_corners_;  // empty if no material has a map
   ObjMaterials materials_;
   std::vector<std::array<float, 2>> places_;  // texture coordinates
   ColourMeans means_;                         // mean material colours; empty if there are none yet
-  std::string missing_library_;
-  bool has_material_ = false;  // whether `usemtl` was read
-  bool is_cut_ = false;        // whether the last line ends before its third corner
+  std::set<std::string> missing_libraries_;   // in quotes
+  bool has_material_ = false;                 // whether `usemtl` was read
+  bool is_cut_ = false;                       // whether the last line ends before its third corner
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace vitrine::inline codec {
@@ -77,6 +78,17 @@ class TextCursor {
     return true;
   }
 
+  // Whether the cursor is not within a word: before a blank or a joined line, or at an end.
+  bool is_after_word() const { return at_ == end_ || is_space(*at_) || joins_lines(); }
+
+  // Whether the next word looks like a number with a decimal comma, such as "0,5".
+  bool has_decimal_comma() const {
+    const std::string_view next = TextCursor(*this).word();
+    const std::size_t comma = next.find(',');
+    return comma != next.npos && comma > 0 && comma + 1 < next.size() &&
+           next.find_first_not_of("0123456789+-,eE") == next.npos;
+  }
+
   // If `c` is at the cursor, skips it and returns true.
   bool skip(char c) {
     if (at_ == end_ || *at_ != c) return false;
@@ -116,10 +128,12 @@ class TextCursor {
     }
   }
 
+  bool joins_lines() const { return *at_ == '\\' && at_ + 1 != end_ && ends_line(at_[1]); }
+
   // Skips a backslash at the end of the line, together with the line end. Returns false if there is
   // none.
   bool join_lines() {
-    if (*at_ != '\\' || at_ + 1 == end_ || !ends_line(at_[1])) return false;
+    if (!joins_lines()) return false;
     ++at_;
     step_over_end();
     ++line_;
@@ -130,6 +144,17 @@ class TextCursor {
   const char* end_;
   std::uint64_t line_;
 };
+
+// Returns the text with the letters A to Z in lower case.
+inline std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+inline constexpr std::string_view kDecimalCommas =
+    "numbers have decimal commas; write them with points";
 
 inline std::string_view first_word(std::span<const std::uint8_t> bytes) {
   TextCursor text(bytes);
