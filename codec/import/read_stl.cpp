@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "codec/core/byte_cursor.h"
+#include "codec/import/face_colours.h"
 #include "codec/import/readers.h"
 #include "codec/import/text_cursor.h"
 #include "codec/repair/weld.h"
@@ -16,8 +17,32 @@ namespace {
 constexpr std::size_t kHeaderBytes = 84;  // 80 bytes of free text, then the number of facets
 constexpr std::size_t kFacetBytes = 50;
 
-// Makes a mesh of facets. Every three consecutive positions are the corners of one facet.
-Expected<RawMesh> weld_facets(std::vector<Vec3> positions) {
+std::string_view as_text(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// Facets as a file has them. Every three consecutive positions are the corners of one facet.
+struct Facets {
+  std::vector<Vec3> corners;
+  std::vector<StatedColour> colours;  // per facet, or kNoColour; may end early
+
+  void paint(const StatedColour& colour) {
+    colours.resize(corners.size() / 3, kNoColour);
+    if (!colours.empty()) colours.back() = colour;
+  }
+};
+
+void paint_faces(std::span<const StatedColour> colours, std::span<const std::uint32_t> index,
+                 RawMesh& mesh) {
+  FaceColours of_faces;
+  for (std::size_t f = 0; f < colours.size(); ++f) {
+    if (!std::isnan(colours[f][0])) of_faces.add(index.subspan(3 * f, 3), colours[f]);
+  }
+  of_faces.give_to(mesh);
+}
+
+Expected<RawMesh> weld_facets(Facets facets) {
+  std::vector<Vec3>& positions = facets.corners;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (is_usable(positions[i])) continue;
     return bad_input("STL facet " + std::to_string(i / 3) +
@@ -31,6 +56,7 @@ Expected<RawMesh> weld_facets(std::vector<Vec3> positions) {
   for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
     mesh.add_triangle({index[i], index[i + 1], index[i + 2]});
   }
+  paint_faces(facets.colours, index, mesh);
   return mesh;
 }
 
@@ -51,19 +77,115 @@ bool are_plausible_facets(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-Expected<RawMesh> read_binary(std::span<const std::uint8_t> bytes, std::uint32_t count) {
-  std::vector<Vec3> positions;
-  positions.reserve(3 * std::size_t{count});
-  ByteReader facets(bytes.subspan(kHeaderBytes));
-  for (std::uint32_t f = 0; f < count; ++f) {
-    facets.skip(12);  // skips the normal, which follows from the corners
+// Whether bytes that no count covers are facets: plausible, with normals of at most unit length,
+// and not only zeros.
+bool are_surplus_facets(std::span<const std::uint8_t> bytes) {
+  constexpr float kMostNormal = 1.01F;
+  ByteReader facets(bytes);
+  for (std::size_t f = 0; f < bytes.size() / kFacetBytes; ++f) {
     for (int k = 0; k < 3; ++k) {
-      const double x = facets.read<float>(), y = facets.read<float>(), z = facets.read<float>();
-      positions.push_back({x, y, z});
+      if (std::abs(facets.read<float>()) > kMostNormal) return false;  // NaN is allowed
+    }
+    for (int k = 0; k < 9; ++k) {
+      if (!is_plausible(facets.read<float>())) return false;
     }
     facets.skip(2);
   }
-  return weld_facets(std::move(positions));
+  return std::ranges::any_of(bytes, [](std::uint8_t byte) { return byte != 0; });
+}
+
+std::uint32_t stated_facets(std::span<const std::uint8_t> bytes) {
+  return load<std::uint32_t>(&bytes[80]);
+}
+
+// Text starts with "solid" and has no zero byte. Facets nearly always have one.
+bool looks_like_text(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kHeadBytes = 1024;
+  const auto head = bytes.first(std::min(bytes.size(), kHeadBytes));
+  return as_text(head.first(5)) == "solid" && std::ranges::find(head, 0) == head.end();
+}
+
+// Returns the number of facets of a binary file, or nullopt if the file is not binary or is cut
+// short. The size of the file decides if the count is too small, or too large for any file: some
+// programs write 0, all ones or blanks.
+std::optional<std::size_t> binary_facets(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kMostFacets = 500'000'000;
+  if (bytes.size() < kHeaderBytes) return std::nullopt;
+  const std::size_t stated = stated_facets(bytes), body = bytes.size() - kHeaderBytes;
+  const std::size_t there = body / kFacetBytes;
+  const bool is_whole = body % kFacetBytes == 0;
+  if (stated == there && is_whole) return stated;
+  if (looks_like_text(bytes)) return std::nullopt;
+  const bool is_believed = stated > 0 && stated <= kMostFacets;
+  const std::size_t known = is_believed ? stated : 0;
+  const bool may_have_more = known < there && (is_believed || is_whole);
+  if (may_have_more && are_surplus_facets(bytes.subspan(kHeaderBytes + kFacetBytes * known)))
+    return there;
+  return is_believed && stated <= there ? std::optional(stated) : std::nullopt;
+}
+
+// The colour of the whole object in a header of Materialise Magics: "COLOR=" and four bytes.
+std::optional<StatedColour> object_colour(std::span<const std::uint8_t> header) {
+  constexpr std::string_view kKeyword = "COLOR=";
+  const std::size_t at = as_text(header.first(80)).find(kKeyword);
+  if (at > 80 - kKeyword.size() - 4) return std::nullopt;
+  const std::uint8_t* bytes = &header[at + kKeyword.size()];
+  return StatedColour{bytes[0] / 255.F, bytes[1] / 255.F, bytes[2] / 255.F};
+}
+
+// Returns the colour in a facet's last two bytes: five bits per component, and a bit that tells
+// whether they count. Magics has red in the lowest bits and sets the bit for the object's colour.
+// VisCAM and SolidView have blue in the lowest bits and set the bit for a colour.
+StatedColour facet_colour(std::uint16_t bits, const std::optional<StatedColour>& of_object) {
+  const auto part = [&](int shift) { return static_cast<float>(bits >> shift & 31) / 31; };
+  const bool flag = bits >> 15 != 0;
+  if (of_object) return flag ? *of_object : StatedColour{part(0), part(5), part(10)};
+  return flag ? StatedColour{part(10), part(5), part(0)} : kNoColour;
+}
+
+std::vector<StatedColour> colours_of_facets(std::span<const std::uint8_t> bytes,
+                                            std::size_t count) {
+  auto of_object = object_colour(bytes);
+  const auto bits = [&](std::size_t f) {
+    return load<std::uint16_t>(&bytes[kHeaderBytes + kFacetBytes * (f + 1) - 2]);
+  };
+  bool has_bits = false;
+  for (std::size_t f = 0; f < count && !has_bits; ++f)
+    has_bits = bits(f) != 0;
+  if (!has_bits && !of_object) return {};
+  std::vector<StatedColour> colours(count);
+  for (std::size_t f = 0; f < count; ++f)
+    colours[f] = has_bits ? facet_colour(bits(f), of_object) : *of_object;
+  return colours;
+}
+
+std::string report_count(std::span<const std::uint8_t> bytes, std::size_t count) {
+  const std::size_t rest = bytes.size() - kHeaderBytes - kFacetBytes * count;
+  if (stated_facets(bytes) != count)
+    return counted(count, "facet") + " read by the file's size, though its header counts " +
+           std::to_string(stated_facets(bytes)) + "; compare the model with its source";
+  if (rest < kFacetBytes) return {};
+  return counted(rest, "byte") +
+         " after the counted facets are no facets and not read; compare the model with its source";
+}
+
+Expected<RawMesh> read_binary(std::span<const std::uint8_t> bytes, std::size_t count) {
+  Facets out;
+  out.corners.reserve(3 * count);
+  ByteReader facets(bytes.subspan(kHeaderBytes));
+  for (std::size_t f = 0; f < count; ++f) {
+    facets.skip(12);  // skips the normal, which follows from the corners
+    for (int k = 0; k < 3; ++k) {
+      const double x = facets.read<float>(), y = facets.read<float>(), z = facets.read<float>();
+      out.corners.push_back({x, y, z});
+    }
+    facets.skip(2);
+  }
+  out.colours = colours_of_facets(bytes, count);
+  auto mesh = weld_facets(std::move(out));
+  if (const auto line = report_count(bytes, count); mesh && !line.empty())
+    mesh->repairs.push_back(line);
+  return mesh;
 }
 
 class AsciiStl {
@@ -74,35 +196,58 @@ class AsciiStl {
     while (text_.seek_word()) {
       const std::string word = lower_word();
       if (!take(word)) {
+        if (text_.has_decimal_comma()) return has_commas();
         return bad_input("STL line " + std::to_string(text_.line()) + ": " + in_quotes(word) +
                          " is out of place or lacks numbers; the file is damaged, export it again");
       }
     }
     if (is_inside_)
       return bad_input("the STL file has no endsolid; it is cut short, copy it again");
-    return weld_facets(std::move(positions_));
+    return weld_facets(std::move(facets_));
   }
 
  private:
-  std::string lower_word() {
-    std::string word(text_.word().substr(0, 12));
-    for (char& c : word)
-      c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return word;
+  Unexpected has_commas() const {
+    return bad_input("STL line " + std::to_string(text_.line()) + ": " +
+                     std::string(kDecimalCommas));
   }
 
-  bool take(std::string_view word) {
-    if (word == "solid" || word == "endsolid") {
-      const bool fits = is_inside_ == (word == "endsolid") && corners_ == 0;
+  std::string lower_word() { return lower_case(text_.word().substr(0, 12)); }
+
+  // Takes a statement. Some programs part "end" from the word after it, or join a word with a name.
+  bool take(std::string word) {
+    if (word == "end") word += lower_word();
+    if (word.starts_with(is_inside_ ? "endsolid" : "solid")) {
       is_inside_ = !is_inside_;
       text_.next_line();
-      return fits;
+      return corners_ == 0;
     }
     if (!is_inside_) return false;
     if (word == "vertex") return read_vertex();
-    if (word == "facet") return lower_word() == "normal" && read_numbers();
+    if (word == "facet") return skip_normal(), true;
     if (word == "endloop") return std::exchange(corners_, 0) == 3;
-    return word == "outer" ? lower_word() == "loop" : word == "endfacet";
+    if (word == "endfacet" || word == "color") return read_colour(), true;
+    return word == "outerloop" || (word == "outer" && lower_word() == "loop");
+  }
+
+  // Skips the word "normal" and its numbers, which need not be finite: Visual C++ writes 1.#QNAN.
+  void skip_normal() {
+    for (int i = 0; i < 4 && text_.seek_word(); ++i) {
+      TextCursor next = text_;
+      if (lower_case(next.word()).starts_with("outer")) return;
+      text_ = next;
+    }
+  }
+
+  // Reads the colour of the facet, if there is one on this line.
+  void read_colour() {
+    StatedColour colour{};
+    for (float& part : colour) {
+      if (!text_.read_number(part)) return;
+    }
+    double opacity = 0;
+    text_.read_number(opacity);
+    facets_.paint(colour);
   }
 
   bool read_numbers() {
@@ -114,12 +259,12 @@ class AsciiStl {
 
   bool read_vertex() {
     if (corners_++ == 3 || !read_numbers()) return false;
-    positions_.push_back({values_[0], values_[1], values_[2]});
+    facets_.corners.push_back({values_[0], values_[1], values_[2]});
     return true;
   }
 
   TextCursor text_;
-  std::vector<Vec3> positions_;
+  Facets facets_;
   std::array<double, 3> values_{};
   int corners_ = 0;  // corners of the current loop so far
   bool is_inside_ = false;
@@ -138,26 +283,27 @@ std::optional<std::string> facets_of_cut_stl(std::span<const std::uint8_t> bytes
   return std::to_string(there) + " of " + std::to_string(count) + " triangles";
 }
 
+// Some programs write the name of the solid without a blank.
+bool is_text_stl(std::span<const std::uint8_t> bytes) {
+  const std::string word = lower_case(first_word(bytes).substr(0, 6));
+  if (word == "solid") return true;
+  constexpr std::size_t kHeadBytes = 1024;
+  const std::string_view head = as_text(bytes.first(std::min(bytes.size(), kHeadBytes)));
+  return word.starts_with("solid") && lower_case(head).find("facet") != head.npos;
+}
+
 }  // namespace
 
 bool is_binary_stl(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < kHeaderBytes) return false;
-  const std::size_t size = kHeaderBytes + kFacetBytes * load<std::uint32_t>(&bytes[80]);
-  // Text has no zero byte. The facet count of a binary file nearly always has one.
-  const auto header = bytes.first(kHeaderBytes);
-  const bool may_be_text = std::equal(header.begin(), header.begin() + 5, "solid") &&
-                           std::find(header.begin(), header.end(), 0) == header.end();
-  return size == bytes.size() || (!may_be_text && size > kHeaderBytes && size < bytes.size());
+  return binary_facets(bytes).has_value();
 }
 
 bool is_stl(std::span<const std::uint8_t> bytes) {
-  const std::string_view word = first_word(bytes);
-  return is_binary_stl(bytes) || facets_of_cut_stl(bytes) || word == "solid" || word == "Solid" ||
-         word == "SOLID";
+  return is_binary_stl(bytes) || facets_of_cut_stl(bytes) || is_text_stl(bytes);
 }
 
 Expected<RawMesh> read_stl(std::span<const std::uint8_t> bytes, const ReadOptions&) {
-  if (is_binary_stl(bytes)) return read_binary(bytes, load<std::uint32_t>(&bytes[80]));
+  if (const auto count = binary_facets(bytes)) return read_binary(bytes, *count);
   if (const auto there = facets_of_cut_stl(bytes)) {
     return bad_input("the STL file is cut short: only " + *there + " are there; copy it again");
   }

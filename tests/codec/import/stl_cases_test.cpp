@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// STL files as real programs write them.
+#include "codec/export/write_mesh.h"
+#include "codec/import/cases.h"
+
+namespace vitrine {
+namespace {
+
+using ::testing::HasSubstr;
+using vitrine::testing::as_text;
+using vitrine::testing::bytes_of;
+using vitrine::testing::Case;
+using vitrine::testing::expect_case;
+using vitrine::testing::kBlueCase;
+using vitrine::testing::kGreenCase;
+using vitrine::testing::kRedCase;
+using vitrine::testing::read_text;
+using vitrine::testing::refusal;
+using vitrine::testing::tetrahedron;
+
+// Returns a binary tetrahedron whose header starts with `header` and counts `count` facets. The
+// facets end with `attributes`.
+std::string binary_stl(std::uint32_t count, const std::string& header = "binary",
+                       const std::vector<std::uint16_t>& attributes = {}) {
+  std::string file = as_text(*write_mesh(tetrahedron(), MeshFormat::kStl));
+  file.replace(0, 84, header + std::string(80 - header.size(), '\0') + bytes_of({count}));
+  for (std::size_t f = 0; f < attributes.size(); ++f)
+    file.replace(84 + 50 * f + 48, 2, bytes_of({attributes[f]}));
+  return file;
+}
+
+TEST(StlCases, TheSizeOfTheFileCountsTheFacets) {
+  const std::string blanks(80, ' ');
+  const std::vector<Case> cases{
+      {.situation = "count too small",
+       .file = binary_stl(2),
+       .said = "4 facets read by the file's size, though its header counts 2; "},
+      {.situation = "count 1 and a tail",
+       .file = binary_stl(1) + "tail",
+       .said = "header counts 1; "},
+      {.situation = "count 0", .file = binary_stl(0), .said = "header counts 0; "},
+      {.situation = "all ones", .file = binary_stl(~0u), .said = "header counts 4294967295; "},
+      {.situation = "blanks",
+       .file = binary_stl(0x20202020, blanks),
+       .said = "header counts 538976288; "},
+      {.situation = "solid and blanks",
+       .file = binary_stl(0x20202020, "solid" + blanks.substr(5)),
+       .said = "header counts 538976288; "},
+      {.situation = "zeros after the facets",
+       .file = binary_stl(4) + std::string(100, '\0'),
+       .said = "100 bytes after the counted facets are no facets"},
+      {.situation = "a text after the facets",
+       .file = binary_stl(4) + std::string(60, 'q'),
+       .said = "60 bytes after the counted facets are no facets"}};
+  for (const Case& expected : cases)
+    expect_case(expected);
+}
+
+constexpr std::uint16_t kVisCamRed = 0xFC00, kVisCamBlue = 0x801F;
+constexpr std::uint16_t kMagicsRed = 0x001F, kMagicsGreen = 0x03E0, kMagicsDefault = 0x8000;
+
+TEST(StlCases, ColoursOfBinaryFacets) {
+  const std::string green = "COLOR=" + bytes_of<std::uint8_t>({0, 255, 0, 255});
+  const std::vector<Case> cases{
+      {.situation = "VisCAM, one colour",
+       .file = binary_stl(4, "x", std::vector(4, kVisCamBlue)),
+       .colours = std::vector(4, kBlueCase)},
+      {.situation = "VisCAM, one facet coloured",
+       .file = binary_stl(4, "x", {kVisCamRed}),
+       .colours = {kRedCase, kRedCase, kRedCase, {255, 255, 255}}},
+      {.situation = "VisCAM, two colours",
+       .file = binary_stl(4, "x", {kVisCamRed, kVisCamBlue}),
+       .colours = {{188, 0, 188}, kRedCase, {188, 0, 188}, kBlueCase},
+       .said = "colours of 2 faces averaged at the vertices"},
+      {.situation = "Magics",
+       .file = binary_stl(4, green, std::vector(4, kMagicsRed)),
+       .colours = std::vector(4, kRedCase)},
+      {.situation = "Magics, the object's colour",
+       .file = binary_stl(4, "x " + green,
+                          {kMagicsDefault, kMagicsGreen, kMagicsDefault, kMagicsDefault}),
+       .colours = std::vector(4, kGreenCase)},
+      {.situation = "Magics, without facet colours",
+       .file = binary_stl(4, green),
+       .colours = std::vector(4, kGreenCase)}};
+  for (const Case& expected : cases)
+    expect_case(expected);
+}
+
+// Returns a tetrahedron as text, with these spellings.
+struct Spelling {
+  std::string solid = "solid x", normal = "normal 0 0 0", outer = "outer loop",
+              loop_end = "endloop", facet_end = "endfacet", solid_end = "endsolid x";
+
+  std::string file() const {
+    std::string out = solid + "\n";
+    for (const char* corners :
+         {"0 0 0|0 1 0|1 0 0", "0 0 0|1 0 0|0 0 1", "1 0 0|0 1 0|0 0 1", "0 1 0|0 0 0|0 0 1"}) {
+      out += "facet " + normal + "\n" + outer + "\nvertex " + corners + "\n" + loop_end + "\n" +
+             facet_end + "\n";
+      for (std::size_t at = 0; (at = out.find('|', at)) != out.npos;)
+        out.replace(at, 1, "\nvertex ");
+    }
+    return out + solid_end + "\n";
+  }
+};
+
+TEST(StlCases, SpellingsOfText) {
+  const std::vector<Case> cases{
+      {.situation = "end loop", .file = Spelling{.loop_end = "end loop"}.file()},
+      {.situation = "END FACET", .file = Spelling{.facet_end = "END FACET"}.file()},
+      {.situation = "end solid", .file = Spelling{.solid_end = "end solid"}.file()},
+      {.situation = "outerloop", .file = Spelling{.outer = "outerloop"}.file()},
+      {.situation = "name after endsolid without a blank",
+       .file = Spelling{.solid_end = "endsolidNAME"}.file()},
+      {.situation = "name after solid without a blank",
+       .file = Spelling{.solid = "solidNAME"}.file()},
+      {.situation = "sOLID", .file = Spelling{.solid = "sOLID"}.file()},
+      {.situation = "1.#QNAN", .file = Spelling{.normal = "normal 1.#QNAN 1.#QNAN 1.#QNAN"}.file()},
+      {.situation = "-1.#IND",
+       .file = Spelling{.normal = "normal -1.#IND -nan(ind) 1.#INF"}.file()},
+      {.situation = "no normal", .file = Spelling{.normal = ""}.file()},
+      {.situation = "colour after endfacet",
+       .file = Spelling{.facet_end = "endfacet 1.0 0.0 0.0"}.file(),
+       .colours = std::vector(4, kRedCase)},
+      {.situation = "colour from 0 to 255",
+       .file = Spelling{.facet_end = "endfacet 0 0 255 255"}.file(),
+       .colours = std::vector(4, kBlueCase)},
+      {.situation = "color",
+       .file = Spelling{.facet_end = "color 0 1 0\nendfacet"}.file(),
+       .colours = std::vector(4, kGreenCase)}};
+  for (const Case& expected : cases)
+    expect_case(expected);
+}
+
+TEST(StlCases, DecimalCommasAreNamed) {
+  const std::string file = "solid x\nfacet normal 0,0 0,0 1,0\nouter loop\nvertex 0,5 0,0 0,0\n";
+  EXPECT_EQ(refusal(file), "STL line 4: numbers have decimal commas; write them with points");
+  EXPECT_THAT(refusal("solid x\nfacet normal 0 0 1\nouter loop\nvertex 1 -2,5 0\n"),
+              HasSubstr("STL line 4: numbers have decimal commas"));
+}
+
+}  // namespace
+}  // namespace vitrine
