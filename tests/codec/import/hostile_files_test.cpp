@@ -98,7 +98,7 @@ std::vector<IntactFile> intact_files() {
        "type":"VEC3","count":3}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
        30},
       {"densest PLY", densest_ply(), 52},
-      {"textured GLB", textured(kPicture).file(), 7},
+      {"textured GLB", textured(kPicture).file(), 8},
       {"densest textured PLY", densest_textured_ply(), 43, picture_and_library()},
       {"densest textured OBJ", densest_textured_obj(), 27, picture_and_library()},
       {"text PLY",
