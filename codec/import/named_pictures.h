@@ -11,8 +11,8 @@
 
 #include "codec/core/limits.h"
 #include "codec/core/linear_colour.h"
-#include "codec/import/carried_pictures.h"
-#include "codec/import/companions.h"
+#include "codec/files/companions.h"
+#include "codec/picture/carried_pictures.h"
 #include "codec/picture/picture.h"
 
 namespace vitrine::inline codec {

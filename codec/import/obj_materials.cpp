@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "codec/import/plain_material.h"
+#include "codec/mesh/plain_material.h"
 #include "codec/picture/sample.h"
 
 namespace vitrine::inline codec {

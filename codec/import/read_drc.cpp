@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "codec/import/draco_data.h"
+#include "codec/gltf/draco_data.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {

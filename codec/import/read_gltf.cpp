@@ -5,14 +5,14 @@
 #include <array>
 #include <map>
 
-#include "codec/import/draco_primitive.h"
-#include "codec/import/glb_file.h"
-#include "codec/import/gltf_accessor.h"
-#include "codec/import/gltf_base_colour.h"
-#include "codec/import/gltf_buffer.h"
-#include "codec/import/gltf_document.h"
-#include "codec/import/gltf_materials.h"
-#include "codec/import/gltf_scene.h"
+#include "codec/gltf/draco_primitive.h"
+#include "codec/gltf/glb_file.h"
+#include "codec/gltf/gltf_accessor.h"
+#include "codec/gltf/gltf_base_colour.h"
+#include "codec/gltf/gltf_buffer.h"
+#include "codec/gltf/gltf_document.h"
+#include "codec/gltf/gltf_materials.h"
+#include "codec/gltf/gltf_scene.h"
 #include "codec/import/readers.h"
 
 namespace vitrine::inline codec {

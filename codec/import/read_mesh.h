@@ -9,7 +9,7 @@
 
 #include "codec/core/expected.h"
 #include "codec/core/limits.h"
-#include "codec/import/companions.h"
+#include "codec/files/companions.h"
 #include "codec/repair/imported_mesh.h"
 
 namespace vitrine::inline codec {

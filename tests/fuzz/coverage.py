@@ -69,7 +69,7 @@ def main():
     merged = Path(build, "fuzz/profile")
     subprocess.run([profdata, "merge", "-o", merged, *profiles], check=True)
     lines = count_lines(cov, merged, programs)
-    decoder, readers = decoder_sources(lines), {source for source in lines if source.startswith(("codec/import/", "codec/picture/"))}
+    decoder, readers = decoder_sources(lines), {source for source in lines if source.startswith(("codec/gltf/", "codec/import/", "codec/picture/"))}
     for source in sorted(decoder | readers):
         show(source, [lines[source]])
     print()

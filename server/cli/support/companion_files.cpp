@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "codec/import/glb_file.h"
+#include "codec/gltf/glb_file.h"
 #include "codec/import/readers.h"
 
 namespace vitrine::server::cli {

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "codec/import/companions.h"
+#include "codec/files/companions.h"
 #include "server/cli/support/input.h"
 
 namespace vitrine::server::cli {

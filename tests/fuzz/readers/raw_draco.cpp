@@ -2,7 +2,7 @@
 // Replaces Draco, which is not safe on hostile bytes and is not fuzzed here. The first byte of the
 // data is the number of faces. Then come the corners of the faces, in one byte each. Every
 // attribute consists of all remaining bytes.
-#include "codec/import/draco_primitive.h"
+#include "codec/gltf/draco_primitive.h"
 
 namespace vitrine::inline codec {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_scene.h"
+#include "codec/gltf/gltf_scene.h"
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "codec/import/gltf_document.h"
+#include "codec/gltf/gltf_document.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {

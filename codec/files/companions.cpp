@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/companions.h"
+#include "codec/files/companions.h"
 
 #include <charconv>
 

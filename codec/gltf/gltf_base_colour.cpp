@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_base_colour.h"
+#include "codec/gltf/gltf_base_colour.h"
 
 #include <algorithm>
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "codec/core/limits.h"
-#include "codec/import/carried_pictures.h"
-#include "codec/import/gltf_pictures.h"
+#include "codec/gltf/gltf_pictures.h"
 #include "codec/mesh/texturing.h"
+#include "codec/picture/carried_pictures.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "codec/import/gltf_json.h"
+#include "codec/gltf/gltf_json.h"
 #include "codec/mesh/texturing.h"
 
 namespace vitrine::inline codec {

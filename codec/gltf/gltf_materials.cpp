@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_materials.h"
+#include "codec/gltf/gltf_materials.h"
 
 #include <algorithm>
 
-#include "codec/import/gltf_texture.h"
-#include "codec/import/plain_material.h"
+#include "codec/gltf/gltf_texture.h"
+#include "codec/mesh/plain_material.h"
 
 namespace vitrine::inline codec {
 namespace {

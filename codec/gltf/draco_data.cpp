@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/draco_data.h"
+#include "codec/gltf/draco_data.h"
 
 #include <draco/compression/decode.h>
 

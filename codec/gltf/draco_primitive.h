@@ -10,7 +10,7 @@
 
 #include "codec/core/limits.h"
 #include "codec/core/vec.h"
-#include "codec/import/gltf_json.h"
+#include "codec/gltf/gltf_json.h"
 
 namespace vitrine::inline codec {
 

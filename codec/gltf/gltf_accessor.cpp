@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_accessor.h"
+#include "codec/gltf/gltf_accessor.h"
 
 #include <algorithm>
 #include <string>

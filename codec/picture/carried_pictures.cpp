@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/carried_pictures.h"
+#include "codec/picture/carried_pictures.h"
 
 #include "codec/picture/decode_picture.h"
 

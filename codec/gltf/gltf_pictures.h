@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "codec/import/gltf_buffer.h"
+#include "codec/gltf/gltf_buffer.h"
 
 namespace vitrine::inline codec {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/meshopt_view.h"
+#include "codec/gltf/meshopt_view.h"
 
 #include <meshoptimizer.h>
 

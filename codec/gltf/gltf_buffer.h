@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "codec/import/gltf_json.h"
-#include "codec/import/gltf_resources.h"
+#include "codec/gltf/gltf_json.h"
+#include "codec/gltf/gltf_resources.h"
 
 namespace vitrine::inline codec {
 

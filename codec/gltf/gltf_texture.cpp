@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_texture.h"
+#include "codec/gltf/gltf_texture.h"
 
 namespace vitrine::inline codec {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/glb_file.h"
+#include "codec/gltf/glb_file.h"
 
 #include "codec/core/byte_cursor.h"
-#include "codec/import/gltf_document.h"
+#include "codec/gltf/gltf_document.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "codec/import/gltf_json.h"
+#include "codec/gltf/gltf_json.h"
 
 namespace vitrine::inline codec {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "codec/core/linear_colour.h"
-#include "codec/import/gltf_pictures.h"
-#include "codec/import/gltf_texture.h"
+#include "codec/gltf/gltf_pictures.h"
+#include "codec/gltf/gltf_texture.h"
 #include "codec/picture/picture.h"
 
 namespace vitrine::inline codec {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "codec/import/gltf_buffer.h"
+#include "codec/gltf/gltf_buffer.h"
 
 namespace vitrine::inline codec {
 

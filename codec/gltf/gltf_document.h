@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "codec/core/limits.h"
-#include "codec/import/gltf_json.h"
+#include "codec/gltf/gltf_json.h"
 
 namespace vitrine::inline codec {
 

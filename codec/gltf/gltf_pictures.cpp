@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_pictures.h"
+#include "codec/gltf/gltf_pictures.h"
 
 #include <algorithm>
 
-#include "codec/import/data_uri.h"
+#include "codec/gltf/data_uri.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/data_uri.h"
+#include "codec/gltf/data_uri.h"
 
 #include <openssl/evp.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/draco_primitive.h"
+#include "codec/gltf/draco_primitive.h"
 
 #include <draco/mesh/mesh.h>
 
 #include <cstring>
 
-#include "codec/import/draco_data.h"
-#include "codec/import/gltf_accessor.h"
+#include "codec/gltf/draco_data.h"
+#include "codec/gltf/gltf_accessor.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {

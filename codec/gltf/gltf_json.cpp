@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_json.h"
+#include "codec/gltf/gltf_json.h"
 
 #include <algorithm>
 

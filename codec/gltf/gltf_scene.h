@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "codec/import/affine.h"
-#include "codec/import/gltf_json.h"
+#include "codec/gltf/affine.h"
+#include "codec/gltf/gltf_json.h"
 
 namespace vitrine::inline codec {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "codec/core/expected.h"
-#include "codec/import/companions.h"
+#include "codec/files/companions.h"
 
 namespace vitrine::inline codec {
 

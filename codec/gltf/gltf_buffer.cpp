@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_buffer.h"
+#include "codec/gltf/gltf_buffer.h"
 
-#include "codec/import/meshopt_view.h"
+#include "codec/gltf/meshopt_view.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/import/gltf_resources.h"
+#include "codec/gltf/gltf_resources.h"
 
-#include "codec/import/data_uri.h"
+#include "codec/gltf/data_uri.h"
 #include "codec/repair/raw_mesh.h"
 
 namespace vitrine::inline codec {
