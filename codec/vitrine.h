@@ -9,6 +9,7 @@
 //   write_mesh   takes a TriangleMesh; returns bytes of a PLY, GLB, OBJ, STL, DRC or VRML file
 //
 // verify_model proves that a `.pmesh` is intact and, if the original is given, that it is lossless.
+// compare_appearance tells how alike two meshes look: PSNR and SSIM of twelve pictures of each.
 // read_file and write_file_atomically serve programs that have no file functions of their own.
 //
 // Coordinates and errors are doubles in the model's unit (Manifest::unit). Functions that can fail
@@ -25,6 +26,7 @@
 // FORMAT.md specifies the file format. README.md explains how to install the library.
 #pragma once
 
+#include "codec/appearance/appearance.h"
 #include "codec/build/build_model.h"
 #include "codec/build/open_model.h"
 #include "codec/build/refine.h"
