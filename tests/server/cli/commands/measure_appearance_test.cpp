@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "codec/picture/png_file.h"
 #include "vitrine_command.h"
 
@@ -42,6 +44,23 @@ TEST_F(VitrineCommand, MeasureComparesTexturesBetweenTheVertices) {
   const json spotted = vitrine_json({"measure", dark, white, "--appearance"});
   EXPECT_LT(spotted["psnr"].get<double>(), 30);
   EXPECT_LT(spotted["ssim"].get<double>(), 0.99);
+}
+
+TEST_F(VitrineCommand, AWhiteMaterialLooksLikeNoMaterial) {
+  constexpr std::array<float, 9> kPositions{0, 0, 0, 1, 0, 0, 0, 1, 0};
+  write("p.bin", {reinterpret_cast<const char*>(kPositions.data()), sizeof kPositions});
+  json gltf = json::parse(R"({"asset": {"version": "2.0"},
+    "buffers": [{"uri": "p.bin", "byteLength": 36}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})");
+  const std::string none = write("none.gltf", gltf.dump());
+  gltf["materials"] = json::parse(R"([{"name": "metallic by default"}])");
+  gltf["meshes"][0]["primitives"][0]["material"] = 0;
+  const std::string white = write("white.gltf", gltf.dump());
+  EXPECT_TRUE(vitrine_json({"measure", white, none, "--appearance"})["psnr"].is_null());
 }
 
 constexpr const char* kTexturedTriangle =
