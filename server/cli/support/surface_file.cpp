@@ -8,14 +8,22 @@
 namespace vitrine::server::cli {
 namespace {
 
+// Whether a reader states this reason for vertex colours without materials or pictures. A texturing
+// has them nevertheless.
+bool is_about_colours(std::string_view reason) {
+  return reason.starts_with("the vertices ") || reason.starts_with("only one ");
+}
+
 // Returns the lines of a reader's report about materials and pictures that the texturing lacks.
-// These lines state a reason. Lines that mention vertices are about vertex colours, which do not
-// matter to a mesh with texturing.
+// These lines state a reason.
 std::vector<std::string> not_carried(const ImportedMesh& imported) {
+  constexpr std::string_view kMark = " not carried: ";
   std::vector<std::string> lines;
   for (const std::string& line : imported.repairs) {
-    if (line.find(" not carried: ") == line.npos) continue;
-    if (imported.texturing.empty() || line.find("vertices") == line.npos) lines.push_back(line);
+    const std::size_t at = line.find(kMark);
+    if (at == line.npos) continue;
+    const auto reason = std::string_view(line).substr(at + kMark.size());
+    if (imported.texturing.empty() || !is_about_colours(reason)) lines.push_back(line);
   }
   return lines;
 }
