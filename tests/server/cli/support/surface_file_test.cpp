@@ -48,7 +48,7 @@ TEST_F(SurfaceFile, TheShapeHasNoTexturing) {
   const std::string path = write("a.obj",
                                  "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
                                  "f 1 2 3\n");
-  write("a.mtl", "newmtl m\nKd 1 0 0\nmap_Ks lost.png\n");
+  write("a.mtl", "newmtl m\nd 0.5\nmap_Ks lost.png\n");
   const auto file = InputFile::open(path);
   const CompanionFiles beside(path, file->bytes());
   const ReadOptions reading{.beside = beside.contents()};
