@@ -143,6 +143,7 @@ class GltfReader {
     }
     it->second = {static_cast<std::uint32_t>(mesh_.positions.size()),
                   static_cast<std::uint32_t>(points->count())};
+    grow_within(mesh_.positions, mesh_.positions.size() + points->count(), room());
     for (std::uint64_t i = 0; i < points->count(); ++i) {
       mesh_.positions.push_back(
           place({points->real(i, 0), points->real(i, 1), points->real(i, 2)}));
@@ -185,6 +186,7 @@ class GltfReader {
     const auto places = coordinates(primitive, decoded, texcoord(set), range);
     if (!places) return tl::unexpected(places.error());
     std::vector<TextureCoordinates>& out = mesh_.vertex_coordinates[set];
+    grow_within(out, std::size_t{range.first} + range.count, room());
     out.resize(range.first);
     for (std::uint64_t i = 0; i < range.count; ++i)
       out.push_back(
@@ -194,9 +196,10 @@ class GltfReader {
 
   // Bounds the effect of instances: the result must not have more elements than the file and its
   // companions have bytes after decompression.
+  std::uint64_t room() const { return std::min(buffer_.bytes() + 3, limits_.faces); }
+
   Expected<void> check_room(std::uint64_t count, const char* what) const {
-    const std::uint64_t room = buffer_.bytes() + 3;
-    if (count <= std::min(room, limits_.faces)) return {};
+    if (count <= room()) return {};
     return fail(ErrorCode::kLimit, std::string("the glTF's instances make too many ") + what +
                                        "; export the mesh without instances");
   }
@@ -226,6 +229,7 @@ class GltfReader {
     }
     mesh_.is_baked = mesh_.is_baked || !base.is_white();
     has_factors_ = has_factors_ || base.factor != LinearColour{1, 1, 1};
+    grow_within(mesh_.attributes.colours, std::size_t{range.first} + range.count, room());
     mesh_.attributes.colours.resize(range.first, kWhite);
     for (std::uint64_t i = 0; i < range.count; ++i) {
       LinearColour colour =
@@ -271,6 +275,7 @@ class GltfReader {
   Expected<void> add_faces(std::uint64_t count, const Face& face, const Range& range,
                            bool is_mirrored) {
     if (auto ok = check_room(mesh_.face_count() + count, "faces"); !ok) return ok;
+    mesh_.grow_faces(mesh_.face_count() + count, room());
     for (std::uint64_t f = 0; f < count; ++f) {
       Triangle t = face(f);
       if (std::ranges::max(t) >= range.count) {

@@ -29,10 +29,13 @@ void FaceList::use_material(std::uint16_t material) {
   const MaterialRun run{triangles.size(), polygon_ends_.size(), material};
   const bool replaces = !runs_.empty() && runs_.back().triangle == run.triangle &&
                         runs_.back().polygon == run.polygon;
-  if (replaces)
+  if (replaces) {
     runs_.back() = run;
-  else
-    runs_.push_back(run);
+    return;
+  }
+  // Grows by an eighth: if every face begins a run, doubling needs more memory than all vertices.
+  if (runs_.size() == runs_.capacity()) runs_.reserve(runs_.size() + runs_.size() / 8 + 4);
+  runs_.push_back(run);
 }
 
 void FaceList::drop_texturing() {
@@ -52,6 +55,7 @@ void FaceList::reserve_for_polygons() {
 
 std::size_t FaceList::cut_polygons(std::span<const Vec3> positions) {
   if (!runs_.empty()) materials_ = expanded_runs();
+  runs_ = {};
   reserve_for_polygons();
   const std::span<const std::uint32_t> all = polygon_corners_;
   std::vector<Triangle> parts;

@@ -13,6 +13,7 @@
 #include "codec/core/vec.h"
 #include "codec/mesh/texturing.h"
 #include "codec/repair/face_list.h"
+#include "codec/repair/grow_within.h"
 #include "codec/repair/imported_mesh.h"
 
 namespace vitrine::inline codec {
@@ -52,6 +53,10 @@ class RawMesh {
   // Sets the material of the faces that are added from now on. Before the first call it is 0.
   void use_material(std::uint16_t material) { faces_.use_material(material); }
   void reserve_faces(std::size_t count) { faces_.triangles.reserve(count); }
+  // Makes room for `count` triangles; see grow_within.h.
+  void grow_faces(std::size_t count, std::size_t most) {
+    grow_within(faces_.triangles, count, most);
+  }
   std::uint64_t face_count() const { return face_count_; }
 
   // Checks the indices and positions, cuts the polygons into triangles and returns the mesh.

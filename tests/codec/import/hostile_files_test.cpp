@@ -6,6 +6,7 @@
 #include "codec/mesh/connectivity.h"
 #include "codec/repair/repair.h"
 #include "support/counting_new.h"
+#include "support/heap_bound.h"
 
 namespace vitrine {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 using vitrine::testing::as_bytes;
 using vitrine::testing::as_text;
 using vitrine::testing::coloured_tetrahedron;
+using vitrine::testing::GlbBuilder;
 using vitrine::testing::png_of;
 using vitrine::testing::textured;
 
@@ -176,6 +178,68 @@ TEST(HostileFiles, EveryByteReplaced) {
         expect_error_or_sound_mesh(file, bytes, " byte " + std::to_string(at));
       }
     }
+  }
+}
+
+// Instances of a mesh. Its primitives alternate between two materials. Each has `vertices` vertices
+// and `faces` faces, and primitives with the same material share their vertices.
+struct Instances {
+  std::size_t count, primitives, vertices, faces;
+
+  std::size_t all_vertices() const {
+    return count * std::min<std::size_t>(primitives, 2) * vertices;
+  }
+  std::size_t all_faces() const { return count * primitives * faces; }
+};
+
+// Returns a GLB with about one vertex and one face per byte. The vertices have both sets of
+// coordinates and a baked colour. All attributes are views of the same few bytes.
+std::string densest_instances(const Instances& instances) {
+  using Json = GlbBuilder::Json;
+  GlbBuilder builder = textured(kPicture);
+  std::string numbers;
+  for (std::size_t i = 0; i < 3 * instances.vertices; ++i)
+    numbers += static_cast<char>(i % instances.vertices);
+  const Json view{{"bufferView", builder.view(numbers)}};
+  const auto points = builder.accessor("VEC3", 5121, instances.vertices, view);
+  const auto places = builder.accessor("VEC2", 5121, instances.vertices, view);
+  const auto indices = builder.accessor("SCALAR", 5121, instances.faces + 2, view);
+  builder.document["materials"][0]["normalTexture"] = {{"index", 0}, {"texCoord", 1}};
+  builder.append("materials", Json(builder.document["materials"][0]));
+  Json& primitives = builder.document["meshes"][0]["primitives"] = Json::array();
+  for (std::size_t p = 0; p < instances.primitives; ++p) {
+    primitives.push_back(
+        {{"attributes", {{"POSITION", points}, {"TEXCOORD_0", places}, {"TEXCOORD_1", places}}},
+         {"material", p % 2},
+         {"indices", indices},
+         {"mode", 5}});
+  }
+  builder.append("scenes", {{"nodes", Json::array()}});
+  for (std::size_t i = 0; i < instances.count; ++i)
+    builder.document["scenes"][0]["nodes"].push_back(builder.append("nodes", {{"mesh", 0}}));
+  const std::size_t size = builder.file().size();
+  EXPECT_LT(size, instances.all_vertices());
+  builder.place(std::string(instances.all_vertices() - size, '\0'));
+  return builder.file();
+}
+
+// The numbers of vertices and faces are just above a power of two, where vectors that double their
+// capacity waste the most.
+TEST(HostileFiles, InstancesWithBothSetsOfCoordinatesKeepTheBoundOfReading) {
+  for (const Instances& instances :
+       {Instances{.count = 257, .primitives = 1, .vertices = 64, .faces = 64},
+        Instances{.count = 513, .primitives = 1, .vertices = 32, .faces = 32},
+        Instances{.count = 257, .primitives = 64, .vertices = 32, .faces = 1}}) {
+    const std::string file = densest_instances(instances);
+    test::start_peak();
+    const std::size_t before = test::heap_bytes();
+    const auto read = read_mesh(as_bytes(file));
+    const std::size_t peak = test::peak_heap_bytes() - before;
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->texturing.coordinates[0].size(), instances.all_faces());
+    EXPECT_EQ(read->texturing.coordinates[1].size(), instances.all_faces());
+    EXPECT_LE(peak, test::kReadingGlbHeap.of(file.size()))
+        << static_cast<double>(peak) / static_cast<double>(file.size()) << " bytes per byte";
   }
 }
 
