@@ -29,27 +29,35 @@ BaseColour GltfBaseColours::of(const Json& primitive) {
 const Picture* GltfBaseColours::picture(std::uint64_t index) {
   const auto [it, is_new] = decoded_.try_emplace(index);
   if (is_new) {
-    auto decoded = decode(index);
-    if (decoded) {
-      pixels_left_ -= std::uint64_t{decoded->width} * decoded->height;
-      it->second = *std::move(decoded);
-    } else {
-      pictures_.refuse(index, decoded.error().message);
-    }
+    const auto found = find(index);
+    if (found)
+      it->second = *found;
+    else
+      pictures_.refuse(index, found.error().message);
   }
-  return it->second ? &*it->second : nullptr;
+  return it->second;
 }
 
-Expected<Picture> GltfBaseColours::decode(std::uint64_t index) {
+Expected<const Picture*> GltfBaseColours::find(std::uint64_t index) {
   const auto bytes = pictures_.bytes(index);
   if (!bytes) return tl::unexpected(bytes.error());
-  return decode_picture(*bytes, pixels_left_);
+  const Place place{bytes->data(), bytes->size()};
+  auto known = by_place_.find(place);
+  if (known == by_place_.end()) known = by_place_.emplace(place, decode(*bytes)).first;
+  if (!known->second) return tl::unexpected(known->second.error());
+  return &*known->second;
+}
+
+Expected<Picture> GltfBaseColours::decode(std::span<const std::uint8_t> bytes) {
+  if (auto ok = check_picture_format(bytes); !ok) return tl::unexpected(ok.error());
+  auto picture = decode_picture_within(pixels_left_, bytes);
+  if (!picture) pixels_left_ -= std::min<std::uint64_t>(pixels_left_, bytes.size());
+  return picture;
 }
 
 std::size_t GltfBaseColours::decoded() const {
-  return static_cast<std::size_t>(
-      std::count_if(decoded_.begin(), decoded_.end(),
-                    [](const auto& entry) { return entry.second.has_value(); }));
+  return static_cast<std::size_t>(std::count_if(
+      decoded_.begin(), decoded_.end(), [](const auto& entry) { return entry.second != nullptr; }));
 }
 
 }  // namespace vitrine::inline codec

@@ -4,9 +4,8 @@
 #pragma once
 
 #include <map>
-#include <optional>
-#include <string>
-#include <vector>
+#include <span>
+#include <utility>
 
 #include "codec/core/linear_colour.h"
 #include "codec/gltf/gltf_pictures.h"
@@ -26,7 +25,8 @@ struct BaseColour {
 
 class GltfBaseColours {
  public:
-  // The references must outlive this object. Decodes at most `most_pixels` pixels.
+  // The references must outlive this object. Decodes at most `most_pixels` pixels. Pictures that
+  // cannot be decoded count as well: with their pixels, and one pixel per byte for the search.
   GltfBaseColours(const Json& document, GltfPictures& pictures, std::uint64_t most_pixels)
       : document_(document), pictures_(pictures), pixels_left_(most_pixels) {}
 
@@ -38,13 +38,18 @@ class GltfBaseColours {
   std::size_t decoded() const;
 
  private:
+  using Place = std::pair<const std::uint8_t*, std::size_t>;
+
   const Picture* picture(std::uint64_t index);
-  Expected<Picture> decode(std::uint64_t index);
+  // Returns the picture of an image, decoded once for all images with the same bytes.
+  Expected<const Picture*> find(std::uint64_t index);
+  Expected<Picture> decode(std::span<const std::uint8_t> bytes);
 
   const Json& document_;
   GltfPictures& pictures_;
-  // key: index of the image; value: nullopt if the image cannot be decoded
-  std::map<std::uint64_t, std::optional<Picture>> decoded_;
+  // key: index of the image; value: null if the image cannot be decoded
+  std::map<std::uint64_t, const Picture*> decoded_;
+  std::map<Place, Expected<Picture>> by_place_;
   std::uint64_t pixels_left_;
 };
 

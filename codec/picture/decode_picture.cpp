@@ -64,29 +64,30 @@ Unexpected damaged(std::string_view what) {
 }
 
 // Returns a picture without contents. `credible_pixels` is the largest number of pixels that the
-// bytes of the file can hold.
+// bytes of the file can hold. Subtracts the picture's pixels from `pixels_left`.
 Expected<Picture> blank(std::uint64_t width, std::uint64_t height, std::uint64_t credible_pixels,
-                        std::uint64_t most_pixels) {
+                        std::uint64_t& pixels_left) {
   if (width == 0 || height == 0 || width > 1 << 24 || height > 1 << 24 ||
       width * height > credible_pixels) {
     return damaged("damaged");
   }
-  if (width * height > most_pixels) {
+  if (width * height > pixels_left) {
     return fail(ErrorCode::kLimit, "has too many pixels; make it smaller");
   }
+  pixels_left -= width * height;
   Picture picture{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
   picture.pixels.resize(4 * width * height);
   return picture;
 }
 
-Expected<Picture> decode_png(Bytes bytes, std::uint64_t most_pixels) {
+Expected<Picture> decode_png(Bytes bytes, std::uint64_t& pixels_left) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, decltype(&png_image_free)> owner(&png, png_image_free);
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
     return damaged("a damaged PNG");
   }
-  auto picture = blank(png.width, png.height, kMostPixelsPerByte * bytes.size(), most_pixels);
+  auto picture = blank(png.width, png.height, kMostPixelsPerByte * bytes.size(), pixels_left);
   if (!picture) return picture;
   png.format = PNG_FORMAT_RGBA;
   png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
@@ -96,7 +97,7 @@ Expected<Picture> decode_png(Bytes bytes, std::uint64_t most_pixels) {
   return picture;
 }
 
-Expected<Picture> decode_jpeg(Bytes bytes, std::uint64_t most_pixels) {
+Expected<Picture> decode_jpeg(Bytes bytes, std::uint64_t& pixels_left) {
   const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), tjDestroy);
   int width = 0, height = 0, sampling = 0, space = 0;
   if (!jpeg || tjDecompressHeader3(jpeg.get(), bytes.data(), bytes.size(), &width, &height,
@@ -104,7 +105,7 @@ Expected<Picture> decode_jpeg(Bytes bytes, std::uint64_t most_pixels) {
     return damaged("a damaged JPEG");
   }
   auto picture = blank(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
-                       kMostPixelsPerByte * bytes.size(), most_pixels);
+                       kMostPixelsPerByte * bytes.size(), pixels_left);
   if (!picture) return picture;
   if (tjDecompress2(jpeg.get(), bytes.data(), bytes.size(), picture->pixels.data(), width, 0,
                     height, TJPF_RGBA, TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING) != 0) {
@@ -113,7 +114,7 @@ Expected<Picture> decode_jpeg(Bytes bytes, std::uint64_t most_pixels) {
   return picture;
 }
 
-Expected<Picture> decode_webp(Bytes bytes, std::uint64_t most_pixels) {
+Expected<Picture> decode_webp(Bytes bytes, std::uint64_t& pixels_left) {
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) {
     return damaged("a damaged WebP");
@@ -123,7 +124,7 @@ Expected<Picture> decode_webp(Bytes bytes, std::uint64_t most_pixels) {
   }
   auto picture =
       blank(static_cast<std::uint64_t>(features.width), static_cast<std::uint64_t>(features.height),
-            std::max(kFlatWebpPixels, kMostPixelsPerByte * bytes.size()), most_pixels);
+            std::max(kFlatWebpPixels, kMostPixelsPerByte * bytes.size()), pixels_left);
   if (!picture) return picture;
   if (WebPDecodeRGBAInto(bytes.data(), bytes.size(), picture->pixels.data(), picture->pixels.size(),
                          4 * features.width) == nullptr) {
@@ -140,9 +141,13 @@ Expected<void> check_picture_format(Bytes bytes) {
 }
 
 Expected<Picture> decode_picture(Bytes bytes, std::uint64_t most_pixels) {
-  if (is_png(bytes)) return decode_png(bytes, most_pixels);
-  if (is_jpeg(bytes)) return decode_jpeg(bytes, most_pixels);
-  if (is_webp(bytes)) return decode_webp(bytes, most_pixels);
+  return decode_picture_within(most_pixels, bytes);
+}
+
+Expected<Picture> decode_picture_within(std::uint64_t& pixels_left, Bytes bytes) {
+  if (is_png(bytes)) return decode_png(bytes, pixels_left);
+  if (is_jpeg(bytes)) return decode_jpeg(bytes, pixels_left);
+  if (is_webp(bytes)) return decode_webp(bytes, pixels_left);
   return unread(bytes);
 }
 

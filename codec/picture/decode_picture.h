@@ -22,4 +22,10 @@ Expected<void> check_picture_format(std::span<const std::uint8_t> bytes);
 // convert it to PNG, JPEG or WebP". The caller adds the picture's name.
 Expected<Picture> decode_picture(std::span<const std::uint8_t> bytes, std::uint64_t most_pixels);
 
+// Decodes a picture of at most `pixels_left` pixels and subtracts its pixels from `pixels_left`,
+// even if the picture turns out to be damaged after memory was allocated. So a file with many
+// damaged pictures cannot cause more work than one with intact pictures. Fails as decode_picture().
+Expected<Picture> decode_picture_within(std::uint64_t& pixels_left,
+                                        std::span<const std::uint8_t> bytes);
+
 }  // namespace vitrine::inline codec

@@ -8,6 +8,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
+using vitrine::testing::as_bytes;
 using vitrine::testing::GlbBuilder;
 using vitrine::testing::jpeg_of;
 using vitrine::testing::kBetween;
@@ -102,6 +103,34 @@ TEST(ReadTexturedGlb, APictureThatCannotBeReadIsNamedAndTheMeshStays) {
       fault_of(outside),
       "texture map 0 not carried: it is the file 'skin.png', which is not beside the mesh file; "
       "copy it there, or export GLB with all in one file");
+}
+
+// Adds an image, which lies in buffer view `view`, with a material and a primitive that use it.
+void add_image(GlbBuilder& builder, std::size_t view) {
+  const std::size_t image = builder.append("images", {{"bufferView", view}});
+  const std::size_t texture = builder.append("textures", {{"source", image}});
+  Json& primitives = builder.document["meshes"][0]["primitives"];
+  primitives.push_back(Json(primitives[0]));
+  primitives.back()["material"] = builder.append(
+      "materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}});
+}
+
+std::vector<std::string> repairs_within(const GlbBuilder& builder, std::uint64_t pixels) {
+  const std::string file = builder.file();
+  const auto result = read_mesh(as_bytes(file), {.limits = {.pixels = pixels}});
+  EXPECT_TRUE(result) << result.error().message;
+  return result ? result->repairs : std::vector<std::string>();
+}
+
+const std::string kBaked = "1 texture map baked into vertex colours";
+
+TEST(ReadTexturedGlb, ADamagedPictureIsDecodedOnceForAllImagesInItsView) {
+  const std::string damaged = red_and_blue().substr(0, 50);
+  GlbBuilder builder = textured(damaged);
+  for (int i = 0; i < 5; ++i)
+    add_image(builder, 2);
+  add_image(builder, builder.view(red_and_blue()));
+  EXPECT_THAT(repairs_within(builder, damaged.size() + 4), Contains(kBaked));
 }
 
 TEST(ReadTexturedGlb, APictureOfAnExtensionIsToldByItsFormat) {

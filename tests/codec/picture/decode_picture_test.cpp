@@ -98,6 +98,17 @@ TEST(DecodePicture, RefusesASizeBeforeItAllocates) {
   EXPECT_THAT(fault(header), HasSubstr("damaged"));
 }
 
+TEST(DecodePicture, ADamagedPictureCountsAsDecodedPixels) {
+  const std::string intact = png_of(std::vector<std::uint8_t>(300, 7), 10);
+  std::uint64_t left = 250;
+  EXPECT_TRUE(decode_picture_within(left, as_bytes(intact)));
+  EXPECT_EQ(left, 150u);
+  EXPECT_FALSE(decode_picture_within(left, as_bytes(intact.substr(0, intact.size() - 20))));
+  EXPECT_EQ(left, 50u);
+  EXPECT_FALSE(decode_picture_within(left, as_bytes(intact)));
+  EXPECT_EQ(left, 50u);
+}
+
 // The size of a lossless WebP is in bytes 21 to 24: width - 1 and height - 1 with 14 bits each.
 std::string webp_that_claims(std::uint32_t width, std::uint32_t height) {
   std::string bytes = webp_of({1, 2, 3}, 1);
