@@ -22,7 +22,7 @@ Expected<std::span<const std::uint8_t>> GltfPictures::find(std::uint64_t index) 
   const std::uint64_t view = whole(self, "bufferView", kAbsent);
   if (view == kAbsent) return bad_input("is not in the file; export the file again");
   const auto bytes = buffer_.view(view);
-  if (!bytes) return bad_input("lies beyond the end of the file; export the file again");
+  if (!bytes) return fail(bytes.error().code, "cannot be read: " + bytes.error().message);
   return bytes->bytes;
 }
 

@@ -59,8 +59,9 @@ Unexpected unread(Bytes bytes) {
   return fail(ErrorCode::kUnsupported, "is not PNG, JPEG or WebP; convert it to one of them");
 }
 
+// `what` is the fault: "a damaged PNG".
 Unexpected damaged(std::string_view what) {
-  return fail(ErrorCode::kBadInput, "is " + std::string(what));
+  return fail(ErrorCode::kBadInput, "is " + std::string(what) + "; export it again");
 }
 
 // Returns a picture without contents. `credible_pixels` is the largest number of pixels that the
@@ -109,7 +110,7 @@ Expected<Picture> decode_jpeg(Bytes bytes, std::uint64_t& pixels_left) {
   if (!picture) return picture;
   if (tjDecompress2(jpeg.get(), bytes.data(), bytes.size(), picture->pixels.data(), width, 0,
                     height, TJPF_RGBA, TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING) != 0) {
-    return damaged("a damaged JPEG, or one not in RGB");
+    return damaged("a damaged JPEG, or one whose colours are not RGB");
   }
   return picture;
 }

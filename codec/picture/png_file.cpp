@@ -19,8 +19,8 @@ Expected<std::vector<std::uint8_t>> write_png(const Picture& picture) {
   png_alloc_size_t size = file.size();
   if (png_image_write_to_memory(&png, file.data(), &size, 0, picture.pixels.data(), 0, nullptr) ==
       0) {
-    return fail(ErrorCode::kUnsupported, std::string("the picture cannot be written: ") +
-                                             png.message + "; leave --report out");
+    return fail(ErrorCode::kUnsupported,
+                std::string("the picture cannot be written as PNG: ") + png.message);
   }
   file.resize(size);
   return file;

@@ -49,7 +49,7 @@ Expected<LevelPicture> picture_of(const Refiner& refiner, std::uint32_t level,
                                   const Framing& frame) {
   const Picture picture = render(refiner.display_mesh(), frame);
   auto png = write_png(picture);
-  if (!png) return tl::unexpected(png.error());
+  if (!png) return fail(png.error().code, png.error().message + "; leave --report out");
   return LevelPicture{level, picture.width, picture.height, std::move(*png)};
 }
 

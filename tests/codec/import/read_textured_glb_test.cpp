@@ -96,13 +96,28 @@ TEST(ReadTexturedGlb, APictureThatCannotBeReadIsNamedAndTheMeshStays) {
   EXPECT_EQ(fault_of(textured("P6 1 1 255 ...")),
             "texture map 0 not carried: it is not PNG, JPEG or WebP; convert it to one of them");
   EXPECT_EQ(fault_of(textured(red_and_blue().substr(0, 50))),
-            "texture map 0 not carried: it is a damaged PNG");
+            "texture map 0 not carried: it is a damaged PNG; export it again");
   GlbBuilder outside = textured(red_and_blue());
   outside.document["images"][0] = {{"uri", "skin.png"}};
   EXPECT_EQ(
       fault_of(outside),
       "texture map 0 not carried: it is the file 'skin.png', which is not beside the mesh file; "
       "copy it there, or export GLB with all in one file");
+}
+
+TEST(ReadTexturedGlb, APictureInAnUnreadableViewIsNamedWithTheReason) {
+  const std::string fault = "texture map 0 not carried: it cannot be read: glTF buffer ";
+  GlbBuilder beyond = textured(red_and_blue());
+  beyond.document["bufferViews"][2]["byteLength"] = 1'000'000;
+  EXPECT_EQ(fault_of(beyond), fault +
+                                  "view 2 lies beyond the end of its buffer; the file is "
+                                  "damaged, export it again");
+  GlbBuilder elsewhere = textured(red_and_blue());
+  elsewhere.document["buffers"] = {Json::object(), {{"uri", "skin.bin"}}};
+  elsewhere.document["bufferViews"][2]["buffer"] = 1;
+  EXPECT_EQ(fault_of(elsewhere), fault +
+                                     "1 is the file 'skin.bin', which is not beside the mesh "
+                                     "file; copy it there, or export GLB with all in one file");
 }
 
 // Adds an image, which lies in buffer view `view`, with a material and a primitive that use it.
@@ -168,7 +183,7 @@ TEST(ReadTexturedGlb, APictureInADataUriIsRead) {
 TEST(ReadTexturedGlb, ADataUriThatCannotBeReadIsNamedAndTheMeshStays) {
   const std::string damaged = "texture map 0 not carried: it is ";
   const std::pair<std::string, std::string> faults[] = {
-      {kUri.substr(0, 90), "a damaged PNG"},
+      {kUri.substr(0, 90), "a damaged PNG; export it again"},
       {kUri.substr(0, 60) + "*", "a data: URI that is not base64; export the file again"},
       {"data:image/png,%89PNG", "a data: URI that is not base64; export the file again"},
       {"data:", "a data: URI that is not base64; export the file again"}};

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/picture/png_file.h"
+
+#include <gmock/gmock.h>
+
+namespace vitrine {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+// The codec does not know the commands that use it.
+TEST(PngFile, ThePictureWithoutPixelsIsRefusedWithTheReasonAlone) {
+  const auto file = write_png({});
+  ASSERT_FALSE(file);
+  EXPECT_THAT(file.error().message, StartsWith("the picture cannot be written as PNG: "));
+  EXPECT_THAT(file.error().message, Not(HasSubstr("--")));
+}
+
+}  // namespace
+}  // namespace vitrine
