@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/picture/decode_picture.h"
 
-#include <png.h>
 #include <turbojpeg.h>
 #include <webp/decode.h>
 
@@ -10,6 +9,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include "codec/picture/png_reader.h"
 
 namespace vitrine::inline codec {
 namespace {
@@ -82,19 +83,11 @@ Expected<Picture> blank(std::uint64_t width, std::uint64_t height, std::uint64_t
 }
 
 Expected<Picture> decode_png(Bytes bytes, std::uint64_t& pixels_left) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  const std::unique_ptr<png_image, decltype(&png_image_free)> owner(&png, png_image_free);
-  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
-    return damaged("a damaged PNG");
-  }
-  auto picture = blank(png.width, png.height, kMostPixelsPerByte * bytes.size(), pixels_left);
+  PngReader png(bytes);
+  if (!png.read_header()) return damaged("a damaged PNG");
+  auto picture = blank(png.width(), png.height(), kMostPixelsPerByte * bytes.size(), pixels_left);
   if (!picture) return picture;
-  png.format = PNG_FORMAT_RGBA;
-  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-  if (png_image_finish_read(&png, nullptr, picture->pixels.data(), 0, nullptr) == 0) {
-    return damaged("a damaged PNG");
-  }
+  if (!png.read_pixels(picture->pixels.data())) return damaged("a damaged PNG");
   return picture;
 }
 

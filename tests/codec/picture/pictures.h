@@ -7,6 +7,7 @@
 #include <turbojpeg.h>
 #include <webp/encode.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,41 @@ inline std::string png_of(const std::vector<std::uint8_t>& pixels, std::uint32_t
   std::string out(size, '\0');
   EXPECT_TRUE(png_image_write_to_memory(&image, out.data(), &size, 0, pixels.data(), 0, nullptr));
   out.resize(size);
+  return out;
+}
+
+// A PNG whose pixels are stored in a type of libpng, such as PNG_COLOR_TYPE_GRAY.
+struct StoredPng {
+  int type = PNG_COLOR_TYPE_RGB, depth = 8;
+  std::uint32_t width = 1;
+  std::vector<std::vector<std::uint8_t>> rows = {};
+  bool is_interlaced = false;
+  std::function<void(png_structp, png_infop)> add_chunks = [](png_structp, png_infop) {};
+
+  std::string file() const;
+};
+
+inline std::string StoredPng::file() const {
+  std::string out;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  const auto append = [](png_structp self, png_bytep data, std::size_t size) {
+    static_cast<std::string*>(png_get_io_ptr(self))
+        ->append(reinterpret_cast<const char*>(data), size);
+  };
+  png_set_write_fn(png, &out, append, nullptr);
+  png_set_IHDR(png, info, width, static_cast<std::uint32_t>(rows.size()), depth, type,
+               is_interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  add_chunks(png, info);
+  png_write_info(png, info);
+  const int passes = png_set_interlace_handling(png);
+  for (int pass = 0; pass < passes; ++pass) {
+    for (const auto& row : rows)
+      png_write_row(png, row.data());
+  }
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
   return out;
 }
 
