@@ -120,43 +120,52 @@ class GltfReader {
     const BaseColour base = base_colours_.of(primitive);
     const std::uint16_t material = materials_.index_of(primitive);
     mesh_.use_material(material);
-    const auto sets = coordinate_accessors(attributes, materials_[material]);
     // glTF repeats a vertex where its normal or texture coordinate is discontinuous.
     mesh_.has_seams =
         mesh_.has_seams || attributes.contains("NORMAL") || attributes.contains("TEXCOORD_0");
-    const VertexSource source{view,
-                              whole(attributes, "POSITION", kAbsent),
-                              whole(attributes, "COLOR_0", kAbsent),
-                              base.picture == nullptr
-                                  ? kAbsent
-                                  : whole(attributes, texcoord(base.texture.texcoord), kAbsent),
-                              base.is_white() ? kAbsent : whole(primitive, "material", kAbsent),
-                              sets[0],
-                              sets[1]};
-    const auto [it, is_new] = shared_.try_emplace(source);
+    const auto sets = coordinate_accessors(attributes, materials_[material]);
+    const auto [it, is_new] = shared_.try_emplace(source_of(primitive, view, base, sets));
     if (!is_new) return it->second;
+    const auto range = add_positions(primitive, decoded, place);
+    if (!range) return range;
+    it->second = *range;
+    if (auto ok = add_colours(primitive, decoded, base, *range); !ok)
+      return tl::unexpected(ok.error());
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      if (sets[s] == kAbsent) continue;
+      if (auto ok = add_coordinates(primitive, decoded, s, *range); !ok)
+        return tl::unexpected(ok.error());
+    }
+    return range;
+  }
+
+  static VertexSource source_of(const Json& primitive, std::uint64_t view, const BaseColour& base,
+                                const std::array<std::uint64_t, kCoordinateSets>& sets) {
+    const Json& attributes = member(primitive, "attributes");
+    const auto accessor = [&](const std::string& name) { return whole(attributes, name, kAbsent); };
+    return {view,
+            accessor("POSITION"),
+            accessor("COLOR_0"),
+            base.picture == nullptr ? kAbsent : accessor(texcoord(base.texture.texcoord)),
+            base.is_white() ? kAbsent : whole(primitive, "material", kAbsent),
+            sets[0],
+            sets[1]};
+  }
+
+  Expected<Range> add_positions(const Json& primitive, const DracoPrimitive* decoded,
+                                const Affine& place) {
     const auto points = attribute(primitive, "POSITION", decoded);
     if (!points) return tl::unexpected(points.error());
     if (points->width() != 3) return bad_gltf("POSITION is not VEC3");
-    if (auto ok = check_room(mesh_.positions.size() + points->count(), "vertices"); !ok) {
+    const std::size_t first = mesh_.positions.size();
+    if (auto ok = check_room(first + points->count(), "vertices"); !ok)
       return tl::unexpected(ok.error());
-    }
-    it->second = {static_cast<std::uint32_t>(mesh_.positions.size()),
-                  static_cast<std::uint32_t>(points->count())};
-    grow_within(mesh_.positions, mesh_.positions.size() + points->count(), room());
+    grow_within(mesh_.positions, first + points->count(), room());
     for (std::uint64_t i = 0; i < points->count(); ++i) {
       mesh_.positions.push_back(
           place({points->real(i, 0), points->real(i, 1), points->real(i, 2)}));
     }
-    if (auto ok = add_colours(primitive, decoded, base, it->second); !ok) {
-      return tl::unexpected(ok.error());
-    }
-    for (std::size_t s = 0; s < sets.size(); ++s) {
-      if (sets[s] == kAbsent) continue;
-      if (auto ok = add_coordinates(primitive, decoded, s, it->second); !ok)
-        return tl::unexpected(ok.error());
-    }
-    return it->second;
+    return Range{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(points->count())};
   }
 
   static std::string texcoord(std::uint64_t n) { return "TEXCOORD_" + std::to_string(n); }
