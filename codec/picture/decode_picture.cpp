@@ -65,6 +65,10 @@ Unexpected damaged(std::string_view what) {
   return fail(ErrorCode::kBadInput, "is " + std::string(what) + "; export it again");
 }
 
+Unexpected too_many_pixels() {
+  return fail(ErrorCode::kLimit, "has too many pixels; make it smaller");
+}
+
 // Returns a picture without contents. `credible_pixels` is the largest number of pixels that the
 // bytes of the file can hold. Subtracts the picture's pixels from `pixels_left`.
 Expected<Picture> blank(std::uint64_t width, std::uint64_t height, std::uint64_t credible_pixels,
@@ -73,9 +77,7 @@ Expected<Picture> blank(std::uint64_t width, std::uint64_t height, std::uint64_t
       width * height > credible_pixels) {
     return damaged("damaged");
   }
-  if (width * height > pixels_left) {
-    return fail(ErrorCode::kLimit, "has too many pixels; make it smaller");
-  }
+  if (width * height > pixels_left) return too_many_pixels();
   pixels_left -= width * height;
   Picture picture{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
   picture.pixels.resize(4 * width * height);
@@ -139,10 +141,11 @@ Expected<Picture> decode_picture(Bytes bytes, std::uint64_t most_pixels) {
 }
 
 Expected<Picture> decode_picture_within(std::uint64_t& pixels_left, Bytes bytes) {
+  if (auto ok = check_picture_format(bytes); !ok) return tl::unexpected(ok.error());
+  if (pixels_left == 0) return too_many_pixels();  // without a search for the size
   if (is_png(bytes)) return decode_png(bytes, pixels_left);
   if (is_jpeg(bytes)) return decode_jpeg(bytes, pixels_left);
-  if (is_webp(bytes)) return decode_webp(bytes, pixels_left);
-  return unread(bytes);
+  return decode_webp(bytes, pixels_left);
 }
 
 }  // namespace vitrine::inline codec
