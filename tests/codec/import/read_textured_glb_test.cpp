@@ -39,8 +39,8 @@ TEST(ReadTexturedGlb, TheSamplerSaysHowThePictureGoesOn) {
 
 TEST(ReadTexturedGlb, TheTransformMovesThePicture) {
   GlbBuilder builder = textured(red_and_blue());
-  surface(builder)["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
-      {"offset", {0.5, 0}}};
+  auto& extensions = surface(builder)["baseColorTexture"]["extensions"];
+  extensions["KHR_texture_transform"] = {{"offset", {0.5, 0}}};
   EXPECT_THAT(read_text(builder.file()).mesh.attributes.colours, ElementsAre(kBlue, kRed, kBlue));
 }
 
