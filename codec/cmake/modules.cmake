@@ -88,9 +88,9 @@ function(vitrine_module folder)
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE vitrine_flags)
     vitrine_unity(${target})
-    # Compiles modules that wait more than they compute without optimisation, because a sanitised
-    # build spends most of its time compiling.
-    if(folder MATCHES "^server/|^acquisition/(device|rig|rig_board|session)$" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+    # Compiles the server's modules without optimisation: they wait more than they compute, and a
+    # sanitised build spends most of its time compiling.
+    if(folder MATCHES "^server/" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
       target_compile_options(${target} PRIVATE -O0)
     endif()
   else()
