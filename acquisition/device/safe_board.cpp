@@ -146,8 +146,8 @@ void SafeBoard::emergency_stop() noexcept {
   port_->cancel();
 }
 
-// A caller that makes no call within the watchdog's time counts as stuck. Later calls fail, because
-// the caller's knowledge of laser and table is no longer valid.
+// Switches laser and motor off if the caller makes no call within the watchdog's timeout. Later
+// calls fail, because laser and table are no longer in the state that the caller expects.
 void SafeBoard::watch() {
   std::unique_lock lock(mutex_);
   while (!is_closing_) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh that the rig can scan. It casts rays with Embree. Its albedo changes in sharp-edged
-// patches, as if painted.
+// A mesh that the simulated rig can scan. Embree intersects rays with it. A painted mesh has an
+// albedo that changes in sharp-edged patches.
 #pragma once
 
 #include <embree3/rtcore.h>

@@ -8,7 +8,7 @@
 namespace vitrine::inline codec {
 namespace {
 
-constexpr double kRidge = 4;  // weight of the start values, as a number of splits
+constexpr double kRidge = 4;  // the initial weights count as much as this many splits
 constexpr std::uint32_t kSolveEvery = 16;
 constexpr double kMemory = 600;  // number of splits over which old evidence fades
 

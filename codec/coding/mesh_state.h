@@ -61,9 +61,9 @@ struct MeshState {
   std::vector<std::vector<VertexId>> members;  // per region: its vertices, ascending
   std::vector<std::uint32_t> ordinals;         // per region: number of vertices created so far
 
-  // Lattice shifts of the chunk decoded last. Positions in its region are middles of cells with
-  // sides of 2^shift. Positions in other regions are used with the precision of the previous level,
-  // 2^foreign_shift.
+  // Lattice shifts of the chunk decoded last. Positions in its region are centres of cells
+  // with sides of 2^shift. Positions in other regions are used with the precision of the previous
+  // level, 2^foreign_shift.
   std::uint32_t shift = 0, foreign_shift = 0;
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size()); }

@@ -6,8 +6,8 @@ namespace {
 
 constexpr std::uint32_t kMaxNeighbours = 64;
 
-// The neighbours of one vertex of a split, without the other vertex, in order from one cut vertex
-// to the other.
+// The neighbours of one of a split's two vertices, without its partner, in order from the first cut
+// vertex to the second.
 struct HalfRing {
   std::uint32_t size = 0;
   // Corners at the vertex. The next corner in the same face is at the neighbour.

@@ -46,7 +46,8 @@ const ObjMaterials::UsedMaterial* ObjMaterials::find(std::string_view name) {
   return &used_.emplace(it->first, material).first->second;
 }
 
-// Finds the colour that the vertices take.
+// Chooses the source of the vertex colours: the diffuse map or colour, or the emission if the
+// diffuse colour is black and has no map.
 void ObjMaterials::bake(const ObjMaterial& source, UsedMaterial& out) {
   const bool is_black = source.diffuse == std::array<double, 3>{0, 0, 0};
   out.map = source.diffuse_map.empty() && is_black ? source.emission_map : source.diffuse_map;

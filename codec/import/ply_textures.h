@@ -43,7 +43,7 @@ inline bool is_texnumber(const PlyProperty& property) {
   return !property.is_list && property.name == "texnumber";
 }
 
-// Whether the property is one of the texture coordinates of a vertex.
+// Whether the property is the texture coordinate u, or v, of a vertex.
 bool is_vertex_u(const PlyProperty& property);
 bool is_vertex_v(const PlyProperty& property);
 

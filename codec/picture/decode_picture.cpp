@@ -60,7 +60,7 @@ Unexpected unread(Bytes bytes) {
   return fail(ErrorCode::kUnsupported, "is not PNG, JPEG or WebP; convert it to one of them");
 }
 
-// `what` is the fault: "a damaged PNG".
+// `what` describes the file, such as "a damaged PNG".
 Unexpected damaged(std::string_view what) {
   return fail(ErrorCode::kBadInput, "is " + std::string(what) + "; export it again");
 }

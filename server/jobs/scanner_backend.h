@@ -59,7 +59,7 @@ class ScanListener {
   virtual void begins(std::shared_ptr<const ScanView> view) = 0;
   virtual void report(const ScanProgress& progress) = 0;
   virtual bool is_interrupted() const = 0;
-  virtual bool is_cancelled() const = 0;  // whether the interrupted scan will not be continued
+  virtual bool is_cancelled() const = 0;  // whether the interruption is final
 };
 
 struct CalibrationProgress {

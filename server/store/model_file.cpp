@@ -8,9 +8,9 @@
 namespace vitrine::server {
 namespace {
 
-// Removes the levels finer than `last_level` and their chunks. Rounding alternates between levels,
-// counted from the finest, so an even number of levels must be removed. If necessary, removes one
-// more level, but never the base.
+// Removes the levels finer than `last_level` and their chunks. Positions of merged vertices are
+// rounded down and up in turn, level by level, counted from the finest (FORMAT.md, section 5). An
+// even number of levels is therefore removed: one more than asked if need be, but never the base.
 void cut(Manifest& manifest, std::uint32_t last_level) {
   const std::size_t all = manifest.levels.size();
   std::size_t levels = std::min<std::size_t>(last_level + 1ull, all);

@@ -13,7 +13,8 @@ struct HeapBound {
   std::size_t of(std::size_t bytes) const { return always + per_byte * bytes; }
 };
 
-// The bound in refiner.h at 16 vertices per byte, plus the records of the header.
+// The bound in refiner.h for a chunk that adds the maximum of 16 vertices per byte, plus the memory
+// for the parsed header.
 inline constexpr HeapBound kDecodingHeap{1 << 20, 2'500};
 
 // The bound in read_mesh.h, plus a reader's own buffers and messages.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests each stripe method, in a scan with the simulated rig and in a reprocessing of its pictures.
+// Tests each stripe method, in a scan with the simulated rig and when its pictures are processed
+// again.
 #include "at_rig.h"
 
 namespace vitrine::acquisition::rig::test {

@@ -125,8 +125,8 @@ TEST(DisplacementModel, AnyDisplacementComesBackInAnySurroundings) {
   }
 }
 
-// Expects that observations can lead to each initial state. Other states could overflow the 32-bit
-// product of the update.
+// Expects that the first update of each initial state does not overflow its 32-bit product. A state
+// that no sequence of bits produces could overflow it.
 template <class Model>
 void expect_safe_starts(const Model& model) {
   for (const AdaptiveBit& start : model.bits()) {

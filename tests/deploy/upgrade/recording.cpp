@@ -20,7 +20,7 @@ Said said_in(const nlohmann::json& json) {
   return said;
 }
 
-// Whether a transaction is the last one of the daemon's start. It releases the migration lock.
+// Whether this is the last transaction of the daemon's startup, which releases the migration lock.
 bool ends_start(const Transaction& transaction) {
   return transaction.front().sql.starts_with("SELECT pg_advisory_unlock(7957706764961114213)");
 }
