@@ -98,11 +98,17 @@ std::uint32_t stated_facets(std::span<const std::uint8_t> bytes) {
   return load<std::uint32_t>(&bytes[80]);
 }
 
-// Text starts with "solid" and has no zero byte. Facets nearly always have one.
+bool is_control(std::uint8_t byte) {
+  return byte < ' ' && (byte < '\t' || byte > '\r');
+}
+
+// Text has no zero byte. If it is of another format, such as OFF, it has no control characters.
+// Facets nearly always have both. The numbers of a text may look like facets.
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kHeadBytes = 1024;
   const auto head = bytes.first(std::min(bytes.size(), kHeadBytes));
-  return as_text(head.first(5)) == "solid" && std::ranges::find(head, 0) == head.end();
+  if (as_text(head.first(5)) != "solid") return std::ranges::none_of(head, is_control);
+  return std::ranges::find(head, 0) == head.end();
 }
 
 // Returns the number of facets of a binary file, or nullopt if the file is not binary or is cut

@@ -56,6 +56,15 @@ TEST(StlCases, TheSizeOfTheFileCountsTheFacets) {
     expect_case(expected);
 }
 
+// Text becomes small numbers if its bytes are read as facets.
+TEST(StlCases, TextOfNumbersIsNoFacets) {
+  const std::string text = "OFF 3 1 0" + std::string(80, ' ') + "\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (std::size_t blanks = 0; blanks < 50; ++blanks)
+    expect_case({.situation = std::to_string(blanks) + " blanks at the end",
+                 .file = text + std::string(blanks, ' '),
+                 .faces = 1});
+}
+
 constexpr std::uint16_t kVisCamRed = 0xFC00, kVisCamBlue = 0x801F;
 constexpr std::uint16_t kMagicsRed = 0x001F, kMagicsGreen = 0x03E0, kMagicsDefault = 0x8000;
 
