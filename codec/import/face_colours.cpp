@@ -13,8 +13,8 @@ void FaceColours::add(std::span<const std::uint32_t> corners, const StatedColour
   colours_.push_back(colour);
 }
 
-bool FaceColours::are_equal() const {
-  return std::ranges::all_of(colours_, [&](const auto& colour) { return colour == colours_[0]; });
+bool FaceColours::are_all(const StatedColour& colour) const {
+  return std::ranges::all_of(colours_, [&](const auto& other) { return other == colour; });
 }
 
 std::vector<Colour> FaceColours::means(RawMesh& mesh) const {
@@ -31,14 +31,14 @@ std::vector<Colour> FaceColours::means(RawMesh& mesh) const {
 }
 
 void FaceColours::give_to(RawMesh& mesh) const {
-  if (colours_.empty()) return;
+  if (colours_.empty() || are_all({1, 1, 1}) || are_all({255, 255, 255})) return;
   const std::string which = "colours of " + counted(colours_.size(), "face");
   if (!mesh.attributes.colours.empty()) {
     mesh.repairs.push_back(which + " not carried: the vertices have colours of their own");
     return;
   }
   mesh.attributes.colours = means(mesh);
-  if (are_equal()) return;
+  if (are_all(colours_[0])) return;
   mesh.repairs.push_back(which +
                          " averaged at the vertices; bake them into a texture map to keep their "
                          "borders sharp");

@@ -16,12 +16,12 @@ class FaceColours {
   // Adds a face and its colour. Corners that are out of range are ignored.
   void add(std::span<const std::uint32_t> corners, const StatedColour& colour);
 
-  // Gives the mesh's vertices the mean colours of their faces, unless they have colours, and
-  // reports what is lost. Call it when the mesh has all vertices.
+  // Gives the mesh's vertices the mean colours of their faces, unless they have colours or all
+  // faces are white, and reports what is lost. Call it when the mesh has all vertices.
   void give_to(RawMesh& mesh) const;
 
  private:
-  bool are_equal() const;
+  bool are_all(const StatedColour& colour) const;
   std::vector<Colour> means(RawMesh& mesh) const;
 
   std::vector<std::uint32_t> corners_;  // of all faces

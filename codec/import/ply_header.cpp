@@ -19,7 +19,7 @@ struct TypeName {
   PlyType type;
 };
 
-constexpr std::array<TypeName, 16> kTypeNames{{{"char", PlyType::kInt8},
+constexpr std::array<TypeName, 18> kTypeNames{{{"char", PlyType::kInt8},
                                                {"int8", PlyType::kInt8},
                                                {"uchar", PlyType::kUint8},
                                                {"uint8", PlyType::kUint8},
@@ -31,6 +31,8 @@ constexpr std::array<TypeName, 16> kTypeNames{{{"char", PlyType::kInt8},
                                                {"int32", PlyType::kInt32},
                                                {"uint", PlyType::kUint32},
                                                {"uint32", PlyType::kUint32},
+                                               {"int64", PlyType::kInt64},
+                                               {"uint64", PlyType::kUint64},
                                                {"float", PlyType::kFloat32},
                                                {"float32", PlyType::kFloat32},
                                                {"double", PlyType::kFloat64},
@@ -189,7 +191,7 @@ Expected<void> check_size(const PlyHeader& header, std::size_t bytes_left) {
 }  // namespace
 
 std::uint32_t byte_size(PlyType type) {
-  constexpr std::array<std::uint32_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
+  constexpr std::array<std::uint32_t, 10> kSizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   return kSizes[static_cast<std::size_t>(type)];
 }
 

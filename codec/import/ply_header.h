@@ -12,7 +12,18 @@
 namespace vitrine::inline codec {
 
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
-enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+enum class PlyType {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat32,
+  kFloat64
+};
 
 std::uint32_t byte_size(PlyType type);
 

@@ -2,13 +2,17 @@
 // Reads PLY. The header lists the elements and their properties; those with unknown names are
 // skipped.
 #include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "codec/core/byte_cursor.h"
+#include "codec/import/face_colours.h"
 #include "codec/import/named_pictures.h"
 #include "codec/import/ply_header.h"
 #include "codec/import/ply_textures.h"
 #include "codec/import/readers.h"
+#include "codec/import/stated_colours.h"
 #include "codec/import/text_cursor.h"
 
 namespace vitrine::inline codec {
@@ -22,6 +26,7 @@ class AsciiValues {
   bool has_failed() const { return has_failed_; }
   std::uint64_t most_values() const { return text_.left() / 2 + 1; }
   std::uint64_t line() const { return text_.line(); }
+  bool has_decimal_comma() const { return text_.has_decimal_comma(); }
 
   double real(PlyType) {
     double value = 0;
@@ -52,10 +57,12 @@ class BinaryValues {
   bool has_failed() const { return !bytes_.is_ok(); }
   std::uint64_t most_values() const { return bytes_.left(); }
   static std::uint64_t line() { return 0; }
+  static bool has_decimal_comma() { return false; }
 
   double real(PlyType type) {
     if (type == PlyType::kFloat32) return bytes_.read<float>(swap);
     if (type == PlyType::kFloat64) return bytes_.read<double>(swap);
+    if (type == PlyType::kUint64) return static_cast<double>(bytes_.read<std::uint64_t>(swap));
     return static_cast<double>(integer(type));
   }
   std::uint32_t index(PlyType type) {
@@ -64,7 +71,8 @@ class BinaryValues {
       return value >= 0 && value < 4294967295.0 ? static_cast<std::uint32_t>(value) : 0xFFFF'FFFFu;
     }
     const std::int64_t value = integer(type);
-    return value < 0 ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(value);
+    const bool fits = value >= 0 && value < 0xFFFF'FFFF;
+    return fits ? static_cast<std::uint32_t>(value) : 0xFFFF'FFFFu;
   }
   void skip(PlyType type, std::uint64_t count) { bytes_.skip(count * byte_size(type)); }
 
@@ -81,6 +89,9 @@ class BinaryValues {
         return bytes_.read<std::uint16_t>(swap);
       case PlyType::kInt32:
         return bytes_.read<std::int32_t>(swap);
+      case PlyType::kInt64:
+      case PlyType::kUint64:  // larger values become negative
+        return bytes_.read<std::int64_t>(swap);
       default:
         return bytes_.read<std::uint32_t>(swap);
     }
@@ -89,9 +100,35 @@ class BinaryValues {
   ByteReader bytes_;
 };
 
-enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kNowhere };
+enum Slot { kX, kY, kZ, kRed, kGreen, kBlue, kU, kV, kPacked, kNowhere };
 
 using SlotValues = std::array<double, kNowhere + 1>;
+
+bool is_real(PlyType type) {
+  return type == PlyType::kFloat32 || type == PlyType::kFloat64;
+}
+
+// Whether the property has a colour in one number, as the Point Cloud Library writes it: opacity,
+// red, green and blue from the highest byte to the lowest. A float has the bits of that number.
+bool is_packed_colour(const PlyProperty& property) {
+  const bool fits = property.type == PlyType::kInt32 || property.type == PlyType::kUint32 ||
+                    property.type == PlyType::kFloat32;
+  return fits && !property.is_list && (property.name == "rgba" || property.name == "rgb");
+}
+
+Colour unpacked(std::uint32_t bits) {
+  return {static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 8),
+          static_cast<std::uint8_t>(bits)};
+}
+
+// Returns the bits of a packed colour that was read as a number.
+std::uint32_t packed_bits(double value, bool is_float) {
+  if (std::abs(value) > std::numeric_limits<float>::max()) return 0;
+  if (is_float) return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  return std::abs(value) < 4294967296.0
+             ? static_cast<std::uint32_t>(static_cast<std::int64_t>(value))
+             : 0;
+}
 
 Slot slot_of(const PlyProperty& property) {
   if (property.is_list) return kNowhere;
@@ -102,6 +139,7 @@ Slot slot_of(const PlyProperty& property) {
   if (name == "red" || name == "r" || name == "diffuse_red") return kRed;
   if (name == "green" || name == "g" || name == "diffuse_green") return kGreen;
   if (name == "blue" || name == "b" || name == "diffuse_blue") return kBlue;
+  if (is_packed_colour(property)) return kPacked;
   if (is_vertex_u(property)) return kU;
   if (is_vertex_v(property)) return kV;
   return kNowhere;
@@ -123,14 +161,21 @@ double scale_of(PlyType type) {
 // Maps the properties of a vertex to the values that the reader uses.
 struct VertexPlan {
   std::vector<Slot> slots;
-  unsigned found = 0;  // set of the slots that occur: bit n stands for slot n
+  std::vector<PlyType> types;  // as which the values are read
+  unsigned found = 0;          // set of the slots that occur: bit n stands for slot n
   double colour_scale = 1;
   bool has_normal = false;
+  bool has_real_colour = false;  // whose values may be up to 1 or up to 255
+  bool has_float_bits = false;   // whether packed colours are read as floats
 
-  explicit VertexPlan(const PlyElement& element) {
+  VertexPlan(const PlyElement& element, bool is_text) {
     for (const PlyProperty& property : element.properties) {
       const Slot slot = slot_of(property);
+      const bool has_bits = slot == kPacked && property.type == PlyType::kFloat32;
       slots.push_back(slot);
+      types.push_back(has_bits ? PlyType::kUint32 : property.type);
+      has_float_bits = has_float_bits || (has_bits && is_text);
+      has_real_colour = has_real_colour || (slot == kRed && is_real(property.type));
       found |= 1u << slot;
       has_normal = has_normal || property.name == "nx";
       if (slot == kRed) colour_scale = scale_of(property.type);
@@ -138,6 +183,7 @@ struct VertexPlan {
   }
   bool has_position() const { return (found & 7) == 7; }
   bool has_colour() const { return (found >> kRed & 7) == 7; }
+  bool has_packed_colour() const { return !has_colour() && (found >> kPacked & 1) == 1; }
   bool has_place() const { return (found >> kU & 3) == 3; }
 };
 
@@ -159,6 +205,7 @@ class BodyReader {
       if (!ok) return tl::unexpected(ok.error());
     }
     finish_texture();
+    face_colours_.give_to(mesh_);
     textures_.give_to(mesh_);
     return std::move(mesh_);
   }
@@ -204,14 +251,14 @@ class BodyReader {
   }
 
   Expected<void> read_vertices(const PlyElement& element) {
-    const VertexPlan plan(element);
+    const VertexPlan plan(element, header_.format == PlyFormat::kAscii);
     if (!plan.has_position())
       return bad_input("the PLY vertices lack a property x, y or z; export them with positions");
     if (!mesh_.positions.empty())
       return bad_input("the PLY file has two vertex elements; export it again with one");
     mesh_.has_seams = plan.has_place() || plan.has_normal;
     mesh_.positions.reserve(element.count);
-    if (plan.has_colour()) mesh_.attributes.colours.reserve(element.count);
+    std::vector<StatedColour> stated;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       SlotValues row;
       for (std::size_t p = 0; p < plan.slots.size(); ++p) {
@@ -219,23 +266,40 @@ class BodyReader {
         if (property.is_list) {
           skip(property);
         } else {
-          row[plan.slots[p]] = values_.real(property.type);
+          row[plan.slots[p]] = values_.real(plan.types[p]);
         }
       }
       if (values_.has_failed()) return cut_short(element, i);
       mesh_.positions.push_back({row[kX], row[kY], row[kZ]});
-      if (plan.has_colour()) mesh_.attributes.colours.push_back(colour(row, plan.colour_scale));
+      add_colour(plan, row, stated);
       if (plan.has_place() && picture_ != nullptr) {
         add_sample(static_cast<std::uint32_t>(i), row[kU], row[kV]);
       }
       if (plan.has_place() && !textures_.empty())
         mesh_.vertex_coordinates[0].push_back(from_upwards(row[kU], row[kV]));
     }
+    if (!stated.empty()) mesh_.attributes.colours = to_colours(stated, mesh_.repairs);
     return {};
   }
 
-  static Colour colour(const SlotValues& row, double scale) {
-    return {to_byte(row[kRed] * scale), to_byte(row[kGreen] * scale), to_byte(row[kBlue] * scale)};
+  // Adds the colour of a vertex to the mesh, or to `stated` if its range is not known yet.
+  void add_colour(const VertexPlan& plan, const SlotValues& row,
+                  std::vector<StatedColour>& stated) {
+    std::vector<Colour>& colours = mesh_.attributes.colours;
+    const double scale = plan.colour_scale;
+    if (plan.has_packed_colour()) {
+      colours.push_back(unpacked(packed_bits(row[kPacked], plan.has_float_bits)));
+    } else if (plan.has_colour() && plan.has_real_colour) {
+      stated.push_back(stated_colour(row));
+    } else if (plan.has_colour()) {
+      colours.push_back(
+          {to_byte(row[kRed] * scale), to_byte(row[kGreen] * scale), to_byte(row[kBlue] * scale)});
+    }
+  }
+
+  static StatedColour stated_colour(const SlotValues& row) {
+    return {static_cast<float>(row[kRed]), static_cast<float>(row[kGreen]),
+            static_cast<float>(row[kBlue])};
   }
 
   // Reads the index lists of an element, from the property whose name starts with `list`.
@@ -255,6 +319,7 @@ class BodyReader {
       read_row(element, list);
       if (values_.has_failed()) return cut_short(element, i);
       if (!row_.has_corners) continue;
+      if (row_.colour_parts == 7) face_colours_.add(row_.corners, row_.colour);
       apply_places();
       (this->*add)(row_.corners);
     }
@@ -273,6 +338,11 @@ class BodyReader {
         row_.texnumber = values_.index(property.type);
       } else if (property.is_list && property.name.starts_with(list)) {
         row_.has_corners = read_list(property, row_.corners);
+      } else if (const Slot slot = slot_of(property); slot >= kRed && slot <= kBlue) {
+        const auto part = static_cast<std::size_t>(slot - kRed);
+        row_.colour[part] =
+            static_cast<float>(values_.real(property.type) * scale_of(property.type));
+        row_.colour_parts |= 1u << part;
       } else {
         skip(property);
       }
@@ -335,6 +405,9 @@ class BodyReader {
     const std::string place = values_.line() == 0
                                   ? "the PLY file"
                                   : "PLY line " + std::to_string(values_.line()) + ": the file";
+    if (values_.has_decimal_comma())
+      return bad_input("PLY line " + std::to_string(values_.line()) + ": " +
+                       std::string(kDecimalCommas));
     return bad_input(place + " ends or has no number in " + in_quotes(element.name) + ' ' +
                      std::to_string(i) + " of " + std::to_string(element.count) +
                      "; it is cut short or damaged, copy it again");
@@ -348,13 +421,19 @@ class BodyReader {
     std::vector<std::array<double, 2>> places;  // texture coordinates; one per corner, or empty
     std::uint32_t texnumber = 0;
     bool has_corners = false;
+    StatedColour colour{};
+    unsigned colour_parts = 0;  // set of the parts of `colour` that the row has
 
-    void clear() { corners.clear(), places.clear(), texnumber = 0, has_corners = false; }
+    void clear() {
+      corners.clear(), places.clear();
+      texnumber = 0, has_corners = false, colour_parts = 0;
+    }
   };
 
   NamedPictures pictures_;
   const Picture* picture_;  // whose colours the vertices take; null if there is none
   PlyTextures textures_;
+  FaceColours face_colours_;
   ColourMeans means_;                           // empty if there are no texture coordinates
   FaceRow row_;                                 // the row that is read
   std::vector<TextureCoordinates> at_corners_;  // of the face in row_; empty if not carried

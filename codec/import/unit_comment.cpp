@@ -51,15 +51,22 @@ std::string take_lower_word(std::string_view& line) {
   return word;
 }
 
+// Whether a line continues with another word, not with a mark or its end.
+bool goes_on(std::string_view line) {
+  const std::size_t next = line.find_first_not_of(" \t\r");
+  return next != line.npos && kBetweenWords.find(line[next]) == kBetweenWords.npos;
+}
+
 // Returns the unit in the text after the word "unit" or "units", such as "mm", "is mm", "are in
-// inches" or "= 1 mm".
+// inches" or "= 1 mm". The word "in" before another word, as in "in world space", is no unit.
 std::string_view unit_after(std::string_view line) {
   std::string word = take_lower_word(line);
   for (const std::string_view filler : {"is", "are", "1"}) {
     if (word == filler) word = take_lower_word(line);
   }
+  const bool is_preposition = word == "in" && goes_on(line);
   const std::string_view unit = unit_named(word), after = unit_named(take_lower_word(line));
-  return word == "in" && !after.empty() ? after : unit;
+  return is_preposition ? after : unit;
 }
 
 std::string_view unit_in_line(std::string_view line) {

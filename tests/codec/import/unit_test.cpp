@@ -30,6 +30,10 @@ TEST(Unit, IsUnknownWhereACommentSaysSomethingElse) {
   EXPECT_EQ(unit_of("# unit normals\n"), "");
   EXPECT_EQ(unit_of("# 1 unit = 0.1 mm\n"), "");
   EXPECT_EQ(unit_of("# in mm\n"), "");
+  EXPECT_EQ(unit_of("# units in world coordinate system\n"), "");
+  EXPECT_EQ(unit_of("# Units are in world space\n"), "");
+  EXPECT_EQ(unit_of("# unit: in local space\n"), "");
+  EXPECT_EQ(unit_of("# units: in, y up\n"), "in");
   EXPECT_EQ(read_text(std::string(kObj) + "# unit mm\n").unit, "");
 }
 
