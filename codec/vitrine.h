@@ -9,7 +9,7 @@
 //   write_mesh   takes a TriangleMesh; returns bytes of a PLY, GLB, OBJ, STL, DRC or VRML file
 //
 // verify_model proves that a `.pmesh` is intact and, if the original is given, that it is lossless.
-// compare_appearance tells how alike two meshes look: PSNR and SSIM of twelve pictures of each.
+// compare_appearance tells how alike two meshes look: PSNR and SSIM of pictures from twelve sides.
 // read_file and write_file_atomically serve programs that have no file functions of their own.
 //
 // Coordinates and errors are doubles in the model's unit (Manifest::unit). Functions that can fail

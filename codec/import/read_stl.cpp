@@ -77,8 +77,8 @@ bool are_plausible_facets(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-// Whether bytes that no count covers are facets: plausible, with normals of at most unit length,
-// and not only zeros.
+// Whether the bytes beyond the stated number of facets are facets, too: plausible, with normals of
+// at most unit length, and not only zeros.
 bool are_surplus_facets(std::span<const std::uint8_t> bytes) {
   constexpr float kMostNormal = 1.01F;
   ByteReader facets(bytes);
@@ -102,8 +102,9 @@ bool is_control(std::uint8_t byte) {
   return byte < ' ' && (byte < '\t' || byte > '\r');
 }
 
-// Text has no zero byte. If it is of another format, such as OFF, it has no control characters.
-// Facets nearly always have both. The numbers of a text may look like facets.
+// Whether the file is text. Text has no zero byte; text of another format, such as OFF, has no
+// control characters either. Binary facets nearly always have both. This check is needed because
+// the digits of a text may look like facets.
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kHeadBytes = 1024;
   const auto head = bytes.first(std::min(bytes.size(), kHeadBytes));

@@ -11,7 +11,8 @@ Expected<std::uint32_t> CarriedPictures::add(std::string name, std::span<const s
   if (const auto known = by_place_.find(place); known != by_place_.end()) return known->second;
   if (auto ok = check_picture_format(bytes); !ok) return tl::unexpected(ok.error());
   if (bytes.size() > most_bytes || bytes_ > most_bytes - bytes.size()) {
-    return fail(ErrorCode::kLimit, "exceeds the size of all pictures; make them smaller");
+    return fail(ErrorCode::kLimit,
+                "brings all pictures together over their size limit; make them smaller");
   }
   bytes_ += bytes.size();
   const auto index = static_cast<std::uint32_t>(pictures_.size());

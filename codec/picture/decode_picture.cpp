@@ -18,7 +18,7 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::uint64_t kMostPixelsPerByte = 1024;
-constexpr std::uint64_t kFlatWebpPixels = 1 << 24;  // that a WebP of any size in bytes may have
+constexpr std::uint64_t kFlatWebpPixels = 1 << 24;  // allowed in a WebP of any number of bytes
 
 // An image format that is not supported. It is recognised by the text `magic` at byte offset `at`;
 // `type` is its media type.

@@ -9,7 +9,7 @@ namespace vitrine::inline codec {
 namespace {
 
 constexpr std::uint32_t kMostLeaves = 32'768;
-constexpr std::uint32_t kSomeFork = 1;  // placeholder until the fork levels are known
+constexpr std::uint32_t kSomeFork = 1;  // replaced once the fork levels are known
 
 std::int32_t coordinate(const Vec3i& p, std::uint8_t axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;

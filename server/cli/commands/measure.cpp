@@ -183,9 +183,9 @@ constexpr Flag kMeasureFlags[] = {
     {"--up", "y|z", "axis of mesh files that points up (default y), as for vitrine build"},
     {"--align", "", "first align A to B by a rotation and a translation, without scaling"},
     {"--appearance", "",
-     "compare twelve pictures of each instead, around B: peak signal-to-noise ratio (psnr, dB; "
-     "null "
-     "if the pictures are equal) and structural similarity (ssim; 1 if equal)"},
+     "compare pictures of both models from twelve sides instead of distances: peak signal-to-noise "
+     "ratio (psnr, dB; null if the pictures are equal) and structural similarity (ssim; 1 if "
+     "equal)"},
     {"--json", "", "print the result as one JSON object"}};
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace vitrine::server::cli {
 
 struct Flag {
   std::string_view name;   // such as "--level"; "-o" is the one short flag
-  std::string_view value;  // placeholder of the value in --help; empty for a switch
+  std::string_view value;  // name of the value in --help; empty for a switch
   std::string_view help;
 };
 

@@ -199,7 +199,8 @@ TEST(GltfTexturing, PicturesTogetherAreNotLargerThanTheFile) {
   }
   const auto result = read_text(builder.file());
   EXPECT_THAT(result.texturing.pictures, SizeIs(1));
-  EXPECT_THAT(result.repairs, Contains(HasSubstr("exceeds the size of all pictures")));
+  EXPECT_THAT(result.repairs,
+              Contains(HasSubstr("brings all pictures together over their size limit")));
 }
 
 }  // namespace
